@@ -1,0 +1,58 @@
+# Commands for people who work on the extension; `make` alone lists them.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint zip bench clean venv development
+
+# BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
+BPY ?=
+PYTHON ?=
+VENV ?= .venv$(if $(BPY),-$(BPY))
+export BPY PYTHON
+
+# The checkout is what gets packed: no caches in it.
+PYTHON_HERE := PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python
+
+help: ## List these commands
+	@echo "make COMMAND [BPY=4.2|5.0|5.2] [PYTHON=path of a Python 3.11 or 3.13]"
+	@echo
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' Makefile
+
+demo: venv ## Decompose Blender's monkey; results in build/demo/
+	@mkdir -p build/demo
+	@echo "Making Suzanne, Blender's monkey, with two subdivisions: build/demo/suzanne.obj"
+	@$(PYTHON_HERE) .tools/make_suzanne.py build/demo/suzanne.obj >/dev/null
+	@echo "Decomposing her into weakly convex parts"
+	@$(PYTHON_HERE) . build/demo/suzanne.obj --output build/demo/suzanne.blend \
+	  --report build/demo/suzanne.json --picture build/demo/suzanne.png
+	@echo
+	@echo "build/demo/suzanne.blend   the model with its parts, for Blender"
+	@echo "build/demo/suzanne.png     a picture of the parts"
+	@echo "build/demo/suzanne.json    the numbers"
+
+test: development ## Run all tests, but those that need a window
+	@echo "Testing with $$($(VENV)/bin/python -V) and $$($(VENV)/bin/pip list 2>/dev/null | awk '/^(bpy|numpy|scipy) / {printf "%s %s  ", $$1, $$2}')"
+	@WCD_REQUIRE_BLENDER=1 $(PYTHON_HERE) -m pytest $(PYTEST)
+
+lint: development ## Check the format, the rules of the code and the types of core
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/mypy --strict core
+
+zip: venv ## Build the installable zips into build/
+	@$(PYTHON_HERE) .tools/extension.py build --output build
+
+bench: venv ## Measure quality: make bench PSB=directory of the Princeton benchmark
+	@[ -n "$(PSB)" ] || { echo "Name the benchmark's directory: make bench PSB=directory"; exit 1; }
+	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/rand_index.py "$(PSB)" $(BENCH)
+
+clean: ## Remove everything that these commands made
+	rm -rf build wheels .venv .venv-* .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+venv:
+	@.tools/make_venv "$(VENV)"
+
+development:
+	@.tools/make_venv "$(VENV)" development

@@ -1,0 +1,21 @@
+"""Split meshes into weakly convex parts by lines of sight.
+
+Nothing of the package is imported here at module level: enabling the add-on stays
+quick, and the core works without Blender.
+"""
+
+
+def register() -> None:
+    """Register the classes, the scene's settings and the command."""
+    from . import operators, ui
+
+    ui.register()
+    operators.register()
+
+
+def unregister() -> None:
+    """Undo `register`, last thing first."""
+    from . import operators, ui
+
+    operators.unregister()
+    ui.unregister()

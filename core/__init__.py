@@ -1,0 +1,1 @@
+"""The decomposition itself: NumPy, SciPy and scikit-learn, nothing of Blender."""

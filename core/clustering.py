@@ -1,0 +1,30 @@
+"""From the embedding to clusters: the only place that uses scikit-learn."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.cluster import KMeans
+from threadpoolctl import threadpool_limits
+
+_STARTS = 10
+_DECIMALS = 6
+
+
+def cluster(
+    embedding: NDArray[np.float64], n_clusters: int, seed: int
+) -> NDArray[np.int64]:
+    """Return the k-means cluster of each row of `embedding`, (N,) int.
+
+    Fewer than `n_clusters` where there are fewer distinct rows.
+    """
+    # Rows that differ by rounding alone would be clusters of noise.
+    embedding = embedding.round(_DECIMALS)
+    n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
+    model = KMeans(n_clusters=n_clusters, n_init=_STARTS, random_state=seed)
+    # One thread: sums do not depend on how many there are, and nothing spins.
+    with threadpool_limits(limits=1):
+        labels: NDArray[np.int64] = model.fit_predict(
+            embedding.round(_DECIMALS)
+        ).astype(np.int64)
+    return labels

@@ -1,0 +1,167 @@
+"""The paper's algorithm, one line per stage."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .parameters import Parameters
+from .part_count import search_part_count
+from .partition import Partitioner, count
+from .progress import Progress, Steps, within
+from .shapes import TriangleMesh
+from .surface import Surface
+from .visibility import MakeCaster, Visibility, look, see
+
+
+@dataclass(frozen=True, eq=False)
+class Decomposition:
+    """The parts of a shape.
+
+    Attributes
+    ----------
+    labels : (P,) int
+        Part of each polygon, 0-based; the largest part comes first.
+    areas : (K,) float
+        Area of each part, in the units of the mesh squared.
+    face_counts : (K,) int
+        Polygons of each part.
+    ranks : (K,) float
+        Convexity rank of each part (eq. 1).
+    psi_before : float
+        Convexity rank of the whole shape, which is psi of one part.
+    psi : float
+        Quality of the parts (eq. 5).
+    psi_by_k : dict of int to float
+        Psi for every number of parts that was tried, before seams were cut.
+    notes : tuple of str
+        Sentences to the user about what is worth knowing.
+    """
+
+    labels: NDArray[np.int64]
+    areas: NDArray[np.float64]
+    face_counts: NDArray[np.int64]
+    ranks: NDArray[np.float64]
+    psi_before: float
+    psi: float
+    psi_by_k: dict[int, float]
+    notes: tuple[str, ...]
+
+    @property
+    def n_parts(self) -> int:
+        """Number of parts K."""
+        return len(self.areas)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """The convexity rank of a shape (eq. 1).
+
+    Attributes
+    ----------
+    rank : float
+    standard_error : float
+        Of `rank`, from the samples it is estimated on.
+    n_samples : int
+    notes : tuple of str
+    """
+
+    rank: float
+    standard_error: float
+    n_samples: int
+    notes: tuple[str, ...]
+
+
+def decompose(
+    mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
+) -> Steps[Decomposition]:
+    """Split `mesh` into weakly convex parts.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In any units; nothing asks for a closed or connected surface.
+    parameters : Parameters
+    make_caster : callable
+        Returns a RayCaster for the mesh it is given, which is `mesh` with its
+        triangles oriented and its bounding box centered and scaled.
+
+    Returns
+    -------
+    Steps of Decomposition
+        Yields Progress; `run` gets the value.
+
+    Raises
+    ------
+    DecompositionError
+        If the surface has no area.
+    """
+    visibility = yield from within(see(mesh, parameters, make_caster), 0.0, 0.8)
+    return (yield from within(find_parts(visibility, parameters), 0.8, 1.0))
+
+
+def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decomposition]:
+    """Return the parts for `parameters` from a visibility computed before.
+
+    Everything but the samples, their lines of sight, the embedding and the seed may
+    differ from the parameters that `visibility` was computed with.
+    """
+    surface = visibility.transfer.surface
+    partitioner = Partitioner(visibility, parameters)
+    whole = partitioner.partition(1)
+    if parameters.parts:
+        yield Progress("Parts", 0.0)
+        parts = partitioner.partition(parameters.parts)
+        psi_by_k = {
+            k: partitioner.psi(p) for k, p in ((1, whole), (count(parts), parts))
+        }
+    else:
+        parts, psi_by_k = yield from within(
+            search_part_count(partitioner, parameters.min_parts, parameters.max_parts),
+            0.0,
+            0.7,
+        )
+    parts = yield from within(partitioner.seamed(parts), 0.7, 1.0)
+    parts = _by_size(parts, surface)
+    tally = partitioner.tally(parts)
+    return Decomposition(
+        labels=parts,
+        areas=surface.areas_of(parts) * visibility.unit_area,
+        face_counts=np.bincount(parts),
+        ranks=tally.ranks(),
+        psi_before=psi_by_k[1],
+        psi=tally.psi(parameters.alpha),
+        psi_by_k=psi_by_k,
+        notes=visibility.notes + _notes_on_count(count(parts), parameters.parts),
+    )
+
+
+def measure(
+    mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
+) -> Steps[Measurement]:
+    """Estimate the convexity rank of `mesh` (eq. 1).
+
+    Parameters and errors are those of `decompose`; only what concerns samples and
+    lines of sight matters.
+    """
+    sight = yield from look(mesh, parameters, make_caster)
+    rank, standard_error = sight.pairs.rank_of_all()
+    return Measurement(rank, standard_error, parameters.samples, sight.notes)
+
+
+def _by_size(parts: NDArray[np.int64], surface: Surface) -> NDArray[np.int64]:
+    """Return the parts renumbered, the largest first."""
+    order = np.argsort(-surface.areas_of(parts), kind="stable")
+    return np.argsort(order)[parts]
+
+
+def _notes_on_count(n_parts: int, wanted: int) -> tuple[str, ...]:
+    """Say why there are not as many parts as asked for, if so."""
+    if wanted in (0, n_parts):
+        return ()
+    return (
+        f"Found {n_parts} of the {wanted} parts asked for: the faces are too few or"
+        " the parts too small; subdivide the mesh or lower Smallest Part.",
+    )

@@ -1,0 +1,82 @@
+"""What is known of a parameter besides its value."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import Field, dataclass, field
+from typing import Any
+
+from .errors import DecompositionError
+
+# Blender keeps properties in single precision: a bound may come back this far off.
+_FLOAT32_SLACK = 1e-6
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One value of an enumerated parameter."""
+
+    identifier: str
+    label: str
+    help: str
+
+
+@dataclass(frozen=True)
+class Knob:
+    """What the interface, the command line and the checks need of a parameter.
+
+    Attributes
+    ----------
+    label, help : str
+        Title Case name, and a sentence without a final full stop.
+    low, high : float, optional
+        Inclusive bounds of a number.
+    choices : tuple of Choice
+        Values of an enumeration; empty for numbers.
+    subtype : str
+        'ANGLE' (radians), 'FACTOR' or 'NONE', in Blender's vocabulary.
+    advanced : bool
+        Whether it belongs with the settings few users touch.
+    """
+
+    label: str
+    help: str
+    low: float = -math.inf
+    high: float = math.inf
+    choices: tuple[Choice, ...] = ()
+    subtype: str = "NONE"
+    advanced: bool = True
+
+
+def parameter(default: Any, knob: Knob) -> Any:
+    """Return a dataclass field that carries its `Knob` as metadata."""
+    return field(default=default, metadata={"knob": knob})
+
+
+def knob_of(parameter_field: Field[Any]) -> Knob:
+    """Return the `Knob` of one of `dataclasses.fields(Parameters)`."""
+    knob: Knob = parameter_field.metadata["knob"]
+    return knob
+
+
+def check(parameter_field: Field[Any], value: Any) -> None:
+    """Raise if `value` is not one that the field's knob allows."""
+    knob = knob_of(parameter_field)
+    if knob.choices:
+        allowed = [choice.identifier for choice in knob.choices]
+        if value not in allowed:
+            raise DecompositionError(
+                f"{knob.label} cannot be {value!r}; choose one of {', '.join(allowed)}."
+            )
+        return
+    whole = isinstance(parameter_field.default, int)
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not number or not math.isfinite(value) or (whole and int(value) != value):
+        kind = "a whole number" if whole else "a number"
+        raise DecompositionError(f"{knob.label} must be {kind}, not {value!r}.")
+    slack = 0.0 if whole else _FLOAT32_SLACK * max(1.0, abs(value))
+    if not knob.low - slack <= value <= knob.high + slack:
+        raise DecompositionError(
+            f"{knob.label} is {value:g}; choose a value from {knob.low:g}"
+            f" to {knob.high:g}."
+        )

@@ -1,0 +1,98 @@
+"""Triangles that face the right way: consistent, and out of closed shells."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .shapes import TriangleMesh
+from .shells import Shells, find_shells
+
+
+def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
+    """Return `mesh` with its closed shells wound consistently and outwards.
+
+    A closed shell inside another one may be a cavity and keeps its sense relative to
+    it. Open shells keep theirs: nothing tells their inside.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+
+    Returns
+    -------
+    mesh : TriangleMesh
+        The same one where nothing was wrong.
+    notes : tuple of str
+        What was turned.
+    """
+    shells = find_shells(mesh)
+    flips = shells.against & shells.closed[shells.of_triangle]
+    for shell in _inverted(mesh, shells, flips):
+        flips[shells.of_triangle == shell] ^= True
+    if not flips.any():
+        return mesh, ()
+    triangles = np.where(flips[:, None], mesh.triangles[:, ::-1], mesh.triangles)
+    kind = "inside out" if flips.all() else "wound inconsistently"
+    return replace(mesh, triangles=triangles), (
+        f"The faces are {kind}; they were turned for this computation only"
+        " (Mesh > Normals > Recalculate Outside turns them for good).",
+    )
+
+
+def _inverted(mesh: TriangleMesh, shells: Shells, flips: NDArray[np.bool_]) -> set[int]:
+    """Return the outermost closed shells that face inwards, and what lies in them."""
+    corners = mesh.vertices[mesh.triangles]
+    volumes = np.einsum(
+        "td,td->t", corners[:, 0], np.cross(*corners[:, 1:].swapaxes(0, 1))
+    )
+    volumes = np.bincount(shells.of_triangle, np.where(flips, -volumes, volumes))
+    inward = np.flatnonzero(shells.closed & (volumes < 0))
+    if len(inward) == 0:
+        return set()
+    order = np.argsort(shells.of_triangle, kind="stable")
+    members = np.split(order, np.cumsum(np.bincount(shells.of_triangle))[:-1])
+    lows = np.array([corners[m].min(axis=(0, 1)) for m in members])
+    highs = np.array([corners[m].max(axis=(0, 1)) for m in members])
+
+    def encloses(outer: int, inner: int) -> bool:
+        boxed = (lows[outer] < lows[inner]).all() and (
+            highs[outer] > highs[inner]
+        ).all()
+        if outer == inner or not boxed:
+            return False
+        turned = np.where(flips[members[outer]], -1.0, 1.0)
+        point = corners[members[inner][0], 0]
+        return abs(_winding_number(point, corners[members[outer]], turned)) > 0.5
+
+    candidates = np.flatnonzero(shells.closed)
+    inverted: set[int] = set()
+    for shell in inward:
+        if not any(encloses(outer, shell) for outer in candidates):
+            # What lies within turns along, and stays a cavity or a core.
+            inverted.add(int(shell))
+            inverted |= {int(c) for c in candidates if encloses(shell, c)}
+    return inverted
+
+
+def _winding_number(
+    point: NDArray[np.float64],
+    corners: NDArray[np.float64],
+    signs: NDArray[np.float64],
+) -> float:
+    """Return how often triangles (T, 3, 3) wind around a point.
+
+    A sum of solid angles, by the formula of Van Oosterom and Strackee (1983).
+    """
+    a, b, c = np.moveaxis(corners - point, 1, 0)
+    la, lb, lc = (np.linalg.norm(edge, axis=1) for edge in (a, b, c))
+    above = np.einsum("td,td->t", a, np.cross(b, c))
+    below = (
+        la * lb * lc
+        + (a * b).sum(axis=1) * lc
+        + (b * c).sum(axis=1) * la
+        + (c * a).sum(axis=1) * lb
+    )
+    return float((signs * np.arctan2(above, below)).sum() / (2 * np.pi))

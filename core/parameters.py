@@ -1,0 +1,190 @@
+"""Every knob of the decomposition: its default, bounds, label and help, once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+
+from .errors import DecompositionError
+from .knobs import Choice, Knob, check, parameter
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """The settings of a decomposition; see each field's help.
+
+    Raises
+    ------
+    DecompositionError
+        If a value is out of its bounds or not one of its choices.
+    """
+
+    parts: int = parameter(
+        0,
+        Knob(
+            "Parts",
+            "Number of parts k; 0 searches for the k of largest psi",
+            low=0,
+            high=256,
+            advanced=False,
+        ),
+    )
+    rays: int = parameter(
+        30,
+        Knob(
+            "Rays",
+            "Rays r that each sample casts into the shape; used by cone sight,"
+            " while all pairs casts at every other sample",
+            low=1,
+            high=1000,
+            advanced=False,
+        ),
+    )
+    alpha: float = parameter(
+        1.0,
+        Knob(
+            "Balance",
+            "Weight alpha of pairs hidden between parts against pairs visible within"
+            " parts: more splits the shape further",
+            low=0.0,
+            high=10.0,
+            advanced=False,
+        ),
+    )
+    sight: str = parameter(
+        "ALL_PAIRS",
+        Knob(
+            "Lines of Sight",
+            "Which lines of sight are looked up",
+            choices=(
+                Choice(
+                    "ALL_PAIRS",
+                    "All Pairs",
+                    "Between every two samples: the definition itself",
+                ),
+                Choice(
+                    "CONE",
+                    "Cone",
+                    "Rays in a cone around the inward normal, as in the paper:"
+                    " sparse, for many samples",
+                ),
+            ),
+            advanced=False,
+        ),
+    )
+    samples: int = parameter(
+        1500,
+        Knob(
+            "Samples",
+            "Points spread evenly over the surface, between which lines of sight run",
+            low=16,
+            high=10000,
+        ),
+    )
+    cone_angle: float = parameter(
+        math.radians(120.0),
+        Knob(
+            "Cone Angle",
+            "Full opening of the cone of rays; the paper uses 60 degrees",
+            low=math.radians(1.0),
+            high=math.pi,
+            subtype="ANGLE",
+        ),
+    )
+    psi_pairs: str = parameter(
+        "UNIFORM",
+        Knob(
+            "Psi From",
+            "Pairs of samples from which cone sight estimates psi; all pairs"
+            " counts every pair",
+            choices=(
+                Choice(
+                    "UNIFORM",
+                    "Uniform Pairs",
+                    "Pairs drawn at random: an estimate without bias",
+                ),
+                Choice(
+                    "RAYS",
+                    "Ray Hits",
+                    "Pairs that the cone's rays found, as in the paper: biased"
+                    " towards near and visible pairs",
+                ),
+            ),
+        ),
+    )
+    normalization: str = parameter(
+        "LAPLACIAN",
+        Knob(
+            "Normalization",
+            "How the matrix of lines of sight is normalized",
+            choices=(
+                Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
+                Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
+            ),
+        ),
+    )
+    regularization: float = parameter(
+        1.0,
+        Knob(
+            "Regularization",
+            "Share of a mean sample's lines of sight that every sample gets to all"
+            " others, so that nearly isolated samples do not become parts",
+            low=0.0,
+            high=10.0,
+        ),
+    )
+    eigenvectors: int = parameter(
+        12,
+        Knob(
+            "Eigenvectors",
+            "Coordinates of the embedding; 0 takes as many as parts",
+            low=0,
+            high=64,
+        ),
+    )
+    min_parts: int = parameter(
+        2,
+        Knob("Fewest Parts", "Where the search for k begins", low=2, high=256),
+    )
+    max_parts: int = parameter(
+        13,
+        Knob("Most Parts", "Where the search for k ends", low=2, high=256),
+    )
+    smoothness: float = parameter(
+        2.0,
+        Knob(
+            "Smoothness",
+            "Weight lambda of short seams in concave creases; 0 leaves seams ragged",
+            low=0.0,
+            high=100.0,
+        ),
+    )
+    smallest_part: float = parameter(
+        0.005,
+        Knob(
+            "Smallest Part",
+            "Share of the area below which a connected piece joins its neighbor",
+            low=0.0,
+            high=0.5,
+            subtype="FACTOR",
+        ),
+    )
+    seed: int = parameter(
+        0,
+        Knob("Seed", "Start of the random numbers", low=0, high=2**31 - 1),
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field, and what fields ask of each other."""
+        for parameter_field in fields(self):
+            check(parameter_field, getattr(self, parameter_field.name))
+        if self.min_parts > self.max_parts:
+            raise DecompositionError(
+                f"Fewest Parts is {self.min_parts}, above Most Parts,"
+                f" {self.max_parts}; lower it or raise Most Parts."
+            )
+        if self.parts > self.samples:
+            raise DecompositionError(
+                f"{self.samples} samples cannot make {self.parts} parts;"
+                " raise Samples or lower Parts."
+            )

@@ -1,0 +1,93 @@
+"""Exactly k parts of a surface, connected and with clean seams."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .clustering import cluster
+from .convexity import PairTally
+from .graph_cut import cut_seams, dislikes
+from .parameters import Parameters
+from .progress import Steps
+from .refinement import connected_parts, merge_to
+from .visibility import Visibility
+
+# How many more clusters are tried when k of them make fewer than k parts.
+_MORE_CLUSTERS = (0, 1, 2, 4, 8)
+# Seams that would swallow a part are cut again with these shares of lambda.
+_SOFTER = (1.0, 0.25, 0.0625)
+
+
+class Partitioner:
+    """Makes parts of a shape from its visibility, for one k after the other.
+
+    Parameters
+    ----------
+    visibility : Visibility
+    parameters : Parameters
+    """
+
+    def __init__(self, visibility: Visibility, parameters: Parameters) -> None:
+        self.visibility = visibility
+        self.parameters = parameters
+        self.transfer = visibility.transfer
+        self.surface = visibility.transfer.surface
+        self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
+
+    def tally(self, parts: NDArray[np.int64]) -> PairTally:
+        """Return the pairs of samples counted by the parts of the polygons."""
+        labels = self.transfer.to_samples(parts)
+        return self.visibility.pairs.tally(labels, count(parts))
+
+    def psi(self, parts: NDArray[np.int64]) -> float:
+        """Return psi (eq. 5) of parts of the polygons."""
+        return self.tally(parts).psi(self.parameters.alpha)
+
+    def partition(self, n_parts: int) -> NDArray[np.int64]:
+        """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
+        most = np.zeros(self.surface.n_polygons, dtype=np.int64)
+        n_coordinates = self.parameters.eigenvectors or n_parts
+        coordinates = self.visibility.embedding[:, :n_coordinates]
+        for more in _MORE_CLUSTERS:
+            n_clusters = n_parts + more
+            if count(most) >= n_parts or n_clusters > len(coordinates):
+                break
+            labels = cluster(coordinates, n_clusters, self.parameters.seed)
+            parts = self._tidied(self.transfer.to_polygons(labels, n_clusters), n_parts)
+            if count(parts) > count(most):
+                most = parts
+        return most
+
+    def seamed(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+        """Return the same number of parts with their seams cut anew (eq. 4)."""
+        n_parts = count(parts)
+        if n_parts == 1 or self.parameters.smoothness == 0:
+            return parts
+        labels = self.transfer.to_samples(parts)
+        costs = self.transfer.shares @ dislikes(
+            self.visibility.embedding, labels, n_parts
+        )
+        for share in _SOFTER:
+            cut = yield from cut_seams(
+                self.surface, parts, costs, share * self.parameters.smoothness
+            )
+            cut = self._tidied(cut, n_parts)
+            if count(cut) == n_parts:
+                return cut
+        return parts
+
+    def _tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+        """Return at most `n_parts` parts, connected where that many allow it."""
+        parts = connected_parts(self.surface, labels, self.smallest_area)
+        n_pieces = count(parts)
+        if n_pieces <= n_parts:
+            return parts
+        touching = self.surface.borders(parts, n_pieces).toarray() > 0
+        merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
+        return merged[parts]
+
+
+def count(parts: NDArray[np.int64]) -> int:
+    """Return the number of parts of labels 0…K − 1."""
+    return int(parts.max()) + 1

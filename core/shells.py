@@ -1,0 +1,84 @@
+"""Connected shells of triangles: which are closed, and which way they are wound."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+
+from .shapes import TriangleMesh
+
+
+@dataclass(frozen=True, eq=False)
+class Shells:
+    """The shells of a mesh, connected by edges of exactly two triangles.
+
+    Attributes
+    ----------
+    of_triangle : (T,) int
+        Shell of each triangle.
+    against : (T,) bool
+        Triangles to turn for a consistent winding; the smaller number of the two ways.
+    closed : (S,) bool
+        Shells that bound a volume: every edge has an even number of the shell's
+        triangles, and their windings can be made to agree.
+    """
+
+    of_triangle: NDArray[np.int64]
+    against: NDArray[np.bool_]
+    closed: NDArray[np.bool_]
+
+
+def find_shells(mesh: TriangleMesh) -> Shells:
+    """Return the shells of `mesh`."""
+    corners = mesh.welded_triangles
+    n_triangles = len(corners)
+    edges = corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    forward = edges[:, 0] < edges[:, 1]
+    keys = edges.min(axis=1) * (corners.max() + 1) + edges.max(axis=1)
+    _, edge_of, uses = np.unique(keys, return_inverse=True, return_counts=True)
+    edge_of = edge_of.reshape(-1)
+    order = np.argsort(edge_of, kind="stable")
+    paired = order[(uses == 2)[edge_of[order]]].reshape(-1, 2)
+    opposed = forward[paired[:, 0]] != forward[paired[:, 1]]
+    copies = _wound_copies(paired // 3, opposed, n_triangles)
+    _, shells = np.unique(copies.min(axis=0), return_inverse=True)
+    shells = shells.reshape(-1)
+    n_shells = int(shells.max()) + 1
+    side = copies[0] > copies[1]
+    minority = np.bincount(shells, side) * 2 > np.bincount(shells)
+    twisted = np.bincount(shells, copies[0] == copies[1], n_shells) > 0
+    # An edge of four triangles may be where a shell touches itself.
+    owners = np.repeat(shells, 3) * len(uses) + edge_of
+    uses_by_shell, counts = np.unique(owners, return_counts=True)
+    open_edges = uses_by_shell[counts % 2 == 1] // len(uses)
+    closed = ~twisted
+    closed[open_edges] = False
+    return Shells(shells, side ^ minority[shells], closed)
+
+
+def _wound_copies(
+    neighbors: NDArray[np.int64], opposed: NDArray[np.bool_], n_triangles: int
+) -> NDArray[np.int64]:
+    """Return the component of each triangle as it is, and of its turned copy, (2, T).
+
+    An edge ties the copies that agree with each other: a shell can be wound
+    consistently if its triangles and their turned copies part.
+    """
+    one, other = neighbors.T
+    turned = np.where(opposed, 0, n_triangles)
+    ties = sparse.coo_array(
+        (
+            np.ones(2 * len(one), dtype=bool),
+            (
+                np.concatenate([one, one + n_triangles]),
+                np.concatenate([other + turned, other + n_triangles - turned]),
+            ),
+        ),
+        shape=(2 * n_triangles, 2 * n_triangles),
+    )
+    _, components = connected_components(ties, directed=False)
+    return components.astype(np.int64).reshape(2, n_triangles)

@@ -1,0 +1,182 @@
+"""Lines of sight between samples, through the inside (sections 3 and 5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .progress import Progress, Steps
+from .sampling import Samples
+from .scene import PASS, Scene
+
+# Rays between two reports of progress, about 20 ms.
+RAYS_PER_STEP = 4096
+# Samples look from this far under the surface, in diagonals of the bounding box, or
+# from this share of the thickness where the shape is thinner.
+_OFFSET = 1e-3
+_OFFSET_OF_THICKNESS = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Viewpoints:
+    """Where samples look from, and how they stand to the shells around them.
+
+    Attributes
+    ----------
+    positions : (N, 3) float
+        Samples moved inwards along their normals.
+    depths : (N,) int
+        Number of closed shells around each viewpoint, its own among them.
+    enclosed : (N,) bool
+        Whether another closed shell is around the sample.
+    """
+
+    positions: NDArray[np.float64]
+    depths: NDArray[np.int64]
+    enclosed: NDArray[np.bool_]
+
+
+def viewpoints(scene: Scene, samples: Samples) -> Viewpoints:
+    """Move `samples` under the surface and count the shells around them."""
+    nudge = PASS * scene.diagonal
+    inwards = -samples.normals
+    _, thickness = scene.caster.first_hit(
+        samples.positions + nudge * inwards,
+        inwards,
+        np.full(len(samples), 2 * scene.diagonal),
+    )
+    offsets = np.minimum(_OFFSET * scene.diagonal, _OFFSET_OF_THICKNESS * thickness)
+    offsets = np.maximum(offsets, nudge)
+    outside = samples.positions + nudge * samples.normals
+    counts = [
+        scene.shells_around(outside, directions)
+        for directions in _outward_directions(samples.normals)
+    ]
+    # The median: a ray that slips through a hole must not decide.
+    around = np.maximum(np.median(counts, axis=0), 0).astype(np.int64)
+    return Viewpoints(
+        samples.positions + offsets[:, None] * inwards,
+        around + scene.closed[samples.triangles],
+        around > 0,
+    )
+
+
+def faces_inside(
+    samples: Samples,
+    views: Viewpoints,
+    first: NDArray[np.int64],
+    second: NDArray[np.int64],
+) -> NDArray[np.bool_]:
+    """Return whether segments leave `first` and reach `second` from the inside.
+
+    A necessary condition that costs no ray: each end lies below the tangent plane of
+    the other, unless another shell encloses that end.
+    """
+
+    def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
+        towards = views.positions[others] - samples.positions[ends]
+        heights = np.einsum("md,md->m", towards, samples.normals[ends])
+        under: NDArray[np.bool_] = (heights < 0) | views.enclosed[ends]
+        return under
+
+    return below(first, second) & below(second, first)
+
+
+def see_pairs(
+    scene: Scene,
+    samples: Samples,
+    views: Viewpoints,
+    first: NDArray[np.int64],
+    second: NDArray[np.int64],
+) -> Steps[NDArray[np.bool_]]:
+    """Return whether the samples of each pair are in line of sight.
+
+    Parameters
+    ----------
+    scene : Scene
+    samples : Samples
+    views : Viewpoints
+        Of `samples`.
+    first, second : (M,) int
+        The pairs, as rows of `samples`.
+
+    Returns
+    -------
+    visible : (M,) bool
+    """
+    visible = first == second
+    candidates = np.flatnonzero(~visible & faces_inside(samples, views, first, second))
+    for start in range(0, len(candidates), RAYS_PER_STEP):
+        yield Progress("Lines of sight", start / len(candidates))
+        chunk = candidates[start : start + RAYS_PER_STEP]
+        visible[chunk] = _sees(scene, views, first[chunk], second[chunk])
+    return visible
+
+
+def see_all_pairs(
+    scene: Scene, samples: Samples, views: Viewpoints
+) -> Steps[NDArray[np.bool_]]:
+    """Return the LoS matrix of all pairs of samples (eq. 3).
+
+    Parameters
+    ----------
+    scene : Scene
+    samples : Samples
+    views : Viewpoints
+        Of `samples`.
+
+    Returns
+    -------
+    los : (N, N) bool
+        Symmetric, with a true diagonal.
+    """
+    n_samples = len(samples)
+    first, second = np.triu_indices(n_samples, k=1)
+    visible = yield from see_pairs(scene, samples, views, first, second)
+    los = np.eye(n_samples, dtype=bool)
+    los[first[visible], second[visible]] = True
+    return los | los.T
+
+
+def _sees(
+    scene: Scene,
+    views: Viewpoints,
+    first: NDArray[np.int64],
+    second: NDArray[np.int64],
+) -> NDArray[np.bool_]:
+    """Return whether the inside holds the segment between each pair, (M,)."""
+    segments = views.positions[second] - views.positions[first]
+    lengths = np.linalg.norm(segments, axis=1)
+    lengths = np.maximum(lengths, np.finfo(float).tiny)
+    exits, _, _ = scene.march(
+        views.positions[first],
+        segments / lengths[:, None],
+        lengths,
+        views.depths[first],
+    )
+    return exits < 0
+
+
+def _outward_directions(
+    normals: NDArray[np.float64],
+) -> list[NDArray[np.float64]]:
+    """Return three directions around each normal, well apart, each (N, 3)."""
+    axes = frames(normals)
+    turns = 2 * np.pi * np.arange(3) / 3
+    return [
+        normals * np.sqrt(0.75)
+        + 0.5 * (axes[0] * np.cos(turn) + axes[1] * np.sin(turn))
+        for turn in turns
+    ]
+
+
+def frames(
+    normals: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return two unit vectors that complete each normal to a frame."""
+    helpers = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
+    tangents = np.cross(normals, helpers)
+    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    return tangents, np.cross(normals, tangents)

@@ -1,0 +1,160 @@
+"""The polygons of a mesh as a graph: what labels move along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+
+from .shapes import TriangleMesh
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Polygons, and the edges that neighbors share.
+
+    Attributes
+    ----------
+    areas : (P,) float
+    centers, normals : (P, 3) float
+        Means over each polygon's area; normals are unit vectors or 0.
+    neighbors : (E, 2) int
+        Polygons on both sides of an edge.
+    lengths : (E,) float
+        Length of the edge.
+    bends : (E,) float
+        Angle between the two normals in radians: positive where the surface is
+        concave (a crease seen from outside), negative where it is convex.
+    """
+
+    areas: NDArray[np.float64]
+    centers: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    neighbors: NDArray[np.int64]
+    lengths: NDArray[np.float64]
+    bends: NDArray[np.float64]
+
+    @property
+    def n_polygons(self) -> int:
+        """Number of polygons P."""
+        return len(self.areas)
+
+    def areas_of(self, labels: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Return the area under each label 0…K − 1, (K,)."""
+        return np.bincount(labels, self.areas).astype(np.float64)
+
+    def shells(self) -> NDArray[np.int64]:
+        """Return the number of the connected shell of each polygon, (P,)."""
+        return _components(self.neighbors, self.n_polygons)
+
+    def pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return connected pieces of polygons with one label, (P,) int."""
+        alike = labels[self.neighbors[:, 0]] == labels[self.neighbors[:, 1]]
+        return _components(self.neighbors[alike], self.n_polygons)
+
+    def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
+        """Return the length of the border between every two labels, (K, K)."""
+        one, other = labels[self.neighbors].T
+        crossing = one != other
+        one, other = one[crossing], other[crossing]
+        # A border of no length is a border all the same.
+        lengths = np.maximum(self.lengths[crossing], np.finfo(float).tiny)
+        borders = sparse.coo_array(
+            (
+                np.concatenate([lengths, lengths]),
+                (np.concatenate([one, other]), np.concatenate([other, one])),
+            ),
+            shape=(n_labels, n_labels),
+        )
+        return borders.tocsr()
+
+    def linked(self, links: NDArray[np.int64], length: float) -> Surface:
+        """Return the surface with further neighbors that share no edge.
+
+        Parameters
+        ----------
+        links : (L, 2) int
+            Polygons that touch.
+        length : float
+            What each link counts for, as if it were an edge.
+        """
+        bends = _bends(self.centers, self.normals, links)
+        return replace(
+            self,
+            neighbors=np.concatenate([self.neighbors, links]),
+            lengths=np.concatenate([self.lengths, np.full(len(links), length)]),
+            bends=np.concatenate([self.bends, bends]),
+        )
+
+
+def surface_of(mesh: TriangleMesh) -> Surface:
+    """Return the graph of the polygons of `mesh`.
+
+    Vertices at one place count as one, since many file formats split them.
+    """
+    n_polygons = mesh.n_polygons
+    areas = np.bincount(mesh.polygons, mesh.areas, n_polygons).astype(np.float64)
+    weighted = mesh.areas[:, None] * mesh.vertices[mesh.triangles].mean(axis=1)
+    centers = _sum_by(mesh.polygons, weighted, n_polygons)
+    safe = np.where(areas > 0, areas, 1.0)[:, None]
+    # A polygon without area still lies somewhere.
+    first = np.zeros(n_polygons, dtype=np.int64)
+    first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
+    centers = np.where(areas[:, None] > 0, centers / safe, mesh.vertices[first])
+    normals = _sum_by(mesh.polygons, mesh.areas[:, None] * mesh.normals, n_polygons)
+    norms = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.divide(normals, norms, out=np.zeros_like(normals), where=norms > 0)
+    neighbors, ends = _shared_edges(mesh)
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    bends = _bends(centers, normals, neighbors)
+    return Surface(areas, centers, normals, neighbors, lengths, bends)
+
+
+def _bends(
+    centers: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    neighbors: NDArray[np.int64],
+) -> NDArray[np.float64]:
+    """Return the angle between neighbors, positive where they form a crease."""
+    one, other = neighbors.T
+    angles = np.arccos(np.clip((normals[one] * normals[other]).sum(axis=1), -1.0, 1.0))
+    rises = ((centers[other] - centers[one]) * normals[one]).sum(axis=1)
+    return np.where(rises > 0, angles, -angles)
+
+
+def _shared_edges(
+    mesh: TriangleMesh,
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return neighbors (E, 2) by a common edge, and its two ends (E, 2, 3)."""
+    sides = [0, 1, 1, 2, 2, 0]
+    edges = np.sort(mesh.welded_triangles[:, sides].reshape(-1, 2), axis=1)
+    ends = mesh.vertices[mesh.triangles[:, sides]].reshape(-1, 2, 3)
+    owners = np.repeat(mesh.polygons, 3)
+    keys = edges[:, 0] * (edges.max() + 1) + edges[:, 1]
+    order = np.argsort(keys, kind="stable")
+    keys, owners, ends = keys[order], owners[order], ends[order]
+    shared = (keys[1:] == keys[:-1]) & (owners[1:] != owners[:-1])
+    neighbors = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
+    return neighbors, ends[:-1][shared]
+
+
+def _sum_by(
+    groups: NDArray[np.int64], rows: NDArray[np.float64], n_groups: int
+) -> NDArray[np.float64]:
+    """Return the sum of the rows of each group, (n_groups, 3)."""
+    return np.stack(
+        [np.bincount(groups, rows[:, axis], n_groups) for axis in range(3)], axis=1
+    )
+
+
+def _components(pairs: NDArray[np.int64], n_nodes: int) -> NDArray[np.int64]:
+    """Return the connected component of each node, (n_nodes,)."""
+    graph = sparse.coo_array(
+        (np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])),
+        shape=(n_nodes, n_nodes),
+    )
+    _, components = connected_components(graph, directed=False)
+    return components.astype(np.int64)

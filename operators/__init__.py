@@ -1,0 +1,24 @@
+"""What the user can do: the operators and the command line."""
+
+import bpy
+
+from . import command_line
+from .clear import WCD_OT_clear
+from .decompose import WCD_OT_decompose
+from .measure import WCD_OT_measure
+
+CLASSES = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_clear)
+
+
+def register() -> None:
+    """Register the operators and the command."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    command_line.register()
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    command_line.unregister()
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,1 @@
+"""The only code that turns Blender data into arrays and back."""

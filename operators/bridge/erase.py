@@ -1,0 +1,178 @@
+"""Takes back what `write` wrote, and nothing else."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from .layers import EditModeLayers, IntArray, ObjectModeLayers, layers_of
+from .materials import discard_unused, is_ours
+from .record import (
+    Restore,
+    check_records,
+    forget_parts,
+    forget_result,
+    read_restore,
+    write_restore,
+)
+
+PART_LAYER = "wcd_part"
+MATERIAL_LAYER = "wcd_material_index"
+
+
+def clear(obj: bpy.types.Object) -> None:
+    """Remove everything of ours from an object, its mesh and the file."""
+    check_records(obj)
+    discard_unused(erase_parts(obj))
+    forget_result(obj)
+
+
+def sharers(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
+    """Return the objects that a mesh belongs to."""
+    return [obj for obj in bpy.data.objects if obj.data == mesh]
+
+
+def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
+    """Bring back an object's mesh; return the materials taken out of its slots.
+
+    What the user did to the mesh meanwhile stays: faces given other materials keep
+    them, and so do renamed groups and materials.
+    """
+    mesh = obj.data
+    restore = read_restore(mesh)
+    if restore is None:
+        return []
+    _erase_groups(obj, restore)
+    layers = layers_of(obj)
+    indices = _indices_without_ours(mesh, restore, layers)
+    materials = _erase_slots(obj, restore)
+    layers.set_material_indices(indices)
+    layers.remove_faces(PART_LAYER)
+    layers.remove_faces(MATERIAL_LAYER)
+    layers.finish()
+    write_restore(mesh, None)
+    for sharer in sharers(mesh):
+        if sharer.is_editable:
+            forget_parts(sharer)
+    return materials
+
+
+def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
+    """Remove our vertex groups and make the user's group active again."""
+    groups = obj.vertex_groups
+    active = groups.active.name if groups.active else ""
+    for name in restore.groups:
+        if name in groups:
+            groups.remove(groups[name])
+    if active not in groups:
+        active = restore.active_group
+    if active in groups:
+        groups.active_index = groups[active].index
+
+
+def _indices_without_ours(
+    mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
+) -> IntArray | None:
+    """Return the material index of each face for when our slots are gone."""
+    now = layers.material_indices()
+    if now is None:
+        now = np.zeros(len(mesh.polygons), dtype=np.int32)
+    ours = _our_slots(mesh, restore)
+    before = layers.faces(MATERIAL_LAYER)
+    if before is None:
+        before = np.full_like(now, restore.material_index or 0)
+    indices = np.where(
+        np.isin(now, ours),
+        _moved(before, restore.slots, _names_without(mesh, ours)),
+        now - np.searchsorted(ours, now),
+    ).astype(np.int32)
+    if not restore.had_material_index and not indices.any():
+        return None
+    return indices
+
+
+def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
+    """Return the indices of the slots that hold what we put there."""
+    return [
+        index
+        for index, material in enumerate(mesh.materials)
+        if is_ours(material) and material.name not in restore.slots
+    ]
+
+
+def _names_without(mesh: bpy.types.Mesh, ours: list[int]) -> list[str]:
+    """Return the names of the materials in the user's slots, '' for none."""
+    return [
+        material.name if material else ""
+        for index, material in enumerate(mesh.materials)
+        if index not in ours
+    ]
+
+
+def _moved(indices: IntArray, slots: list[str], remaining: list[str]) -> IntArray:
+    """Return indices of the former slots as indices of those that will remain.
+
+    The user may have moved, removed or renamed materials since.
+    """
+    moved = indices.copy()
+    place = 0  # of the slot before: Blender leaves a removed slot's faces to it
+    for former, name in enumerate(slots):
+        there = remaining[former] if former < len(remaining) else None
+        renamed = name not in remaining and there is not None and there not in slots
+        if there == name or renamed:
+            place = former
+        elif name in remaining:
+            place = remaining.index(name)
+        moved[indices == former] = place
+    return moved
+
+
+def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Material]:
+    """Remove the slots that hold our materials; return the materials."""
+    mesh = obj.data
+    ours = _our_slots(mesh, restore)
+    if not ours:
+        return []
+    active = obj.active_material_index
+    # Popping a slot of the mesh leaves the objects' own materials where they were.
+    linked = [
+        (sharer, [_object_link(slot) for slot in sharer.material_slots])
+        for sharer in sharers(mesh)
+    ]
+    materials = [mesh.materials[i] for i in ours]
+    if len(ours) == len(mesh.materials):
+        mesh.materials.clear()  # popping the last one leaves objects an empty slot
+    else:
+        for index in reversed(ours):
+            mesh.materials.pop(index=index)
+    for sharer, links in linked:
+        kept = [link for i, link in enumerate(links) if i not in ours]
+        for slot, link in zip(sharer.material_slots, kept, strict=False):
+            _set_object_link(slot, link)
+    if mesh.materials:
+        active = (
+            restore.active_slot
+            if active in ours
+            else active - sum(i < active for i in ours)
+        )
+        obj.active_material_index = min(active, len(mesh.materials) - 1)
+    return materials
+
+
+def _object_link(
+    slot: bpy.types.MaterialSlot,
+) -> tuple[bool, bpy.types.Material | None]:
+    """Return whether a slot is the object's own, and its material then."""
+    own = slot.link == "OBJECT"
+    return own, slot.material if own else None
+
+
+def _set_object_link(
+    slot: bpy.types.MaterialSlot, link: tuple[bool, bpy.types.Material | None]
+) -> None:
+    """Give a slot what `_object_link` returned."""
+    own, material = link
+    if (slot.link == "OBJECT") != own:
+        slot.link = "OBJECT" if own else "DATA"
+    if own and slot.material != material:
+        slot.material = material

@@ -1,0 +1,70 @@
+"""Blender objects -> shapes."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import DecompositionError
+from ...core.shapes import TriangleMesh
+
+# Scales that differ by less are the same scale in Blender's single precision.
+_SAME_SCALE = 1e-5
+
+
+def read_shape(obj: bpy.types.Object) -> TriangleMesh:
+    """Return an object's own mesh, without modifiers, in triangles.
+
+    Coordinates are those of object space; if the scale of the object stretches the
+    mesh, they are stretched likewise, because samples are spread over the shape that
+    the user sees. Mirroring changes no line of sight and is left out, so that
+    triangles keep their winding.
+    """
+    mesh = obj.data
+    if mesh.is_editmode:
+        obj.update_from_editmode()
+    mesh.calc_loop_triangles()
+    vertices = np.empty(len(mesh.vertices) * 3, dtype=np.float32)
+    mesh.vertices.foreach_get("co", vertices)
+    triangles = np.empty(len(mesh.loop_triangles) * 3, dtype=np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    polygons = np.empty(len(mesh.loop_triangles), dtype=np.int32)
+    mesh.loop_triangle_polygons.foreach_get("value", polygons)
+    return TriangleMesh(
+        vertices.reshape(-1, 3).astype(np.float64) * _stretch(obj),
+        triangles.reshape(-1, 3).astype(np.int64),
+        polygons.astype(np.int64),
+    )
+
+
+def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
+    """Return what the user should know about what was read of an object."""
+    notes = []
+    modifiers = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
+    if modifiers:
+        notes.append(
+            "The mesh was read without its modifiers"
+            f" ({', '.join(modifiers)}); apply them first to include them."
+        )
+    if obj.data.shape_keys and any(k.value for k in obj.data.shape_keys.key_blocks):
+        notes.append("The mesh was read in its Basis shape, without shape keys.")
+    sharers = sum(other.data == obj.data for other in bpy.data.objects)
+    if sharers > 1:
+        notes.append(
+            f"{sharers} objects share this mesh: the parts show on all of them."
+        )
+    return tuple(notes)
+
+
+def _stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return the factor of each axis, 1 throughout if the scale is uniform."""
+    scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
+    if not np.isfinite(scale).all() or not scale.all():
+        raise DecompositionError(
+            "The object's scale is zero or not a number along an axis; give it a"
+            " scale in Sidebar > Item."
+        )
+    if scale.max() - scale.min() <= _SAME_SCALE * scale.max():
+        return np.ones(3)
+    return scale

@@ -1,0 +1,181 @@
+"""The command line's options; those of the method come from `Parameters`."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from dataclasses import Field, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import DecompositionError
+from ...core.knobs import Knob, knob_of
+from ...core.parameters import Parameters
+from ..bridge.record import version
+from .exporting import ENDINGS as WRITTEN
+from .importing import ENDINGS as READ
+from .targets import Targets, targets_for
+
+_DESCRIPTION = f"""\
+Split the mesh objects of each INPUT into weakly convex parts.
+INPUT ends in one of {" ".join(READ)}.
+Results go to the files that the options name; a summary goes to standard output,
+progress, warnings and errors to standard error."""
+
+_EPILOG = f"""\
+output formats:
+  .blend  everything: materials, vertex groups, face attribute wcd_part, record
+  .glb    one material a part; the record as extras of the node
+  .obj    one material and group a part, in an .mtl file beside it
+  .ply    colors and part numbers on the vertices; vertices on seams doubled
+OUTPUT ends in one of {" ".join(WRITTEN)}. With several inputs, OUTPUT and PICTURE
+contain {{name}}, which stands for the input's name without its ending.
+
+exit status: 0 all done; 1 some input failed and the rest is done; 2 wrong usage."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the user asks for, checked as far as is possible without reading."""
+
+    inputs: tuple[Path, ...]
+    targets: tuple[Targets, ...]
+    report: Path | None
+    up: str | None
+    quiet: bool
+    parameters: Parameters
+
+
+def parse(arguments: list[str], program: str) -> Request:
+    """Return the request that `arguments` state; exits like argparse."""
+    parser = _parser(program)
+    options = parser.parse_args(arguments)
+    values = {f.name: getattr(options, f.name) for f in fields(Parameters)}
+    try:
+        return Request(
+            inputs=tuple(options.inputs),
+            targets=targets_for(
+                options.inputs, options.output, options.picture, options.report
+            ),
+            report=options.report,
+            up=options.up,
+            quiet=options.quiet,
+            parameters=Parameters(**values),
+        )
+    except DecompositionError as error:
+        parser.error(str(error))
+
+
+def _parser(program: str) -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = argparse.ArgumentParser(
+        prog=program,
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("inputs", metavar="INPUT", nargs="+", type=Path)
+    parser.add_argument(
+        "--output", metavar="OUTPUT", help="write the model with its parts"
+    )
+    parser.add_argument(
+        "--report",
+        metavar="FILE.json",
+        type=Path,
+        help="write parameters, parts, their areas and convexity ranks as JSON",
+    )
+    parser.add_argument(
+        "--picture",
+        metavar="PICTURE.png",
+        help="write a picture of the parts, seen from the front and the back",
+    )
+    parser.add_argument(
+        "--up",
+        type=str.upper,
+        choices=("Y", "Z"),
+        help="axis that points up in .obj .off .ply .stl files, in and out"
+        " (default: Y in .obj and .off, Z in .ply and .stl; the output keeps the"
+        " axes of the input)",
+    )
+    parser.add_argument(
+        "--quiet", action="store_true", help="print nothing but errors and warnings"
+    )
+    parser.add_argument(
+        "--version",
+        action="version",
+        version=f"weak_convex_decomposition {version()}",
+        help="print the version",
+    )
+    method = parser.add_argument_group("parameters of the method")
+    for parameter_field in fields(Parameters):
+        _add(method, parameter_field)
+    return parser
+
+
+def _add(group: argparse._ArgumentGroup, parameter_field: Field[Any]) -> None:
+    """Add the option of one parameter."""
+    knob = knob_of(parameter_field)
+    default = parameter_field.default
+    if knob.choices:
+        convert: Callable[[str], Any] = _choice(knob)
+        metavar = "{" + ",".join(_word(c.identifier) for c in knob.choices) + "}"
+        shown = _word(default)
+    elif knob.subtype == "ANGLE":
+        convert, metavar = _angle(knob), "DEGREES"
+        shown = f"{math.degrees(default):g}"
+    else:
+        convert = type(default)
+        metavar = "N" if isinstance(default, int) else "X"
+        shown = f"{default:g}"
+    group.add_argument(
+        "--" + parameter_field.name.replace("_", "-"),
+        type=convert,
+        default=default,
+        metavar=metavar,
+        help=f"{_explained(knob)} (default: {shown})".replace("%", "%%"),
+    )
+
+
+def _explained(knob: Knob) -> str:
+    """Return the help of a knob and of its choices."""
+    choices = [
+        f"{_word(c.identifier)}: {c.help[0].lower()}{c.help[1:]}" for c in knob.choices
+    ]
+    return ". ".join([knob.help, "; ".join(choices)] if choices else [knob.help])
+
+
+def _word(identifier: str) -> str:
+    """Return how an identifier such as ALL_PAIRS is typed: all-pairs."""
+    return identifier.lower().replace("_", "-")
+
+
+def _choice(knob: Knob) -> Callable[[str], str]:
+    """Return a converter to one of a knob's identifiers, in any case."""
+    by_word = {_word(choice.identifier): choice.identifier for choice in knob.choices}
+
+    def convert(text: str) -> str:
+        if _word(text) not in by_word:
+            raise argparse.ArgumentTypeError(
+                f"{text!r} is not one of {', '.join(by_word)}"
+            )
+        return by_word[_word(text)]
+
+    return convert
+
+
+def _angle(knob: Knob) -> Callable[[str], float]:
+    """Return a converter from degrees to radians that names bounds in degrees."""
+    low, high = math.degrees(knob.low), math.degrees(knob.high)
+
+    def convert(text: str) -> float:
+        degrees = float(text)
+        if not low <= degrees <= high:
+            raise argparse.ArgumentTypeError(
+                f"{text} is not from {low:g} to {high:g} degrees"
+            )
+        return math.radians(degrees)
+
+    convert.__name__ = "angle"  # argparse: "invalid angle value"
+    return convert

@@ -1,0 +1,104 @@
+"""What the header of a .ply file promises."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+
+_TYPES = {
+    **dict.fromkeys(("char", "int8"), "b"),
+    **dict.fromkeys(("uchar", "uint8"), "B"),
+    **dict.fromkeys(("short", "int16"), "h"),
+    **dict.fromkeys(("ushort", "uint16"), "H"),
+    **dict.fromkeys(("int", "int32"), "i"),
+    **dict.fromkeys(("uint", "uint32"), "I"),
+    **dict.fromkeys(("float", "float32"), "f"),
+    **dict.fromkeys(("double", "float64"), "d"),
+}
+
+
+@dataclass(frozen=True)
+class Element:
+    """One kind of element, with the type codes (as in `struct`) of its properties.
+
+    A property has one code, a list two: of its length and of its members.
+    """
+
+    name: str
+    count: int
+    properties: dict[str, str]
+
+    @property
+    def has_lists(self) -> bool:
+        """Whether the size of an element varies."""
+        return any(len(codes) > 1 for codes in self.properties.values())
+
+
+@dataclass(frozen=True)
+class Header:
+    """The header of a .ply file.
+
+    Attributes
+    ----------
+    order : str
+        Byte order as in `struct`, empty for a file in text form.
+    elements : tuple of Element
+    size : int
+        Bytes of the header itself.
+    """
+
+    order: str
+    elements: tuple[Element, ...]
+    size: int
+
+    def end(self, data: bytes) -> int:
+        """Return where binary data ends, if need be beyond what there is."""
+        offset = self.size
+        for element in self.elements:
+            if element.has_lists:
+                offset = self._end_of_lists(element, data, offset)
+            else:
+                row = self.order + "".join(element.properties.values())
+                offset += element.count * struct.calcsize(row)
+        return offset
+
+    def _end_of_lists(self, element: Element, data: bytes, offset: int) -> int:
+        """Return where an element with lists ends that begins at `offset`."""
+        formats = [
+            (struct.Struct(self.order + codes[0]), struct.calcsize(codes[-1]))
+            for codes in element.properties.values()
+        ]
+        lists = [len(codes) > 1 for codes in element.properties.values()]
+        for _ in range(element.count):
+            for (first, member), is_list in zip(formats, lists, strict=True):
+                if offset + first.size > len(data):
+                    return len(data) + 1
+                length = first.unpack_from(data, offset)[0] if is_list else 0
+                offset += first.size + max(length, 0) * member
+        return offset
+
+
+def read_header(data: bytes) -> Header | None:
+    """Return the header of a .ply file, None if it is not as it should be."""
+    text, mark, body = data.partition(b"end_header")
+    newline = len(body) - len(body.removeprefix(b"\r").removeprefix(b"\n"))
+    orders = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+    order = None
+    elements: list[Element] = []
+    try:
+        for line in text.decode("latin-1").splitlines():
+            match line.split():
+                case ["format", kind, _]:
+                    order = orders[kind]
+                case ["element", name, count]:
+                    elements.append(Element(name, int(count), {}))
+                case ["property", "list", length, member, name]:
+                    codes = _TYPES[length] + _TYPES[member]
+                    elements[-1].properties[name] = codes
+                case ["property", kind, name]:
+                    elements[-1].properties[name] = _TYPES[kind]
+    except (KeyError, ValueError, IndexError):
+        return None
+    if not mark or order is None:
+        return None
+    return Header(order, tuple(elements), len(text) + len(mark) + newline)

@@ -1,0 +1,85 @@
+"""What the user of the command line sees."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TextIO
+
+from ...core.progress import Progress
+
+_TERMINAL_SECONDS = 0.1
+_LOG_SECONDS = 2.0
+
+
+class Screen:
+    """Results on one stream; progress, warnings and errors on another.
+
+    Parameters
+    ----------
+    out, err : text streams
+        If `err` is a terminal, progress keeps to one line there.
+    quiet : bool
+        Whether to leave out results and progress.
+    clock : callable, optional
+        Returns seconds; tests pass their own.
+    """
+
+    def __init__(
+        self,
+        out: TextIO,
+        err: TextIO,
+        quiet: bool,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._out = out
+        self._err = err
+        self._quiet = quiet
+        self._clock = clock
+        self._line = ""
+        self._stage = ""
+        self._next = 0.0
+
+    def result(self, text: str) -> None:
+        """Show a line of the summary."""
+        if not self._quiet:
+            self._wipe()
+            _write(self._out, f"{text}\n")
+
+    def warning(self, text: str) -> None:
+        """Show a finding that stopped nothing."""
+        self._wipe()
+        _write(self._err, f"warning: {text}\n")
+
+    def error(self, text: str) -> None:
+        """Show what failed."""
+        self._wipe()
+        _write(self._err, f"error: {text}\n")
+
+    def progress(self, title: str, progress: Progress) -> None:
+        """Show where a computation stands, now and then."""
+        if self._quiet or self._clock() < self._next:
+            return
+        line = f"{title}: {progress.stage}"
+        if self._err.isatty():
+            self._next = self._clock() + _TERMINAL_SECONDS
+            self._wipe()
+            self._line = f"{line} {progress.fraction:4.0%}"
+            _write(self._err, self._line)
+        elif line != self._stage:
+            self._next = self._clock() + _LOG_SECONDS
+            self._stage = line
+            _write(self._err, f"{line} ({progress.fraction:.0%})\n")
+
+    def _wipe(self) -> None:
+        """Remove the line of progress from a terminal."""
+        if self._line:
+            _write(self._err, "\r" + " " * len(self._line) + "\r")
+            self._line = ""
+
+
+def _write(stream: TextIO, text: str) -> None:
+    """Write text, spelling out what the stream's encoding lacks."""
+    encoding = stream.encoding or "utf-8"
+    stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+    stream.flush()

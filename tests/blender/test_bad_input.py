@@ -1,0 +1,116 @@
+"""Bad input: each its one sentence, and the object untouched."""
+
+import json
+
+import bpy
+import pytest
+from hand_made import activate, mesh_object
+from snapshot import snapshot
+
+FAST = {"samples": 300}
+
+
+def refused(operator, match, **options):
+    with pytest.raises(RuntimeError, match=match):
+        operator(**options)
+
+
+@pytest.mark.parametrize("name", ["decompose", "measure", "clear"])
+def test_no_active_object(name):
+    refused(getattr(bpy.ops.wcd, name), "There is no active object; select a mesh")
+
+
+@pytest.mark.parametrize("name", ["decompose", "measure", "clear"])
+def test_not_a_mesh(name):
+    bpy.ops.object.light_add()
+    refused(getattr(bpy.ops.wcd, name), "Point is not a mesh; select a mesh")
+
+
+def test_nothing_to_clear(suzanne):
+    refused(bpy.ops.wcd.clear, "Suzanne has no parts to clear")
+
+
+def test_another_mode(suzanne):
+    bpy.ops.object.mode_set(mode="SCULPT")
+    refused(bpy.ops.wcd.decompose, "Object or Edit Mode")
+
+
+TRIANGLE = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+BAD_MESHES = {
+    "no faces": ([(0, 0, 0)], [], "no faces"),
+    "not a number": ([(0, 0, float("nan")), *TRIANGLE[1:]], [(0, 1, 2)], "not finite"),
+    "infinite": ([(0, 0, float("inf")), *TRIANGLE[1:]], [(0, 1, 2)], "not finite"),
+    "a line": ([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)], "area|degenerate"),
+    "a point": ([(1, 1, 1)] * 3, [(0, 1, 2)], "area|degenerate"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_MESHES)
+@pytest.mark.parametrize("name", ["decompose", "measure"])
+def test_bad_meshes(case, name):
+    vertices, faces, match = BAD_MESHES[case]
+    obj = mesh_object("bad", vertices, faces)
+    before = repr(snapshot(obj))  # NaN is not equal to itself
+    refused(getattr(bpy.ops.wcd, name), match)
+    assert repr(snapshot(obj)) == before
+
+
+def test_parameters_that_contradict_each_other(suzanne):
+    before = snapshot(suzanne)
+    refused(bpy.ops.wcd.decompose, "Fewest Parts", min_parts=9, max_parts=3)
+    refused(bpy.ops.wcd.decompose, "samples cannot make", samples=16, parts=20)
+    assert snapshot(suzanne) == before
+
+
+def test_bounds_hold_values_in(suzanne):
+    bpy.ops.wcd.decompose(samples=1, parts=2, alpha=-3.0)
+    parameters = json.loads(suzanne["wcd"])["parameters"]
+    assert parameters["samples"] == 16
+    assert parameters["alpha"] == 0.0
+
+
+def test_an_attribute_of_the_users_is_refused_before_the_work(suzanne):
+    suzanne.data.attributes.new("wcd_part", "FLOAT", "POINT")
+    before = snapshot(suzanne)
+    refused(bpy.ops.wcd.decompose, "did not write; rename or remove it")
+    assert snapshot(suzanne) == before
+
+
+def test_a_shared_mesh_works(suzanne):
+    bpy.context.collection.objects.link(bpy.data.objects.new("twin", suzanne.data))
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    assert "parts" in json.loads(suzanne["wcd"])
+
+
+@pytest.fixture
+def library(suzanne, tmp_path):
+    path = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return str(path)
+
+
+def link(library, collection, name):
+    with bpy.data.libraries.load(library, link=True) as (_, target):
+        setattr(target, collection, [name])
+    return getattr(target, collection)[0]
+
+
+@pytest.mark.parametrize("name", ["decompose", "measure", "clear"])
+def test_linked_objects_are_read_only(library, name):
+    obj = link(library, "objects", "Suzanne")
+    bpy.context.collection.objects.link(obj)
+    activate(obj)
+    refused(getattr(bpy.ops.wcd, name), "linked from a library")
+    assert not obj.keys()
+
+
+def test_linked_meshes_are_read_only_but_can_be_measured(library):
+    mesh = link(library, "meshes", "Suzanne")
+    obj = bpy.data.objects.new("local", mesh)
+    bpy.context.collection.objects.link(obj)
+    activate(obj)
+    refused(bpy.ops.wcd.decompose, "linked from a library")
+    assert bpy.ops.wcd.measure(**FAST) == {"FINISHED"}
+    assert bpy.ops.wcd.clear() == {"FINISHED"}
+    assert not obj.keys()

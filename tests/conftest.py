@@ -1,0 +1,40 @@
+"""What every ring shares: the package, and what a missing Blender means."""
+
+import importlib.util
+import os
+
+import pytest
+from checkout import PACKAGE, ROOT  # noqa: F401  # tests take them from here
+
+HAS_BLENDER = importlib.util.find_spec("bpy") is not None
+REQUIRE_BLENDER = os.environ.get("WCD_REQUIRE_BLENDER") == "1"
+RINGS_WITH_BLENDER = ("blender", "package")
+
+# Their modules import bpy at the top, so without it they cannot even be collected.
+collect_ignore_glob = (
+    [] if HAS_BLENDER else [f"{ring}/*" for ring in RINGS_WITH_BLENDER]
+)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if REQUIRE_BLENDER and not HAS_BLENDER:
+        raise pytest.UsageError(
+            "WCD_REQUIRE_BLENDER is set, but there is no bpy to import."
+        )
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    if not HAS_BLENDER:
+        rings = " and ".join(f"tests/{ring}" for ring in RINGS_WITH_BLENDER)
+        terminalreporter.write_line(f"SKIPPED {rings}: bpy cannot be imported.")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item):
+    """Turn skips into failures where Blender is required."""
+    report = yield
+    in_ring = any(ring in item.path.parts for ring in RINGS_WITH_BLENDER)
+    if REQUIRE_BLENDER and in_ring and report.skipped:
+        report.outcome = "failed"
+        report.longrepr = f"skipped under WCD_REQUIRE_BLENDER: {report.longrepr}"
+    return report

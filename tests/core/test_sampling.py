@@ -1,0 +1,94 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.sampling import sample_surface
+
+
+def draw(mesh, n_samples=400, seed=0):
+    return sample_surface(mesh, n_samples, np.random.default_rng(seed))
+
+
+def uneven_box():
+    """Return a box whose left half has 64 times as many triangles."""
+    fine = shapes.refined(shapes.refined(shapes.refined(shapes.box((0, 0, 0)))))
+    return shapes.joined(fine, shapes.box((2, 0, 0), (3, 1, 1)))
+
+
+@pytest.mark.parametrize("make", [shapes.l_prism, shapes.uv_sphere, shapes.comb])
+def test_samples_lie_on_their_triangles(make):
+    mesh = make()
+    samples = draw(mesh)
+    assert len(samples) == 400
+    corners = mesh.vertices[mesh.triangles[samples.triangles]]
+    edges = corners[:, 1:] - corners[:, :1]
+    heights = ((samples.positions - corners[:, 0]) * samples.normals).sum(axis=1)
+    assert heights == pytest.approx(np.zeros(400), abs=1e-9)
+    for offset, (u, v) in zip(samples.positions - corners[:, 0], edges, strict=True):
+        weights = np.linalg.lstsq(np.stack([u, v], axis=1), offset, rcond=None)[0]
+        assert weights.min() > -1e-9
+        assert weights.sum() < 1 + 1e-9
+    assert (samples.normals == mesh.normals[samples.triangles]).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_equal_areas_get_equal_numbers(seed):
+    """A chi-squared test over the twelve sides of two boxes, one tessellated finely."""
+    mesh = uneven_box()
+    samples = draw(mesh, 1200, seed)
+    sides = mesh.polygons[samples.triangles]
+    counts = np.bincount(sides, minlength=12)
+    # 11 degrees of freedom: 31 is passed once in a thousand random draws.
+    assert ((counts - 100) ** 2 / 100).sum() < 31
+
+
+def test_samples_are_uniform_within_a_triangle():
+    mesh = shapes.mesh_of([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [(0, 1, 2)])
+    positions = draw(mesh, 1600).positions
+    assert positions.mean(axis=0) == pytest.approx([1 / 3, 1 / 3, 0], abs=0.02)
+    # Cutting off each corner at the middle leaves four triangles of equal area.
+    x, y, _ = positions.T
+    for corner in (x > 0.5, y > 0.5, x + y < 0.5):
+        assert corner.mean() == pytest.approx(0.25, abs=0.03)
+
+
+def test_the_tessellation_leaves_no_trace():
+    """Every eighth of two boxes gets its share, however each is tessellated."""
+    samples = draw(uneven_box(), 1600)
+    left = samples.positions[:, 0] < 1.5
+    assert left.mean() == pytest.approx(0.5, abs=0.01)
+    for half, corner in ((left, 0), (~left, 2)):
+        octants = (samples.positions[half] - [corner, 0, 0] > 0.5) @ [1, 2, 4]
+        counts = np.bincount(octants, minlength=8)
+        assert counts == pytest.approx(np.full(8, 100), abs=30)
+
+
+def test_samples_are_more_even_than_independent_draws():
+    counts = [
+        np.bincount(draw(shapes.box(), 600, seed).triangles // 2, minlength=6)
+        for seed in range(10)
+    ]
+    # Independent draws vary by 100 * 5 / 6.
+    assert np.var(counts) < 40
+
+
+def test_the_seed_decides():
+    mesh = shapes.l_prism()
+    one, same, other = draw(mesh, seed=1), draw(mesh, seed=1), draw(mesh, seed=2)
+    assert (one.positions == same.positions).all()
+    assert (one.triangles == same.triangles).all()
+    assert (one.positions != other.positions).any()
+
+
+def test_no_sample_falls_on_a_triangle_without_area():
+    box = shapes.box()
+    flat = np.repeat(box.triangles[:, :1], 3, axis=1)
+    mesh = replace(
+        box,
+        triangles=np.concatenate([flat, box.triangles, flat]),
+        polygons=np.tile(box.polygons, 3),
+    )
+    triangles = draw(mesh).triangles
+    assert triangles.min() >= 12
+    assert triangles.max() < 24

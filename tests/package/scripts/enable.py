@@ -1,0 +1,12 @@
+"""Enable and disable the installed extension, and say nothing of its own."""
+
+import bpy  # isort: skip  # makes addon_utils importable
+
+import addon_utils
+
+MODULE = "bl_ext.user_default.weak_convex_decomposition"
+
+assert bpy.app.background
+if addon_utils.enable(MODULE) is None:
+    raise SystemExit("the extension cannot be enabled")
+addon_utils.disable(MODULE)

@@ -1,0 +1,36 @@
+"""Install the zip argv[1], decompose Suzanne, and write what was seen to argv[2]."""
+
+import json
+import sys
+from pathlib import Path
+
+import bpy
+
+MODULE = "bl_ext.user_default.weak_convex_decomposition"
+
+zip_path, report_path = sys.argv[1:]
+loaded_before = {"numpy", "scipy", "sklearn"} & set(sys.modules)
+installed = bpy.ops.extensions.package_install_files(
+    filepath=zip_path, repo="user_default", enable_on_install=True
+)
+enabled = MODULE in bpy.context.preferences.addons
+loaded_by_enabling = ({"scipy", "sklearn"} & set(sys.modules)) - loaded_before
+
+bpy.ops.mesh.primitive_monkey_add()
+suzanne = bpy.context.active_object
+finished = bpy.ops.wcd.decompose()
+scipy, sklearn = sys.modules["scipy"], sys.modules["sklearn"]
+labels = [item.value for item in suzanne.data.attributes["wcd_part"].data]
+
+report = {
+    "installed": sorted(installed),
+    "enabled": enabled,
+    "loaded_by_enabling": sorted(loaded_by_enabling),
+    "finished": sorted(finished),
+    "scipy": [scipy.__file__, scipy.__version__],
+    "sklearn": [sklearn.__file__, sklearn.__version__],
+    "faces": len(suzanne.data.polygons),
+    "labels": labels,
+    "groups": [group.name for group in suzanne.vertex_groups],
+}
+Path(report_path).write_text(json.dumps(report), encoding="utf-8")

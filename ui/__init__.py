@@ -1,0 +1,27 @@
+"""What the user sees: the settings and the panels."""
+
+import bpy
+
+from .panels import WCD_PT_advanced, WCD_PT_main, WCD_PT_parts
+from .properties import WCD_PG_settings
+
+CLASSES = (
+    WCD_PG_settings,
+    WCD_PT_main,
+    WCD_PT_parts,
+    WCD_PT_advanced,
+)
+
+
+def register() -> None:
+    """Register the classes and the settings of scenes."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.wcd = bpy.props.PointerProperty(type=WCD_PG_settings)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    del bpy.types.Scene.wcd
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,123 @@
+"""The sidebar's tab: it draws, and decides nothing."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, ClassVar
+
+import bpy
+
+from .properties import ADVANCED, ALL, FRONT, MEASURE, draw
+
+
+def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
+    """Return what was noted on an object, empty if nothing or not ours."""
+    if obj is None:
+        return {}
+    try:
+        result = json.loads(obj.get("wcd", "{}"))
+    except (TypeError, ValueError):
+        return {}
+    return result if isinstance(result, dict) else {}
+
+
+class _Sidebar:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Convex Parts"
+
+
+class WCD_PT_main(_Sidebar, bpy.types.Panel):
+    """The settings that matter, and the buttons."""
+
+    bl_label = "Convex Parts"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        settings = context.scene.wcd
+        draw(layout, settings, FRONT)
+        column = layout.column()
+        column.scale_y = 1.4
+        button = column.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
+        _hand_over(settings, button, ALL)
+        row = layout.row(align=True)
+        _hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
+        row.operator("wcd.clear", text="Clear")
+
+
+class WCD_PT_parts(_Sidebar, bpy.types.Panel):
+    """The result on the active object."""
+
+    bl_label = "Result"
+    bl_parent_id = "WCD_PT_main"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether there is a result."""
+        return bool(result_of(context.active_object))
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        obj = context.active_object
+        result = result_of(obj)
+        if "measured" in result:
+            measured = result["measured"]
+            error = measured["standard_error"]
+            value = f"{measured['convexity_rank']:.3f}"
+            _line(layout, "Convexity", value + (f" ± {error:.3f}" if error else ""))
+        if "parts" not in result:
+            return
+        _line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
+        box = layout.box().column(align=True)
+        _columns(box.row(), None, "Part", "Faces", "Rank")
+        materials = {
+            material.name: material for material in obj.data.materials if material
+        }
+        for part in result["parts"]:
+            rank = f"{part['convexity_rank']:.2f}"
+            material = materials.get(part["material"])
+            _columns(box.row(), material, part["name"], f"{part['faces']:,}", rank)
+
+
+class WCD_PT_advanced(_Sidebar, bpy.types.Panel):
+    """The settings few users touch."""
+
+    bl_label = "Advanced"
+    bl_parent_id = "WCD_PT_main"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        draw(self.layout, context.scene.wcd, ADVANCED)
+
+
+def _columns(
+    row: bpy.types.UILayout, material: Any, name: str, faces: str, rank: str
+) -> None:
+    """Draw a row of the list of parts, or its heading."""
+    split = row.split(factor=0.14)
+    if material:
+        split.prop(material, "diffuse_color", text="")
+    else:
+        split.label(text="")
+    split = split.split(factor=0.46)
+    split.label(text=name)
+    numbers = split.row()
+    for text in (faces, rank):
+        cell = numbers.row()
+        cell.alignment = "RIGHT"
+        cell.label(text=text)
+
+
+def _line(layout: bpy.types.UILayout, name: str, value: str) -> None:
+    split = layout.split(factor=0.4)
+    split.label(text=name)
+    split.label(text=value)
+
+
+def _hand_over(settings: Any, button: Any, names: tuple[str, ...]) -> None:
+    """Give a button's operator the scene's settings."""
+    for name in names:
+        setattr(button, name, getattr(settings, name))

@@ -1,0 +1,92 @@
+"""Blender properties made from the fields of `Parameters`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import Field, fields
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..core.knobs import Knob, knob_of
+from ..core.parameters import Parameters
+
+ALL = tuple(field.name for field in fields(Parameters))
+FRONT = tuple(f.name for f in fields(Parameters) if not knob_of(f).advanced)
+ADVANCED = tuple(f.name for f in fields(Parameters) if knob_of(f).advanced)
+MEASURE = ("samples", "sight", "rays", "cone_angle", "seed")
+
+
+def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
+    """Return the annotations that give a Blender class these parameters."""
+    by_name = {field.name: field for field in fields(Parameters)}
+    return {name: _property(by_name[name]) for name in names}
+
+
+def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
+    """Return the `Parameters` that `owner`, of a class so annotated, holds."""
+    by_name = {field.name: field for field in fields(Parameters)}
+    return Parameters(**{name: _value(owner, by_name[name]) for name in names})
+
+
+def is_used(owner: Any, name: str) -> bool:
+    """Return whether the other settings leave a setting any effect."""
+    if name in {"rays", "psi_pairs", "cone_angle"}:
+        return owner.sight == "CONE"
+    if name in {"min_parts", "max_parts"}:
+        return owner.parts == 0
+    return True
+
+
+def draw(layout: Any, owner: Any, names: Iterable[str]) -> None:
+    """Draw settings one below another, those without effect greyed."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    for name in names:
+        row = layout.row()
+        row.active = is_used(owner, name)
+        row.prop(owner, name)
+
+
+def _property(field: Field[Any]) -> Any:
+    knob = knob_of(field)
+    described = {
+        "name": knob.label,
+        "description": knob.help,
+        "default": field.default,
+    }
+    if knob.choices:
+        items = [(c.identifier, c.label, c.help) for c in knob.choices]
+        return bpy.props.EnumProperty(items=items, **described)
+    whole = isinstance(field.default, int)
+    described |= _bounds(knob, int if whole else float)
+    if whole:
+        return bpy.props.IntProperty(**described)
+    step = 100 if knob.subtype == "ANGLE" else 10
+    return bpy.props.FloatProperty(
+        subtype=knob.subtype, precision=3, step=step, **described
+    )
+
+
+def _bounds(knob: Knob, number: type) -> dict[str, Any]:
+    bounds = {"min": knob.low, "max": knob.high}
+    return {name: number(v) for name, v in bounds.items() if math.isfinite(v)}
+
+
+def _value(owner: Any, field: Field[Any]) -> Any:
+    """Return a setting as it was meant before Blender rounded it to float32."""
+    value = getattr(owner, field.name)
+    if not isinstance(value, float):
+        return value
+    if value == float(np.float32(field.default)):
+        return field.default
+    return float(f"{value:.7g}")
+
+
+class WCD_PG_settings(bpy.types.PropertyGroup):
+    """The settings of a scene, handed to the operators by the sidebar."""
+
+
+WCD_PG_settings.__annotations__ = annotations()
