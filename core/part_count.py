@@ -8,13 +8,18 @@ from numpy.typing import NDArray
 from .partition import Partitioner, count
 from .progress import Progress, Steps
 
+# Psi of two sets of samples of one shape differs by about this much: a gain below it
+# is no reason for one more part.
+_PSI_TOLERANCE = 0.003
+
 
 def search_part_count(
     partitioner: Partitioner, low: int, high: int
 ) -> Steps[tuple[NDArray[np.int64], dict[int, float]]]:
     """Return the parts of largest psi, over every k from `low` to `high`.
 
-    One part stays when no more of them gains anything.
+    Of several k that are as good within the sampling error of psi, the smallest; one
+    part where no more of them gain anything.
 
     Returns
     -------
@@ -22,15 +27,14 @@ def search_part_count(
     psi_by_k : dict of int to float
         For one part, and for every k that the shape allows.
     """
-    best = partitioner.partition(1)
-    highest = partitioner.psi(best)
-    psi_by_k = {1: highest}
+    parts_by_k = {1: partitioner.partition(1)}
     for n_parts in range(low, high + 1):
         yield Progress("Number of parts", (n_parts - low) / (high + 1 - low))
         parts = partitioner.partition(n_parts)
         if count(parts) < n_parts:
             break
-        psi_by_k[n_parts] = partitioner.psi(parts)
-        if psi_by_k[n_parts] > highest:
-            best, highest = parts, psi_by_k[n_parts]
-    return best, psi_by_k
+        parts_by_k[n_parts] = parts
+    psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
+    enough = max(psi_by_k.values()) - _PSI_TOLERANCE
+    best = min(k for k, psi in psi_by_k.items() if psi >= enough)
+    return parts_by_k[best], psi_by_k

@@ -75,24 +75,24 @@ def u_shape():
 
 
 def plus():
-    """Return two bars that cross at (5, 5)."""
-    return blocks((10, 10, 2), ((0, 10), (4, 6), (0, 2)), ((4, 6), (0, 10), (0, 2)))
+    """Return two bars that cross at (4, 4)."""
+    return blocks((8, 8, 2), ((0, 8), (3, 5), (0, 2)), ((3, 5), (0, 8), (0, 2)))
 
 
 def dumbbell():
-    """Return cubes at x < 4 and x > 7 with a thin bar between them."""
+    """Return cubes at x < 3 and x > 6 with a thin bar between them."""
     return blocks(
-        (11, 4, 4),
-        ((0, 4), (0, 4), (0, 4)),
-        ((7, 11), (0, 4), (0, 4)),
-        ((4, 7), (1, 3), (1, 3)),
+        (9, 3, 3),
+        ((0, 3), (0, 3), (0, 3)),
+        ((6, 9), (0, 3), (0, 3)),
+        ((3, 6), (1, 2), (1, 2)),
     )
 
 
 def table():
-    """Return a top at z > 5 on four legs in the corners."""
-    legs = [((x, x + 1), (y, y + 1), (0, 5)) for x in (0, 6) for y in (0, 4)]
-    return blocks((7, 5, 6), ((0, 7), (0, 5), (5, 6)), *legs)
+    """Return a top at z > 3 on four legs in the corners."""
+    legs = [((x, x + 1), (y, y + 1), (0, 3)) for x in (0, 4) for y in (0, 3)]
+    return blocks((5, 4, 4), ((0, 5), (0, 4), (3, 4)), *legs)
 
 
 def comb():

@@ -9,7 +9,7 @@ from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.visibility import see
 
-N_SAMPLES = 200
+N_SAMPLES = 150
 
 
 @pytest.fixture(scope="session")

@@ -71,11 +71,11 @@ def test_two_solids_that_share_a_wall_are_alike_in_either_order():
 
 
 def test_surfaces_along_a_ray_are_those_it_leaves_through():
-    found = list(
-        scene_of(ROW).surfaces_along(np.array([INSIDE]), X, np.array([1]))
-    )
+    found = list(scene_of(ROW).surfaces_along(np.array([INSIDE]), X, np.array([1])))
     assert [rays.tolist() for rays, _, _ in found] == [[0], [0], [0]]
-    assert [points[0, 0] for _, points, _ in found] == pytest.approx([1, 3, 5], abs=1e-3)
+    assert [points[0, 0] for _, points, _ in found] == pytest.approx(
+        [1, 3, 5], abs=1e-3
+    )
     assert [int(triangles[0]) // 12 for _, _, triangles in found] == [0, 1, 2]
 
 

@@ -53,7 +53,9 @@ def test_arrays_are_read_only_copies():
 
 
 def test_areas_and_normals():
-    mesh = TriangleMesh([*CORNERS, [2, 0, 0]], [[0, 1, 2], [0, 2, 1], [0, 1, 3]], [0] * 3)
+    mesh = TriangleMesh(
+        [*CORNERS, [2, 0, 0]], [[0, 1, 2], [0, 2, 1], [0, 1, 3]], [0] * 3
+    )
     assert mesh.areas.tolist() == [0.5, 0.5, 0]
     assert mesh.normals.tolist() == [[0, 0, 1], [0, 0, -1], [0, 0, 0]]
     assert mesh.n_polygons == 1

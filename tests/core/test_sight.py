@@ -49,7 +49,9 @@ def crossings(start, end, corners):
             continue
         share = from_plane / (from_plane - to_plane)
         point = start + share * (end - start)
-        turns = [np.cross(v - u, point - u) @ normal for u, v in ((a, b), (b, c), (c, a))]
+        turns = [
+            np.cross(v - u, point - u) @ normal for u, v in ((a, b), (b, c), (c, a))
+        ]
         if min(turns) >= 0:
             shares.append(share)
     return sorted(shares)
@@ -84,11 +86,14 @@ def test_lines_of_sight_agree_with_a_naive_oracle(mesh):
     los = run(see_all_pairs(scene, samples, views))
     expected = oracle(mesh.normalized(), views.positions)
     towards = samples.positions[None] - samples.positions[:, None]
-    heights = np.abs((towards * samples.normals[:, None]).sum(axis=2))
-    flat = (heights > 1e-9) & (heights < 0.01)
+    heights = (towards * samples.normals[:, None]).sum(axis=2)
+    # Viewpoints under the surface look around an edge that their samples do not.
+    below = (heights < 1e-9) | (views.depths > 1)[:, None]
+    expected &= below & below.T
     # Just above a tangent plane it matters how deep the viewpoints lie.
+    flat = (heights > 1e-9) & (heights < 2e-3)
     clear = ~(flat | flat.T)
-    assert clear.mean() > 0.75
+    assert clear.mean() > 0.9
     assert (los == expected)[clear].all()
     assert (los == los.T).all()
     assert los.diagonal().all()

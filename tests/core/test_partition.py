@@ -1,0 +1,124 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.part_count import search_part_count
+from weak_convex_decomposition.core.partition import Partitioner, count
+from weak_convex_decomposition.core.progress import run
+
+
+def two_combs():
+    return shapes.joined(
+        shapes.l_shape(), shapes.moved(shapes.l_shape(), offset=(20, 0, 0))
+    )
+
+
+SHAPES = [shapes.l_shape, shapes.dumbbell, shapes.comb, two_combs]
+PARAMETERS = Parameters(samples=150)
+
+
+def by_name(make):
+    return make.__name__
+
+
+@pytest.mark.parametrize("n_parts", range(1, 9))
+@pytest.mark.parametrize("make", SHAPES, ids=by_name)
+def test_exactly_as_many_parts_as_asked_for(seen, make, n_parts):
+    partitioner = Partitioner(seen(make), PARAMETERS)
+    parts = partitioner.partition(n_parts)
+    assert set(parts) == set(range(n_parts))
+    seamed = run(partitioner.seamed(parts))
+    assert set(seamed) == set(range(n_parts))
+
+
+@pytest.mark.parametrize("make", SHAPES, ids=by_name)
+@pytest.mark.parametrize("n_parts", [2, 5])
+def test_parts_are_connected_and_not_too_small(seen, make, n_parts):
+    partitioner = Partitioner(seen(make), PARAMETERS)
+    parts = run(partitioner.seamed(partitioner.partition(n_parts)))
+    surface = partitioner.surface
+    assert surface.areas_of(parts).min() >= partitioner.smallest_area
+    assert count(surface.pieces(parts)) == n_parts
+
+
+def test_more_parts_than_polygons_are_as_many_as_can_be(seen):
+    partitioner = Partitioner(seen(shapes.l_prism), PARAMETERS)
+    parts = partitioner.partition(40)
+    assert 2 <= count(parts) <= 8
+    assert set(parts) == set(range(count(parts)))
+
+
+def test_the_same_partition_every_time(seen):
+    visibility = seen(shapes.comb)
+    first, second = (Partitioner(visibility, PARAMETERS).partition(5) for _ in range(2))
+    assert (first == second).all()
+
+
+def test_no_seams_are_cut_without_smoothness(seen):
+    partitioner = Partitioner(
+        seen(shapes.comb), replace(PARAMETERS, smoothness=0.0, smallest_part=0.0)
+    )
+    parts = partitioner.partition(5)
+    assert (run(partitioner.seamed(parts)) == parts).all()
+
+
+def test_heavy_seams_swallow_no_part(seen):
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=100.0))
+    parts = partitioner.partition(5)
+    assert count(run(partitioner.seamed(parts))) == 5
+
+
+def test_a_large_smallest_part_leaves_few(seen):
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smallest_part=0.3))
+    parts = partitioner.partition(8)
+    assert count(parts) <= 3
+    areas = partitioner.surface.areas_of(parts)
+    assert areas.min() >= 0.3 * areas.sum()
+
+
+def test_psi_is_that_of_the_labels_of_the_samples(seen):
+    visibility = seen(shapes.comb)
+    partitioner = Partitioner(visibility, replace(PARAMETERS, alpha=2.0))
+    parts = partitioner.partition(3)
+    labels = parts[visibility.transfer.polygon_of]
+    same = labels[:, None] == labels
+    los = visibility.pairs.visible > 0
+    expected = (los[same].sum() + 2.0 * (~los[~same]).sum()) / los.size
+    assert partitioner.psi(parts) == pytest.approx(expected)
+
+
+# The search for k.
+
+
+@pytest.mark.parametrize("make", SHAPES, ids=by_name)
+def test_the_search_returns_the_parts_of_largest_psi(seen, make):
+    partitioner = Partitioner(seen(make), PARAMETERS)
+    parts, psi_by_k = run(search_part_count(partitioner, 2, 6))
+    assert list(psi_by_k) == [1, 2, 3, 4, 5, 6]
+    assert psi_by_k[count(parts)] == max(psi_by_k.values())
+    assert partitioner.psi(parts) == pytest.approx(max(psi_by_k.values()))
+
+
+def test_the_search_keeps_to_its_range(seen):
+    partitioner = Partitioner(seen(shapes.comb), PARAMETERS)
+    parts, psi_by_k = run(search_part_count(partitioner, 2, 3))
+    assert set(psi_by_k) == {1, 2, 3}
+    parts, psi_by_k = run(search_part_count(partitioner, 7, 7))
+    assert set(psi_by_k) == {1, 7}
+    assert count(parts) in (1, 7)
+
+
+def test_the_search_ends_where_the_shape_has_no_more_parts(seen):
+    partitioner = Partitioner(seen(shapes.l_prism), PARAMETERS)
+    parts, psi_by_k = run(search_part_count(partitioner, 2, 256))
+    assert max(psi_by_k) <= 8
+    assert count(parts) in psi_by_k
+
+
+def test_one_part_stays_when_no_more_gain_anything(seen):
+    partitioner = Partitioner(seen(shapes.box), PARAMETERS)
+    parts, psi_by_k = run(search_part_count(partitioner, 2, 5))
+    assert count(parts) == 1
+    assert psi_by_k[1] == 1.0
