@@ -183,15 +183,15 @@ def _minimum_cut(
     tails = np.concatenate([tails, np.full(costly.sum(), source), nodes[~costly]])
     heads = np.concatenate([heads, nodes[costly], np.full((~costly).sum(), sink)])
     capacities = np.concatenate([capacities, gain[costly], -gain[~costly]])
-    largest = capacities.max()
-    if largest <= 0:
-        return np.zeros(n_nodes, dtype=bool)
-    whole = np.round(capacities / largest * _LARGEST_CAPACITY).astype(np.int32)
     graph = sparse.csr_array(
-        (whole, (tails.astype(np.int32), heads.astype(np.int32))),
+        (capacities, (tails.astype(np.int32), heads.astype(np.int32))),
         shape=(n_nodes + 2, n_nodes + 2),
     )
     graph.sum_duplicates()
+    largest = graph.data.max(initial=0.0)
+    if largest <= 0:
+        return np.zeros(n_nodes, dtype=bool)
+    graph.data = np.round(graph.data / largest * _LARGEST_CAPACITY).astype(np.int32)
     flow = maximum_flow(graph, source, sink, method="dinic").flow
     residual = sparse.csr_array(graph - flow)
     residual.data = np.maximum(residual.data, 0)

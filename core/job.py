@@ -29,14 +29,25 @@ class Job(Generic[T]):
         self._clock = clock
         self.progress = Progress("Starting", 0.0)
         self.done = False
+        self._ended = False
         self._value: T | None = None
 
     def advance(self, budget: float) -> bool:
-        """Work for about `budget` seconds; return whether the job is done."""
+        """Work for about `budget` seconds; return whether the job is done.
+
+        Raises
+        ------
+        RuntimeError
+            If the job was cancelled, or has failed before.
+        """
         deadline = self._clock() + budget
         while not self.done:
+            if self._ended:
+                raise RuntimeError("the job was cancelled or has failed")
+            self._ended = True
             try:
                 self.progress = next(self._steps)
+                self._ended = False
             except StopIteration as stop:
                 self._value = stop.value
                 self.done = True
@@ -52,4 +63,5 @@ class Job(Generic[T]):
 
     def cancel(self) -> None:
         """Stop the computation; its `finally` clauses run."""
+        self._ended = True
         self._steps.close()

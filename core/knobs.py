@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import Field, dataclass, field
+from numbers import Integral, Real
 from typing import Any
 
 from .errors import DecompositionError
@@ -70,8 +71,8 @@ def check(parameter_field: Field[Any], value: Any) -> None:
             )
         return
     whole = isinstance(parameter_field.default, int)
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    if not number or not math.isfinite(value) or (whole and int(value) != value):
+    number = isinstance(value, Integral if whole else Real)
+    if not number or isinstance(value, bool) or not math.isfinite(value):
         kind = "a whole number" if whole else "a number"
         raise DecompositionError(f"{knob.label} must be {kind}, not {value!r}.")
     slack = 0.0 if whole else _FLOAT32_SLACK * max(1.0, abs(value))

@@ -177,7 +177,11 @@ class Parameters:
     def __post_init__(self) -> None:
         """Check every field, and what fields ask of each other."""
         for parameter_field in fields(self):
-            check(parameter_field, getattr(self, parameter_field.name))
+            value = getattr(self, parameter_field.name)
+            check(parameter_field, value)
+            # Plain Python numbers, whatever kind a script passed.
+            plain = type(Parameters.__dict__[parameter_field.name])(value)
+            object.__setattr__(self, parameter_field.name, plain)
         if self.min_parts > self.max_parts:
             raise DecompositionError(
                 f"Fewest Parts is {self.min_parts}, above Most Parts,"

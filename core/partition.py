@@ -13,6 +13,8 @@ from .progress import Steps
 from .refinement import connected_parts, merge_to
 from .visibility import Visibility
 
+# Weight of positions, in diagonals, beside the embedding.
+_PLACE_WEIGHT = 1e-3
 # How many more clusters are tried when k of them make fewer than k parts.
 _MORE_CLUSTERS = (0, 1, 2, 4, 8)
 # Seams that would swallow a part are cut again with these shares of lambda.
@@ -48,7 +50,13 @@ class Partitioner:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
         most = np.zeros(self.surface.n_polygons, dtype=np.int64)
         n_coordinates = self.parameters.eigenvectors or n_parts
-        coordinates = self.visibility.embedding[:, :n_coordinates]
+        # Samples that see the same, as in a convex shape, are told apart by place.
+        coordinates = np.hstack(
+            [
+                self.visibility.embedding[:, :n_coordinates],
+                _PLACE_WEIGHT * self.visibility.samples.positions,
+            ]
+        )
         for more in _MORE_CLUSTERS:
             n_clusters = n_parts + more
             if count(most) >= n_parts or n_clusters > len(coordinates):

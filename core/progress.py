@@ -40,10 +40,13 @@ def run(steps: Steps[T]) -> T:
 
 def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
     """Run `steps` as the part from `low` to `high` of a longer computation."""
-    while True:
-        try:
-            progress = next(steps)
-        except StopIteration as stop:
-            value: T = stop.value
-            return value
-        yield Progress(progress.stage, low + (high - low) * progress.fraction)
+    try:
+        while True:
+            try:
+                progress = next(steps)
+            except StopIteration as stop:
+                value: T = stop.value
+                return value
+            yield Progress(progress.stage, low + (high - low) * progress.fraction)
+    finally:
+        steps.close()

@@ -11,6 +11,9 @@ from scipy.spatial import cKDTree
 from .convexity import PairTally
 from .surface import Surface
 
+# As many parts as can be asked for; smaller pieces join others.
+_MOST_PARTS = 256
+
 
 def connected_parts(
     surface: Surface, labels: NDArray[np.int64], smallest_area: float
@@ -32,9 +35,13 @@ def connected_parts(
     parts = surface.pieces(labels)
     while True:
         areas = surface.areas_of(parts)
-        if len(areas) == 1 or areas.min() >= smallest_area:
+        order = np.argsort(-areas, kind="stable")
+        small = areas < smallest_area
+        small[order[_MOST_PARTS:]] = True
+        small[order[0]] = False
+        if not small.any():
             return parts
-        joins = _joins_of_small(surface, parts, areas, smallest_area)
+        joins = _joins_of_small(surface, parts, np.argsort(order), small)
         graph = sparse.coo_array(
             (np.ones(len(joins)), (np.arange(len(joins)), joins)),
             shape=(len(joins), len(joins)),
@@ -45,36 +52,32 @@ def connected_parts(
 def _joins_of_small(
     surface: Surface,
     parts: NDArray[np.int64],
-    areas: NDArray[np.float64],
-    smallest_area: float,
+    places: NDArray[np.int64],
+    small: NDArray[np.bool_],
 ) -> NDArray[np.int64]:
-    """Return for each part the one it joins, itself when it is large enough."""
-    joins = np.arange(len(areas))
-    borders = surface.borders(parts, len(areas))
-    small = np.flatnonzero(areas < smallest_area)
-    isolated = []
-    for part in small:
+    """Return for each part the one it joins: itself unless `small`.
+
+    Only what comes earlier in the order of size, by `places`, takes a part in, so that
+    no two swap; a part without neighbors joins the nearest one that has to join none.
+    """
+    joins = np.arange(len(places))
+    borders = surface.borders(parts, len(places))
+    alone = small & (np.diff(borders.indptr) == 0)
+    for part in np.flatnonzero(small & ~alone):
         row = slice(borders.indptr[part], borders.indptr[part + 1])
         others, lengths = borders.indices[row], borders.data[row]
-        if len(others) == 0:
-            isolated.append(part)
-            continue
-        # Only what is larger takes it in, so that no two parts swap places.
-        grows = (areas[others] > areas[part]) | (
-            (areas[others] == areas[part]) & (others > part)
+        larger = places[others] < places[part]
+        if larger.any():
+            joins[part] = others[larger][lengths[larger].argmax()]
+    if alone.any():
+        mine, others = np.flatnonzero(alone[parts]), np.flatnonzero(~small[parts])
+        distances, nearest = cKDTree(surface.centers[others]).query(
+            surface.centers[mine]
         )
-        if grows.any():
-            joins[part] = others[grows][lengths[grows].argmax()]
-    for part in isolated:
-        joins[part] = _nearest_part(surface, parts, part)
+        # The last assignment of each part is that of its nearest polygon.
+        order = np.argsort(-distances, kind="stable")
+        joins[parts[mine[order]]] = parts[others[nearest[order]]]
     return joins
-
-
-def _nearest_part(surface: Surface, parts: NDArray[np.int64], part: int) -> int:
-    """Return the part that comes nearest to a part without neighbors."""
-    mine, others = np.flatnonzero(parts == part), np.flatnonzero(parts != part)
-    distances, nearest = cKDTree(surface.centers[others]).query(surface.centers[mine])
-    return int(parts[others[nearest[distances.argmin()]]])
 
 
 def merge_to(

@@ -8,6 +8,9 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from .convexity import Matrix
 
+_NOISE = 1e-7
+_SAME = 1e-3
+
 
 def embed(
     affinity: Matrix,
@@ -45,23 +48,33 @@ def embed(
     spread = regularization * degrees.mean() / n_samples
     scales = 1.0 / np.sqrt(degrees + spread * n_samples)
 
+    # Where samples are all alike, a Krylov space ends early and ARPACK goes on from
+    # random numbers of its own; this much noise keeps it going, the same every time.
+    rng = np.random.default_rng(0)
+    noise = _NOISE * rng.random(n_samples)
+
     def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-        scaled = scales * vector.ravel()
+        vector = vector.ravel()
+        scaled = scales * vector
         product = affinity @ scaled.astype(affinity.dtype)
-        return scales * (product + spread * scaled.sum())
+        # Shifted by 1, so that the tolerance of eigenvalues near 0 is not 0.
+        return scales * (product + spread * scaled.sum()) + (1 + noise) * vector
 
     n_vectors = min(n_coordinates, n_samples - 1)
     values, vectors = eigsh(
         LinearOperator((n_samples, n_samples), multiply, dtype=np.float64),
         k=n_vectors,
         which="LA",
-        v0=np.sqrt(degrees),
+        v0=rng.random(n_samples),
         tol=1e-6,
     )
     order = np.argsort(-values)
-    values, vectors = values[order], vectors[:, order]
+    values, vectors = values[order] - 1, vectors[:, order]
     if stochastic:
         vectors = vectors * scales[:, None] * np.sqrt(degrees.mean())
-    signs = np.sign(vectors[np.abs(vectors).argmax(axis=0), np.arange(n_vectors)])
+    sizes = np.abs(vectors)
+    # The first of the largest entries, which symmetric shapes have several of.
+    leading = (sizes >= (1 - _SAME) * sizes.max(axis=0)).argmax(axis=0)
+    signs = np.sign(vectors[leading, np.arange(n_vectors)])
     embedding: NDArray[np.float64] = vectors * (signs * values * np.sqrt(n_samples))
     return embedding

@@ -53,6 +53,7 @@ class Visibility:
 
     Attributes
     ----------
+    samples : Samples
     pairs : KnownPairs
         Which samples see each other.
     embedding : (N, n) float
@@ -65,6 +66,7 @@ class Visibility:
         Sentences to the user about the shape.
     """
 
+    samples: Samples
     pairs: KnownPairs
     embedding: NDArray[np.float64]
     transfer: Transfer
@@ -133,4 +135,6 @@ def see(
         parameters.regularization,
         parameters.normalization == "STOCHASTIC",
     )
-    return Visibility(sight.pairs, embedding, transfer, mesh.diagonal**2, sight.notes)
+    return Visibility(
+        sight.samples, sight.pairs, embedding, transfer, mesh.diagonal**2, sight.notes
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
@@ -70,8 +71,10 @@ class WCD_OT_decompose(bpy.types.Operator):
 
     def _commit(self, decomposition: Decomposition) -> None:
         """Write the result to the object and report it."""
+        notes = (*self._notes, *decomposition.notes)
+        decomposition = replace(decomposition, notes=notes)
         write_parts(self._target.find(), decomposition, self._parameters)
-        for note in (*self._notes, *decomposition.notes):
+        for note in notes:
             self.report({"WARNING"}, note)
         n_parts = decomposition.n_parts
         self.report(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
@@ -67,8 +67,10 @@ class WCD_OT_measure(bpy.types.Operator):
         """Note the result on the object and report it."""
         values = asdict(self._parameters)
         used = {name: values[name] for name in MEASURE}
+        notes = (*self._notes, *measurement.notes)
+        measurement = replace(measurement, notes=notes)
         write_measurement(self._target.find(), measurement, used)
-        for note in (*self._notes, *measurement.notes):
+        for note in notes:
             self.report({"WARNING"}, note)
         error = measurement.standard_error
         self.report(

@@ -1,6 +1,7 @@
 """Shapes for tests, made without Blender: all closed and facing out unless said."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from weak_convex_decomposition.core.shapes import TriangleMesh
@@ -10,7 +11,7 @@ def mesh_of(vertices, faces):
     """Return the mesh of polygons given as corner lists, fanned into triangles."""
     triangles, polygons = [], []
     for number, face in enumerate(faces):
-        for second, third in zip(face[1:-1], face[2:], strict=True):
+        for second, third in pairwise(face[1:]):
             triangles.append((face[0], second, third))
             polygons.append(number)
     return TriangleMesh(np.asarray(vertices, dtype=float), triangles, polygons)
@@ -31,11 +32,8 @@ def joined(*meshes):
     )
 
 
-# Voxels: the faces between full and empty cells of a grid, one quad each.
-
-
 def voxels(full, size=1.0):
-    """Return the surface of the full cells of a boolean grid (X, Y, Z)."""
+    """Return the surface of the full cells of a boolean grid (X, Y, Z), in quads."""
     full = np.pad(np.asarray(full, dtype=bool), 1)
     quads = []
     for axis in range(3):
@@ -137,18 +135,6 @@ def open_box(divisions=4):
     return without(box(divisions=divisions), lambda centers: centers[:, 2] > 1 - 1e-6)
 
 
-def mobius(n_steps=24):
-    """Return a strip with one twist, which nothing can wind consistently."""
-    angles = np.arange(n_steps) * 2 * np.pi / n_steps
-    vertices = []
-    for angle in angles:
-        around = np.array([np.cos(angle), np.sin(angle), 0])
-        across = np.cos(angle / 2) * around + np.sin(angle / 2) * np.eye(3)[2]
-        vertices += [around - across / 4, around + across / 4]
-    faces = [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(n_steps - 1)]
-    return mesh_of(vertices, [*faces, (2 * n_steps - 2, 1, 0, 2 * n_steps - 1)])
-
-
 # Spheres.
 
 
@@ -204,14 +190,6 @@ def hollow_sphere(inner=0.5, subdivisions=2):
 def inside_out(mesh):
     """Return the mesh with every triangle turned."""
     return replace(mesh, triangles=mesh.triangles[:, ::-1])
-
-
-def partly_turned(mesh, chosen):
-    """Return the mesh with the chosen triangles turned."""
-    chosen = np.asarray(chosen, dtype=bool)[:, None]
-    return replace(
-        mesh, triangles=np.where(chosen, mesh.triangles[:, ::-1], mesh.triangles)
-    )
 
 
 def split(mesh):

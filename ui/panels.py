@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from typing import Any, ClassVar
 
 import bpy
 
 from .properties import ADVANCED, ALL, FRONT, MEASURE, draw
+
+# Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
+_MARGINS = 80
+_LETTER = 6
 
 
 def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
@@ -19,6 +24,15 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
     except (TypeError, ValueError):
         return {}
     return result if isinstance(result, dict) else {}
+
+
+def notes_of(result: dict[str, Any]) -> list[str]:
+    """Return the sentences that came with a result, each once.
+
+    The status bar shows one report at a time, the last one.
+    """
+    notes = [*result.get("notes", ()), *result.get("measured", {}).get("notes", ())]
+    return list(dict.fromkeys(notes))
 
 
 class _Sidebar:
@@ -62,6 +76,8 @@ class WCD_PT_parts(_Sidebar, bpy.types.Panel):
         layout = self.layout
         obj = context.active_object
         result = result_of(obj)
+        for note in notes_of(result):
+            _paragraph(layout, note, context)
         if "measured" in result:
             measured = result["measured"]
             error = measured["standard_error"]
@@ -109,6 +125,18 @@ def _columns(
         cell = numbers.row()
         cell.alignment = "RIGHT"
         cell.label(text=text)
+
+
+def _paragraph(
+    layout: bpy.types.UILayout, text: str, context: bpy.types.Context
+) -> None:
+    """Draw a warning in as many lines as the width of the sidebar asks for."""
+    unit = context.preferences.system.ui_scale
+    width = int((context.region.width / unit - _MARGINS) / _LETTER)
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    for number, line in enumerate(textwrap.wrap(text, max(width, 10))):
+        column.label(text=line, icon="BLANK1" if number else "ERROR")
 
 
 def _line(layout: bpy.types.UILayout, name: str, value: str) -> None:

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 
 from .layers import EditModeLayers, IntArray, ObjectModeLayers, layers_of
-from .materials import discard_unused, is_ours
+from .materials import discard_unused, is_ours, our_materials
 from .record import (
     Restore,
     check_records,
@@ -23,7 +23,8 @@ MATERIAL_LAYER = "wcd_material_index"
 def clear(obj: bpy.types.Object) -> None:
     """Remove everything of ours from an object, its mesh and the file."""
     check_records(obj)
-    discard_unused(erase_parts(obj))
+    erase_parts(obj)
+    discard_unused(our_materials())  # those whose slots the user removed, too
     forget_result(obj)
 
 

@@ -31,6 +31,11 @@ def is_ours(material: bpy.types.Material | None) -> bool:
     return _NUMBERED.sub("", material.name) == part_name(material[_TAG])
 
 
+def our_materials() -> list[bpy.types.Material]:
+    """Return all materials of the file that are ours."""
+    return [material for material in bpy.data.materials if is_ours(material)]
+
+
 def part_materials(n_parts: int, taken: list[str]) -> list[bpy.types.Material]:
     """Return the materials of the first parts, making those that are missing.
 

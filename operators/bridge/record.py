@@ -115,6 +115,7 @@ def write_result(
             }
             for group, material, faces, area, rank in parts
         ],
+        "notes": list(decomposition.notes),
     }
     measured = _read(obj, _RESULT).get(_MEASURED)
     if measured:
@@ -132,6 +133,7 @@ def write_measurement(
         "standard_error": float(measurement.standard_error),
         "samples": int(measurement.n_samples),
         "parameters": parameters,
+        "notes": list(measurement.notes),
     }
     _write(obj, _RESULT, result)
 

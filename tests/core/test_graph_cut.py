@@ -19,7 +19,7 @@ def graph_of(neighbors, n_nodes, lengths=1.0, bends=0.0, areas=1.0):
     return Surface(
         areas=filled(areas, n_nodes),
         centers=flat,
-        normals=flat + [0, 0, 1],
+        normals=np.tile([0.0, 0.0, 1.0], (n_nodes, 1)),
         neighbors=neighbors,
         lengths=filled(lengths, len(neighbors)),
         bends=filled(bends, len(neighbors)),
@@ -103,7 +103,7 @@ def test_many_links_between_two_polygons_hold_them_together(number):
     """Shells that touch are linked by every near pair of samples."""
     chain = np.repeat([(0, 1), (1, 2), (2, 3)], [1, number, 1], axis=0)
     lengths = np.repeat([1e-3, 1.0, 1e-3], [1, number, 1])
-    costs = np.array([(50, 0), (0.04, 0), (0, 0.08), (0, 50)], dtype=float)
+    costs = np.array([(0.5, 0), (0.04, 0), (0, 0.08), (0, 0.5)])
     after = cut(graph_of(chain, 4, lengths), np.array([1, 0, 0, 0]), costs, 100.0)
     assert after.tolist() == [1, 0, 0, 0]
 

@@ -1,6 +1,5 @@
 from dataclasses import replace
 
-import numpy as np
 import pytest
 import shapes
 from weak_convex_decomposition.core.parameters import Parameters
@@ -9,13 +8,13 @@ from weak_convex_decomposition.core.partition import Partitioner, count
 from weak_convex_decomposition.core.progress import run
 
 
-def two_combs():
+def two_ls():
     return shapes.joined(
         shapes.l_shape(), shapes.moved(shapes.l_shape(), offset=(20, 0, 0))
     )
 
 
-SHAPES = [shapes.l_shape, shapes.dumbbell, shapes.comb, two_combs]
+SHAPES = [shapes.l_shape, shapes.dumbbell, shapes.comb, two_ls]
 PARAMETERS = Parameters(samples=150)
 
 
@@ -97,8 +96,10 @@ def test_the_search_returns_the_parts_of_largest_psi(seen, make):
     partitioner = Partitioner(seen(make), PARAMETERS)
     parts, psi_by_k = run(search_part_count(partitioner, 2, 6))
     assert list(psi_by_k) == [1, 2, 3, 4, 5, 6]
-    assert psi_by_k[count(parts)] == max(psi_by_k.values())
-    assert partitioner.psi(parts) == pytest.approx(max(psi_by_k.values()))
+    # Fewer parts may be preferred where psi hardly differs.
+    best = max(psi_by_k.values())
+    assert psi_by_k[count(parts)] == pytest.approx(best, abs=0.01)
+    assert partitioner.psi(parts) == pytest.approx(psi_by_k[count(parts)])
 
 
 def test_the_search_keeps_to_its_range(seen):

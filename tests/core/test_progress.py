@@ -30,11 +30,8 @@ def test_within_shrinks_fractions_and_keeps_stage_and_value():
     def outer():
         return (yield from within(within(counting(4), 0.0, 0.5), 0.5, 0.9))
 
-    steps, seen = outer(), []
-    with pytest.raises(StopIteration) as stop:
-        while True:
-            seen.append(next(steps))
-    assert stop.value.value == 4
+    assert run(outer()) == 4
+    seen = list(outer())
     assert [progress.stage for progress in seen] == ["Counting"] * 4
     expected = [0.5, 0.55, 0.6, 0.65]
     assert [progress.fraction for progress in seen] == pytest.approx(expected)

@@ -6,6 +6,7 @@ from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.sampling import sample_surface
 from weak_convex_decomposition.core.scene import Scene
 from weak_convex_decomposition.core.sight import (
+    faces_inside,
     see_all_pairs,
     see_pairs,
     viewpoints,
@@ -82,7 +83,7 @@ def oracle(mesh, positions):
     ids=["box", "L", "crossing", "hollow", "apart", "nested"],
 )
 def test_lines_of_sight_agree_with_a_naive_oracle(mesh):
-    scene, samples, views = look_at(mesh, 40)
+    scene, samples, views = look_at(mesh, 30)
     los = run(see_all_pairs(scene, samples, views))
     expected = oracle(mesh.normalized(), views.positions)
     towards = samples.positions[None] - samples.positions[:, None]
@@ -140,7 +141,7 @@ def test_a_cavity_blocks_the_view():
 
 def test_rays_out_of_a_hole_end_nowhere():
     mesh = shapes.open_box()
-    samples, los = see(mesh)
+    _, los = see(mesh)
     assert los.shape == (60, 60)
     assert los.mean() > 0.9
 
@@ -188,6 +189,14 @@ def test_pairs_of_one_sample_see_themselves_and_repeated_pairs_agree():
     visible = run(see_pairs(scene, samples, views, first, second))
     assert (visible == los[first, second]).all()
     assert run(see_pairs(scene, samples, views, first, first)).all()
+
+
+def test_ends_of_a_segment_are_alike():
+    _, samples, views = look_at(shapes.l_prism(), 200)
+    first, second = np.random.default_rng(0).integers(200, size=(2, 2000))
+    there = faces_inside(samples, views, first, second)
+    assert (there == faces_inside(samples, views, second, first)).all()
+    assert 0.1 < there.mean() < 0.9
 
 
 def test_sight_reports_its_progress():

@@ -39,8 +39,9 @@ def test_polygons_take_the_label_of_the_samples_around_them(change):
 
 
 def test_the_two_sides_of_a_thin_wall_do_not_mix():
-    wall = shapes.box((0, 0, 0), (1, 1, 0.01), 4)
-    samples, transfer = carry(wall)
+    # Most polygons have no sample of their own.
+    wall = shapes.box((0, 0, 0), (1, 1, 0.01), 12)
+    samples, transfer = carry(wall, 60)
     labels = (samples.normals[:, 2] > 0).astype(int)
     polygons = transfer.to_polygons(labels, 2)
     up = transfer.surface.normals[:, 2]

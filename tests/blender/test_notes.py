@@ -1,0 +1,41 @@
+"""Warnings stay readable after the run: in the record, and so in the sidebar."""
+
+import json
+
+import bpy
+import pytest
+from weak_convex_decomposition.ui.panels import notes_of, result_of
+
+FAST = {"samples": 300}
+
+
+@pytest.fixture
+def mirrored(suzanne):
+    suzanne.modifiers.new("Mirror", "MIRROR")
+    return suzanne
+
+
+def test_notes_on_reading_and_on_the_result_are_recorded(mirrored):
+    bpy.ops.wcd.decompose(samples=16, parts=16, smallest_part=0.5)
+    reading, counting = json.loads(mirrored["wcd"])["notes"]
+    assert "without its modifiers (Mirror)" in reading
+    assert "of the 16 parts asked for" in counting
+
+
+def test_notes_go_when_their_cause_is_gone(mirrored):
+    bpy.ops.wcd.decompose(**FAST)
+    mirrored.modifiers.clear()
+    bpy.ops.wcd.decompose(**FAST)
+    assert json.loads(mirrored["wcd"])["notes"] == []
+
+
+def test_the_sidebar_gets_each_note_once(mirrored):
+    bpy.ops.wcd.measure(**FAST)
+    assert len(notes_of(result_of(mirrored))) == 1
+    bpy.ops.wcd.decompose(**FAST)
+    (note,) = notes_of(result_of(mirrored))
+    assert note.startswith("The mesh was read without its modifiers")
+
+
+def test_records_of_version_0_1_have_no_notes():
+    assert notes_of({"measured": {"convexity_rank": 1.0}}) == []

@@ -1,0 +1,139 @@
+import numpy as np
+import pytest
+import shapes
+from brute_caster import BruteCaster
+from weak_convex_decomposition.core.decomposition import decompose
+from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.surface import surface_of
+
+
+def split_up(mesh, **values):
+    values = {"samples": 150, "max_parts": 5, **values}
+    return run(decompose(mesh, Parameters(**values), BruteCaster))
+
+
+def assert_names(agreement, decomposition, mesh, expected, at_least=0.9):
+    """Check that parts agree with the labels that anyone would give the polygons."""
+    surface = surface_of(mesh)
+    numbers = expected(*surface.centers.T).astype(int)
+    assert decomposition.n_parts == numbers.max() + 1
+    assert agreement(decomposition.labels, numbers, surface.areas) >= at_least
+
+
+CONVEX = {
+    "box": shapes.box,
+    "fine box": lambda: shapes.box(divisions=3),
+    "long box": lambda: shapes.box((0, 0, 0), (5, 1, 1), 2),
+    "sphere": lambda: shapes.sphere(1),
+    "quads": shapes.uv_sphere,
+    "one triangle": lambda: shapes.mesh_of(np.eye(3), [(0, 1, 2)]),
+    "sheet": shapes.sheet,
+}
+
+
+@pytest.mark.parametrize("make", CONVEX.values(), ids=CONVEX)
+def test_a_convex_shape_is_one_part_of_rank_one(decomposed, make):
+    found = decomposed(make)
+    assert found.n_parts == 1
+    assert found.ranks.tolist() == [1.0]
+    assert found.psi == found.psi_before == found.psi_by_k[1] == 1.0
+    assert not found.labels.any()
+    assert found.notes == ()
+
+
+def test_an_l_has_two_arms(decomposed, agreement):
+    assert_names(
+        agreement,
+        decomposed(shapes.l_shape),
+        shapes.l_shape(),
+        lambda x, y, z: x > y,
+        0.85,
+    )
+
+
+def test_an_l_of_two_overlapping_boxes_has_two_arms(agreement):
+    one, other = shapes.box((0, 0, 0), (5, 1, 1), 3), shapes.box((0,) * 3, (1, 5, 1), 3)
+    mesh = shapes.joined(one, shapes.moved(other, 0.98, offset=(0.01, 0.01, 0.01)))
+    found = split_up(mesh)
+    assert_names(agreement, found, mesh, lambda x, y, z: np.arange(len(x)) >= 54, 0.8)
+
+
+def test_a_plus_has_a_bar_and_two_arms_or_four_arms(decomposed):
+    found, surface = decomposed(shapes.plus), surface_of(shapes.plus())
+    assert found.n_parts in (2, 3, 4, 5)
+    x, y, _ = surface.centers.T
+    tips = [x < 2, x > 6, y < 2, y > 6]
+    for tip in tips:
+        areas = np.bincount(found.labels[tip], surface.areas[tip])
+        assert areas.max() / areas.sum() > 0.95
+    assert found.labels[tips[0]][0] != found.labels[tips[2]][0]
+    assert found.ranks.min() > 0.9
+
+
+def test_a_dumbbell_has_two_weights(decomposed):
+    found, surface = decomposed(shapes.dumbbell), surface_of(shapes.dumbbell())
+    assert found.n_parts in (2, 3)
+    x = surface.centers[:, 0]
+    left, right = found.labels[x < 2.9], found.labels[x > 6.1]
+    assert len(set(left)) == len(set(right)) == 1
+    assert left[0] != right[0]
+    if found.n_parts == 3:
+        bar = found.labels[(x > 3.1) & (x < 5.9)]
+        assert (bar == 2).mean() > 0.75
+
+
+def test_a_table_has_a_top_and_four_legs(decomposed, agreement):
+    def expected(x, y, z):
+        return np.where(z > 3 - 1e-6, 0, 1 + (x > 2.5) + 2 * (y > 2))
+
+    found = decomposed(shapes.table)
+    assert_names(agreement, found, shapes.table(), expected, 0.97)
+    assert found.ranks.min() > 0.95
+
+
+def test_a_hand_has_a_palm_and_four_fingers(decomposed):
+    found, surface = decomposed(shapes.comb), surface_of(shapes.comb())
+    assert found.n_parts in (4, 5)
+    x, y, _ = surface.centers.T
+    fingers = [
+        set(found.labels[(y > 4) & (np.abs(x - c) < 0.6)]) for c in (0.5, 2.5, 4.5, 6.5)
+    ]
+    assert all(len(finger) == 1 for finger in fingers)
+    assert len(set.union(*fingers)) == 4
+
+
+def test_a_u_has_its_legs_apart(decomposed):
+    found, surface = decomposed(shapes.u_shape), surface_of(shapes.u_shape())
+    assert found.n_parts in (2, 3)
+    x, y, _ = surface.centers.T
+    left, right = found.labels[(x < 3) & (y > 3)], found.labels[(x > 5) & (y > 3)]
+    assert len(set(left)) == len(set(right)) == 1
+    assert left[0] != right[0]
+
+
+def test_spheres_far_apart_are_a_part_each():
+    mesh = shapes.joined(shapes.sphere(1), shapes.sphere(1, 0.9, (50, 0, 0)))
+    found = split_up(mesh)
+    assert found.labels.tolist() == [0] * 80 + [1] * 80
+    assert found.ranks.tolist() == [1, 1]
+    assert found.psi == 1.0
+    assert found.psi_before == pytest.approx(0.5, abs=0.02)
+
+
+@pytest.mark.parametrize("sight", ["ALL_PAIRS", "CONE"])
+@pytest.mark.parametrize("normalization", ["LAPLACIAN", "STOCHASTIC"])
+@pytest.mark.parametrize("psi_pairs", ["UNIFORM", "RAYS"])
+def test_every_way_to_look_finds_the_spheres(sight, normalization, psi_pairs):
+    if sight == "ALL_PAIRS" and psi_pairs == "RAYS":
+        pytest.skip("only cones estimate psi from rays")
+    mesh = shapes.joined(shapes.sphere(0), shapes.sphere(0, 0.9, (3, 0, 0)))
+    found = split_up(
+        mesh,
+        sight=sight,
+        normalization=normalization,
+        psi_pairs=psi_pairs,
+        samples=100,
+        parts=2,
+    )
+    assert found.labels.tolist() == [0] * 20 + [1] * 20
