@@ -15,7 +15,7 @@ _CREASE = 4.0
 # A polygon's dislike of a label saturates here.
 _MOST_DISLIKE = 4.0
 # Length that lambda = 1 stands for, as a share of the square root of the area.
-_SEAM_UNIT = 0.005
+_SEAM_UNIT = 0.02
 # Sweeps over all labels at most; two or three settle.
 _SWEEPS = 4
 # maximum_flow takes whole numbers: the largest capacity becomes this.

@@ -114,3 +114,11 @@ def test_linked_meshes_are_read_only_but_can_be_measured(library):
     assert bpy.ops.wcd.measure(**FAST) == {"FINISHED"}
     assert bpy.ops.wcd.clear() == {"FINISHED"}
     assert not obj.keys()
+
+
+def test_parts_that_came_with_a_joined_object_are_refused(suzanne):
+    bpy.ops.wcd.decompose(**FAST)
+    bpy.ops.mesh.primitive_cube_add()
+    suzanne.select_set(True)
+    bpy.ops.object.join()
+    refused(bpy.ops.wcd.decompose, "wcd_part that does not come from decomposing")

@@ -137,3 +137,11 @@ def test_survives_saving_and_loading(suzanne, tmp_path):
     assert json.loads(obj["wcd"])["k"] == 4
     erase.clear(obj)
     assert snapshot(obj) == before
+
+
+def test_clear_takes_materials_whose_slots_the_user_removed(suzanne):
+    before = snapshot(suzanne)
+    decompose_by_hand(suzanne, 3)
+    suzanne.data.materials.pop(index=1)
+    erase.clear(suzanne)
+    assert snapshot(suzanne) == before

@@ -37,5 +37,5 @@ def test_the_sidebar_gets_each_note_once(mirrored):
     assert note.startswith("The mesh was read without its modifiers")
 
 
-def test_records_of_version_0_1_have_no_notes():
+def test_a_record_without_notes_is_read():
     assert notes_of({"measured": {"convexity_rank": 1.0}}) == []
