@@ -77,26 +77,12 @@ class Measurement:
 def decompose(
     mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
 ) -> Steps[Decomposition]:
-    """Split `mesh` into weakly convex parts.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        In any units; nothing asks for a closed or connected surface.
-    parameters : Parameters
-    make_caster : callable
-        Returns a RayCaster for the mesh it is given, which is `mesh` with its
-        triangles oriented and its bounding box centered and scaled.
+    """Split `mesh` into weakly convex parts; arguments and errors are those of `look`.
 
     Returns
     -------
     Steps of Decomposition
         Yields Progress; `run` gets the value.
-
-    Raises
-    ------
-    DecompositionError
-        If the surface has no area.
     """
     visibility = yield from within(see(mesh, parameters, make_caster), 0.0, 0.8)
     return (yield from within(find_parts(visibility, parameters), 0.8, 1.0))

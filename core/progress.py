@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -38,8 +38,8 @@ def run(steps: Steps[T]) -> T:
             return value
 
 
-def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
-    """Run `steps` as the part from `low` to `high` of a longer computation."""
+def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
+    """Run `steps` with `change` applied to each progress that they report."""
     try:
         while True:
             try:
@@ -47,6 +47,13 @@ def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
             except StopIteration as stop:
                 value: T = stop.value
                 return value
-            yield Progress(progress.stage, low + (high - low) * progress.fraction)
+            yield change(progress)
     finally:
         steps.close()
+
+
+def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
+    """Run `steps` as the part from `low` to `high` of a longer computation."""
+    return mapped(
+        steps, lambda p: Progress(p.stage, low + (high - low) * p.fraction)
+    )

@@ -47,22 +47,10 @@ def embed(
     degrees = np.asarray(affinity.sum(axis=1), dtype=np.float64).ravel()
     spread = regularization * degrees.mean() / n_samples
     scales = 1.0 / np.sqrt(degrees + spread * n_samples)
-
-    # Where samples are all alike, a Krylov space ends early and ARPACK goes on from
-    # random numbers of its own; this much noise keeps it going, the same every time.
     rng = np.random.default_rng(0)
-    noise = _NOISE * rng.random(n_samples)
-
-    def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-        vector = vector.ravel()
-        scaled = scales * vector
-        product = affinity @ scaled.astype(affinity.dtype)
-        # Shifted by 1, so that the tolerance of eigenvalues near 0 is not 0.
-        return scales * (product + spread * scaled.sum()) + (1 + noise) * vector
-
     n_vectors = min(n_coordinates, n_samples - 1)
     values, vectors = eigsh(
-        LinearOperator((n_samples, n_samples), multiply, dtype=np.float64),
+        _shifted_walk(affinity, spread, scales, _NOISE * rng.random(n_samples)),
         k=n_vectors,
         which="LA",
         v0=rng.random(n_samples),
@@ -78,3 +66,25 @@ def embed(
     signs = np.sign(vectors[leading, np.arange(n_vectors)])
     embedding: NDArray[np.float64] = vectors * (signs * values * np.sqrt(n_samples))
     return embedding
+
+
+def _shifted_walk(
+    affinity: Matrix,
+    spread: float,
+    scales: NDArray[np.float64],
+    noise: NDArray[np.float64],
+) -> LinearOperator:
+    """Return I + S (M + spread) S, S the diagonal of `scales`, and some noise on it.
+
+    Shifted by I, so that the tolerance of eigenvalues near 0 is not 0. Where samples
+    are all alike, a Krylov space ends early and ARPACK goes on from random numbers of
+    its own; the noise keeps it going, the same every time.
+    """
+
+    def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+        vector = vector.ravel()
+        scaled = scales * vector
+        product = affinity @ scaled.astype(affinity.dtype)
+        return scales * (product + spread * scaled.sum()) + (1 + noise) * vector
+
+    return LinearOperator(affinity.shape, multiply, dtype=np.float64)

@@ -23,7 +23,7 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
         result = json.loads(obj.get("wcd", "{}"))
     except (TypeError, ValueError):
         return {}
-    return result if isinstance(result, dict) else {}
+    return result if isinstance(result, dict) and "version" in result else {}
 
 
 def notes_of(result: dict[str, Any]) -> list[str]:

@@ -164,7 +164,7 @@ def _read(owner: bpy.types.ID, key: str) -> dict[str, Any]:
         noted = json.loads(owner[key])
     except (TypeError, ValueError):
         noted = None
-    if not isinstance(noted, dict):
+    if not isinstance(noted, dict) or (key == _RESULT and "version" not in noted):
         raise _not_ours(owner, key)
     return noted
 

@@ -39,3 +39,9 @@ def test_the_sidebar_gets_each_note_once(mirrored):
 
 def test_a_record_without_notes_is_read():
     assert notes_of({"measured": {"convexity_rank": 1.0}}) == []
+
+
+@pytest.mark.parametrize("value", ["not JSON", 3, "[1]", '{"parts": [{}]}'])
+def test_the_sidebar_shows_nothing_of_a_users_property(suzanne, value):
+    suzanne["wcd"] = value
+    assert result_of(suzanne) == {}

@@ -180,7 +180,7 @@ def test_a_users_attribute_of_our_name_is_refused(suzanne, domain):
         suzanne.data.attributes.remove(suzanne.data.attributes[name])
 
 
-@pytest.mark.parametrize("value", ["not JSON", 3, "[1]"])
+@pytest.mark.parametrize("value", ["not JSON", 3, "[1]", '{"parts": [{}]}'])
 def test_a_users_property_of_our_name_is_refused(suzanne, value):
     for owner, key in ((suzanne, "wcd"), (suzanne.data, "wcd_restore")):
         owner[key] = value
