@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.cluster import KMeans
 from threadpoolctl import threadpool_limits
 
 _STARTS = 10
+_THREADS = "OMP_NUM_THREADS"
 _DECIMALS = 6
 
 
@@ -23,8 +28,19 @@ def cluster(
     n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
     model = KMeans(n_clusters=n_clusters, n_init=_STARTS, random_state=seed)
     # One thread: sums do not depend on how many there are, and nothing spins.
-    with threadpool_limits(limits=1):
-        labels: NDArray[np.int64] = model.fit_predict(
-            embedding.round(_DECIMALS)
-        ).astype(np.int64)
+    with threadpool_limits(limits=1), _one_thread():
+        labels: NDArray[np.int64] = model.fit_predict(embedding).astype(np.int64)
     return labels
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Keep scikit-learn from starting a program that counts the physical cores."""
+    before = os.environ.get(_THREADS)
+    os.environ[_THREADS] = "1"
+    try:
+        yield
+    finally:
+        del os.environ[_THREADS]
+        if before is not None:
+            os.environ[_THREADS] = before

@@ -120,7 +120,7 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
         psi_before=psi_by_k[1],
         psi=tally.psi(parameters.alpha),
         psi_by_k=psi_by_k,
-        notes=visibility.notes + _notes_on_count(count(parts), parameters.parts),
+        notes=visibility.notes + _notes_on_count(parameters, psi_by_k),
     )
 
 
@@ -143,11 +143,16 @@ def _by_size(parts: NDArray[np.int64], surface: Surface) -> NDArray[np.int64]:
     return np.argsort(order)[parts]
 
 
-def _notes_on_count(n_parts: int, wanted: int) -> tuple[str, ...]:
+def _notes_on_count(
+    parameters: Parameters, psi_by_k: dict[int, float]
+) -> tuple[str, ...]:
     """Say why there are not as many parts as asked for, if so."""
-    if wanted in (0, n_parts):
+    wanted, most = parameters.parts or parameters.min_parts, max(psi_by_k)
+    alone = not parameters.parts and wanted == 2  # one part is an answer, too
+    if most >= wanted or alone:
         return ()
     return (
-        f"Found {n_parts} of the {wanted} parts asked for: the faces are too few or"
-        " the parts too small; subdivide the mesh or lower Smallest Part.",
+        f"At most {most} of the {wanted} parts asked for can be made: there are too few"
+        " faces or samples, or the parts are too small; subdivide the mesh, raise"
+        " Samples or lower Smallest Part.",
     )

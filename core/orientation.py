@@ -10,12 +10,16 @@ from numpy.typing import NDArray
 from .shapes import TriangleMesh
 from .shells import Shells, find_shells
 
+# An open shell is solid when this share of its area closes it; an open box lacks 0.2.
+_MOST_MISSING = 0.25
+
 
 def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
-    """Return `mesh` with its closed shells wound consistently and outwards.
+    """Return `mesh` with its solid shells wound consistently and outwards.
 
-    A closed shell inside another one may be a cavity and keeps its sense relative to
-    it. Open shells keep theirs: nothing tells their inside.
+    Solid is a shell that is closed, or nearly so: with holes through which little of
+    its area is missing. One inside another may be a cavity and keeps its sense relative
+    to it. Other shells keep theirs, since nothing tells their inside.
 
     Parameters
     ----------
@@ -29,8 +33,9 @@ def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
         What was turned.
     """
     shells = find_shells(mesh)
-    flips = shells.against & shells.closed[shells.of_triangle]
-    for shell in _inverted(mesh, shells, flips):
+    flips = shells.against
+    solid = _solid(mesh, shells)
+    for shell in _inverted(mesh, shells, flips, solid):
         flips[shells.of_triangle == shell] ^= True
     if not flips.any():
         return mesh, ()
@@ -42,14 +47,32 @@ def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     )
 
 
-def _inverted(mesh: TriangleMesh, shells: Shells, flips: NDArray[np.bool_]) -> set[int]:
-    """Return the outermost closed shells that face inwards, and what lies in them."""
-    corners = mesh.vertices[mesh.triangles]
-    volumes = np.einsum(
-        "td,td->t", corners[:, 0], np.cross(*corners[:, 1:].swapaxes(0, 1))
+def _solid(mesh: TriangleMesh, shells: Shells) -> NDArray[np.bool_]:
+    """Return which shells are closed, or nearly, (S,).
+
+    The area vectors of a closed surface add up to nothing, those of what is missing
+    add up to at least their share of it.
+    """
+    vectors = mesh.areas[:, None] * mesh.normals
+    vectors = np.where(shells.against[:, None], -vectors, vectors)
+    sums = np.stack(
+        [np.bincount(shells.of_triangle, vectors[:, axis]) for axis in range(3)]
     )
-    volumes = np.bincount(shells.of_triangle, np.where(flips, -volumes, volumes))
-    inward = np.flatnonzero(shells.closed & (volumes < 0))
+    missing = np.linalg.norm(sums, axis=0)
+    areas = np.bincount(shells.of_triangle, mesh.areas)
+    return shells.closed | (shells.windable & (missing <= _MOST_MISSING * areas))
+
+
+def _inverted(
+    mesh: TriangleMesh,
+    shells: Shells,
+    flips: NDArray[np.bool_],
+    solid: NDArray[np.bool_],
+) -> set[int]:
+    """Return the outermost solid shells that face inwards, and what lies in them."""
+    corners = mesh.vertices[mesh.triangles]
+    volumes = _volumes(corners, shells.of_triangle, flips)
+    inward = np.flatnonzero(solid & (volumes < 0))
     if len(inward) == 0:
         return set()
     order = np.argsort(shells.of_triangle, kind="stable")
@@ -67,7 +90,7 @@ def _inverted(mesh: TriangleMesh, shells: Shells, flips: NDArray[np.bool_]) -> s
         point = corners[members[inner][0], 0]
         return abs(_winding_number(point, corners[members[outer]], turned)) > 0.5
 
-    candidates = np.flatnonzero(shells.closed)
+    candidates = np.flatnonzero(solid)
     inverted: set[int] = set()
     for shell in inward:
         if not any(encloses(outer, shell) for outer in candidates):
@@ -75,6 +98,22 @@ def _inverted(mesh: TriangleMesh, shells: Shells, flips: NDArray[np.bool_]) -> s
             inverted.add(int(shell))
             inverted |= {int(c) for c in candidates if encloses(shell, c)}
     return inverted
+
+
+def _volumes(
+    corners: NDArray[np.float64],
+    shells: NDArray[np.int64],
+    flips: NDArray[np.bool_],
+) -> NDArray[np.float64]:
+    """Return six times the volume of each shell (S,), seen from its middle."""
+    counts = np.bincount(shells)[:, None]
+    centers = corners.mean(axis=1)
+    sums = [np.bincount(shells, centers[:, axis]) for axis in range(3)]
+    middles = np.stack(sums, axis=1) / counts
+    a, b, c = np.moveaxis(corners - middles[shells][:, None], 1, 0)
+    volumes = np.einsum("td,td->t", a, np.cross(b, c))
+    signed = np.where(flips, -volumes, volumes)
+    return np.bincount(shells, signed).astype(np.float64)
 
 
 def _winding_number(

@@ -54,6 +54,4 @@ def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
 
 def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
     """Run `steps` as the part from `low` to `high` of a longer computation."""
-    return mapped(
-        steps, lambda p: Progress(p.stage, low + (high - low) * p.fraction)
-    )
+    return mapped(steps, lambda p: Progress(p.stage, low + (high - low) * p.fraction))

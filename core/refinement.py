@@ -32,7 +32,7 @@ def connected_parts(
     parts : (P,) int
         0…K − 1, each used.
     """
-    parts = surface.pieces(labels)
+    parts = surface.pieces(labels, smallest_area)
     while True:
         areas = surface.areas_of(parts)
         order = np.argsort(-areas, kind="stable")

@@ -12,6 +12,8 @@ from .errors import DecompositionError
 
 # Faces of less area than this are a line or a point, in squared diagonals.
 _LEAST_AREA = 1e-9
+# Vertices this near, in diagonals, are one: what single precision leaves of equality.
+_SAME_PLACE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,10 +105,13 @@ class TriangleMesh:
     def welded_triangles(self) -> NDArray[np.int64]:
         """(T, 3) numbers of the corners' places, equal where vertices coincide.
 
-        Many file formats split vertices; the copies are equal to the last bit.
+        Many file formats split vertices, and tools close a surface with vertices that
+        differ by rounding.
         """
-        # Adding 0 turns -0 into 0.
-        _, place_of = np.unique(self.vertices + 0.0, axis=0, return_inverse=True)
+        center = self.vertices[self.triangles.ravel()].mean(axis=0)
+        grain = _SAME_PLACE * self.diagonal or 1.0
+        grains = np.round((self.vertices - center) / grain).astype(np.int64)
+        _, place_of = np.unique(grains, axis=0, return_inverse=True)
         welded: NDArray[np.int64] = place_of.reshape(-1)[self.triangles]
         return welded
 

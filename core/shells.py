@@ -21,14 +21,18 @@ class Shells:
     of_triangle : (T,) int
         Shell of each triangle.
     against : (T,) bool
-        Triangles to turn for a consistent winding; the smaller number of the two ways.
+        Triangles to turn for a consistent winding; the smaller number of the two ways,
+        none where no winding is consistent.
+    windable : (S,) bool
+        Shells whose windings can be made to agree, unlike a Möbius strip's.
     closed : (S,) bool
-        Shells that bound a volume: every edge has an even number of the shell's
-        triangles, and their windings can be made to agree.
+        Windable shells that bound a volume: every edge has an even number of the
+        shell's triangles.
     """
 
     of_triangle: NDArray[np.int64]
     against: NDArray[np.bool_]
+    windable: NDArray[np.bool_]
     closed: NDArray[np.bool_]
 
 
@@ -50,14 +54,15 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     n_shells = int(shells.max()) + 1
     side = copies[0] > copies[1]
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)
-    twisted = np.bincount(shells, copies[0] == copies[1], n_shells) > 0
+    windable = np.bincount(shells, copies[0] == copies[1], n_shells) == 0
     # An edge of four triangles may be where a shell touches itself.
     owners = np.repeat(shells, 3) * len(uses) + edge_of
     uses_by_shell, counts = np.unique(owners, return_counts=True)
     open_edges = uses_by_shell[counts % 2 == 1] // len(uses)
-    closed = ~twisted
+    closed = windable.copy()
     closed[open_edges] = False
-    return Shells(shells, side ^ minority[shells], closed)
+    against = (side ^ minority[shells]) & windable[shells]
+    return Shells(shells, against, windable, closed)
 
 
 def _wound_copies(

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .progress import Progress, Steps
+from .progress import Progress, Steps, within
 from .sampling import Samples
 from .scene import PASS, Scene
 
 # Rays between two reports of progress, about 20 ms.
 RAYS_PER_STEP = 4096
+# Pairs whose facing is looked up at a time.
+_PAIRS_PER_BLOCK = 65536
 # Samples look from this far under the surface, in diagonals of the bounding box, or
 # from this share of the thickness where the shape is thinner.
 _OFFSET = 1e-3
@@ -120,12 +122,7 @@ def see_all_pairs(
 ) -> Steps[NDArray[np.bool_]]:
     """Return the LoS matrix of all pairs of samples (eq. 3).
 
-    Parameters
-    ----------
-    scene : Scene
-    samples : Samples
-    views : Viewpoints
-        Of `samples`.
+    Arguments are those of `see_pairs`.
 
     Returns
     -------
@@ -133,10 +130,22 @@ def see_all_pairs(
         Symmetric, with a true diagonal.
     """
     n_samples = len(samples)
-    first, second = np.triu_indices(n_samples, k=1)
-    visible = yield from see_pairs(scene, samples, views, first, second)
     los = np.eye(n_samples, dtype=bool)
-    los[first[visible], second[visible]] = True
+    start = 0
+    while start < n_samples - 1:
+        # Whole rows of the upper triangle, so that memory stays in bounds.
+        stop = start + max(1, _PAIRS_PER_BLOCK // (n_samples - start))
+        rows = np.arange(start, min(stop, n_samples - 1))
+        first = np.repeat(rows, n_samples - 1 - rows)
+        second = np.concatenate([np.arange(row + 1, n_samples) for row in rows])
+        done, share = (
+            1 - ((n_samples - row) / n_samples) ** 2 for row in (start, rows[-1] + 1)
+        )
+        visible = yield from within(
+            see_pairs(scene, samples, views, first, second), done, share
+        )
+        los[first[visible], second[visible]] = True
+        start = int(rows[-1]) + 1
     return los | los.T
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,8 @@ class Surface:
     bends : (E,) float
         Angle between the two normals in radians: positive where the surface is
         concave (a crease seen from outside), negative where it is convex.
+    links : (L, 2) int
+        Polygons of different shells that touch.
     """
 
     areas: NDArray[np.float64]
@@ -36,6 +38,7 @@ class Surface:
     neighbors: NDArray[np.int64]
     lengths: NDArray[np.float64]
     bends: NDArray[np.float64]
+    links: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     @property
     def n_polygons(self) -> int:
@@ -50,18 +53,32 @@ class Surface:
         """Return the number of the connected shell of each polygon, (P,)."""
         return _components(self.neighbors, self.n_polygons)
 
-    def pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return connected pieces of polygons with one label, (P,) int."""
-        alike = labels[self.neighbors[:, 0]] == labels[self.neighbors[:, 1]]
-        return _components(self.neighbors[alike], self.n_polygons)
+    def pieces(self, labels: NDArray[np.int64], firm_area: float) -> NDArray[np.int64]:
+        """Return connected pieces of polygons with one label, (P,) int.
+
+        Links connect whole shells and what is larger than `firm_area`, not the specks
+        that a label may have next to another shell.
+        """
+        alike = self.neighbors[
+            (labels[self.neighbors] == labels[self.neighbors[:, :1]]).all(axis=1)
+        ]
+        pieces = _components(alike, self.n_polygons)
+        firm = self.areas_of(pieces) >= firm_area
+        one, other = pieces[self.neighbors].T
+        whole = np.ones(len(firm), dtype=bool)
+        whole[one[one != other]] = whole[other[one != other]] = False
+        tied = (firm | whole)[pieces][self.links].all(axis=1)
+        tied &= labels[self.links[:, 0]] == labels[self.links[:, 1]]
+        return _components(np.concatenate([alike, self.links[tied]]), self.n_polygons)
 
     def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
         """Return the length of the border between every two labels, (K, K)."""
-        one, other = labels[self.neighbors].T
-        crossing = one != other
-        one, other = one[crossing], other[crossing]
-        # A border of no length is a border all the same.
-        lengths = np.maximum(self.lengths[crossing], np.finfo(float).tiny)
+        pairs = labels[np.concatenate([self.neighbors, self.links])]
+        # A link is a border where there is no other.
+        lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
+        crossing = pairs[:, 0] != pairs[:, 1]
+        one, other = pairs[crossing].T
+        lengths = np.maximum(lengths[crossing], np.finfo(float).tiny)
         borders = sparse.coo_array(
             (
                 np.concatenate([lengths, lengths]),
@@ -71,23 +88,9 @@ class Surface:
         )
         return borders.tocsr()
 
-    def linked(self, links: NDArray[np.int64], length: float) -> Surface:
-        """Return the surface with further neighbors that share no edge.
-
-        Parameters
-        ----------
-        links : (L, 2) int
-            Polygons that touch.
-        length : float
-            What each link counts for, as if it were an edge.
-        """
-        bends = _bends(self.centers, self.normals, links)
-        return replace(
-            self,
-            neighbors=np.concatenate([self.neighbors, links]),
-            lengths=np.concatenate([self.lengths, np.full(len(links), length)]),
-            bends=np.concatenate([self.bends, bends]),
-        )
+    def linked(self, links: NDArray[np.int64]) -> Surface:
+        """Return the surface with links (L, 2) between polygons that touch."""
+        return replace(self, links=links)
 
 
 def surface_of(mesh: TriangleMesh) -> Surface:

@@ -52,7 +52,7 @@ class Transfer:
         )
         self.shares = self._shares(distances / spacing, nearest)
         links = self._links(samples, surface, nearest[:, 0], spacing)
-        self.surface = surface.linked(links, spacing)
+        self.surface = surface.linked(links)
 
     def _shares(
         self, distances: NDArray[np.float64], nearest: NDArray[np.int64]

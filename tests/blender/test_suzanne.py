@@ -12,6 +12,7 @@ from weak_convex_decomposition.core.decomposition import Decomposition, decompos
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.shapes import TriangleMesh
+from weak_convex_decomposition.core.surface import surface_of
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read import read_shape
 
@@ -99,3 +100,10 @@ def test_a_further_subdivision_does_not_matter():
     areas = np.bincount(fine.polygons, fine.areas)
     labels = parts_of(fine).labels
     assert agreement(labels, reference().labels[nearest], areas) >= 0.97
+
+
+def test_parts_have_no_specks():
+    mesh, found = suzanne(2), reference()
+    surface = surface_of(mesh)
+    areas = surface.areas_of(surface.pieces(found.labels, 0.0))
+    assert areas.min() >= 0.005 * areas.sum()

@@ -39,7 +39,7 @@ def test_parts_are_connected_and_not_too_small(seen, make, n_parts):
     parts = run(partitioner.seamed(partitioner.partition(n_parts)))
     surface = partitioner.surface
     assert surface.areas_of(parts).min() >= partitioner.smallest_area
-    assert count(surface.pieces(parts)) == n_parts
+    assert count(surface.pieces(parts, 0.0)) == n_parts
 
 
 def test_more_parts_than_polygons_are_as_many_as_can_be(seen):

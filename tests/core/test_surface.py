@@ -79,11 +79,11 @@ def test_shells_and_pieces_are_connected():
     surface = surface_of(boxes)
     assert surface.shells().tolist() == [0] * 6 + [1] * 6
     labels = np.zeros(12, dtype=int)
-    assert surface.pieces(labels).tolist() == [0] * 6 + [1] * 6
+    assert surface.pieces(labels, 0.0).tolist() == [0] * 6 + [1] * 6
     x = surface.normals[:, 0]
     labels = (np.abs(x) > 0.5).astype(int)
     # Of each box the two ends along x, and the ring between them.
-    assert len(set(surface.pieces(labels))) == 6
+    assert len(set(surface.pieces(labels, 0.0))) == 6
 
 
 def test_borders_are_as_long_as_the_edges_between_labels():
@@ -108,8 +108,24 @@ def test_areas_of_labels():
 def test_links_connect_what_shares_no_edge():
     boxes = shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1)))
     surface = surface_of(boxes)
-    linked = surface.linked(np.array([[0, 6]]), 0.25)
-    assert len(set(linked.shells())) == 1
-    assert linked.borders(surface.shells(), 2).toarray()[0, 1] == pytest.approx(0.25)
-    assert len(linked.bends) == len(linked.lengths) == len(linked.neighbors)
-    assert len(set(surface.shells())) == 2
+    linked = surface.linked(np.array([[0, 6]]))
+    alike = np.zeros(12, dtype=int)
+    assert len(set(surface.pieces(alike, 0.0))) == 2
+    assert len(set(linked.pieces(alike, 0.0))) == 1
+    assert len(set(linked.pieces(surface.shells(), 0.0))) == 2
+    # Hardly a border, so that a speck joins what it has an edge in common with.
+    border = linked.borders(surface.shells(), 2).toarray()[0, 1]
+    assert 0 < border < 1e-9
+
+
+def test_a_link_connects_no_speck():
+    boxes = shapes.joined(shapes.box(divisions=4), shapes.box((1, 0, 0), (2, 1, 1)))
+    surface = surface_of(boxes)
+    labels = (np.arange(surface.n_polygons) >= 96).astype(int)
+    beside = int(np.flatnonzero(surface.centers[:, 0] == 1)[0])
+    labels[beside] = 1  # one face of the first box goes with the second
+    linked = surface.linked(np.array([[beside, 96]]))
+    assert len(set(linked.pieces(labels, 0.0))) == 2
+    pieces = linked.pieces(labels, 0.5)
+    assert len(set(pieces)) == 3
+    assert (pieces == pieces[beside]).sum() == 1
