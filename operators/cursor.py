@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import bpy
 
-from ..core.progress import Steps
+from ..core.progress import Progress, Steps, mapped
 
 T = TypeVar("T")
 
@@ -15,16 +15,13 @@ def with_cursor(window_manager: bpy.types.WindowManager, steps: Steps[T]) -> Ste
     """Pass `steps` on, showing their progress at the mouse cursor."""
     if bpy.app.background:
         return (yield from steps)
+
+    def show(progress: Progress) -> Progress:
+        window_manager.progress_update(round(progress.fraction * 100))
+        return progress
+
     window_manager.progress_begin(0, 100)
     try:
-        while True:
-            try:
-                progress = next(steps)
-            except StopIteration as stop:
-                value: T = stop.value
-                return value
-            window_manager.progress_update(round(progress.fraction * 100))
-            yield progress
+        return (yield from mapped(steps, show))
     finally:
-        steps.close()
         window_manager.progress_end()

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 
-from ..core.errors import DecompositionError
-from ..core.progress import Steps, run
+from ..core.progress import Steps
 from ..ui.properties import MEASURE, annotations, draw, parameters_from
-from .bridge.ray_caster import BvhRayCaster
-from .bridge.read import read_shape, reading_notes
-from .bridge.record import check_records, write_measurement
+from .bridge.computing import measure_object
+from .bridge.record import write_measurement
 from .bridge.target import Target, refusal
-from .cursor import with_cursor
+from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ..core.decomposition import Measurement
 
 
-class WCD_OT_measure(bpy.types.Operator):
+class WCD_OT_measure(Computation, bpy.types.Operator):
     """Measure the share of pairs of surface points that see each other."""
 
     bl_idname = "wcd.measure"
@@ -40,44 +38,22 @@ class WCD_OT_measure(bpy.types.Operator):
         """Draw the settings."""
         draw(self.layout, self, MEASURE)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Measure while Blender waits."""
-        try:
-            steps = with_cursor(context.window_manager, self._begin(context))
-            self._commit(run(steps))
-        except DecompositionError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
-
     def _begin(self, context: bpy.types.Context) -> Steps[Measurement]:
-        """Check and read the active object; return the work to be done."""
-        # Loads SciPy and scikit-learn: seconds that enabling the add-on must not take.
-        from ..core.decomposition import measure
-
-        obj = context.active_object
         self._parameters = parameters_from(self, MEASURE)
-        check_records(obj)
-        shape = read_shape(obj)
-        self._notes = reading_notes(obj)
-        self._target = Target.of(obj)
-        return measure(shape, self._parameters, BvhRayCaster)
+        self._target = Target.of(context.active_object)
+        return measure_object(context.active_object, self._parameters)
 
-    def _commit(self, measurement: Measurement) -> None:
-        """Note the result on the object and report it."""
+    def _commit(self, value: Measurement) -> None:
         values = asdict(self._parameters)
         used = {name: values[name] for name in MEASURE}
-        notes = (*self._notes, *measurement.notes)
-        measurement = replace(measurement, notes=notes)
-        write_measurement(self._target.find(), measurement, used)
-        for note in notes:
-            self.report({"WARNING"}, note)
-        error = measurement.standard_error
+        write_measurement(self._target.find(), value, used)
+        self._warn(value.notes)
+        error = value.standard_error
         self.report(
             {"INFO"},
-            f"Convexity rank {measurement.rank:.3f}"
+            f"Convexity rank {value.rank:.3f}"
             + (f" ± {error:.3f}" if error else "")
-            + f" ({measurement.n_samples:,} samples)",
+            + f" ({value.n_samples:,} samples)",
         )
 
 

@@ -5,20 +5,17 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from dataclasses import dataclass
+from typing import Any
 
 import bpy
 
 from ...core.errors import DecompositionError
 from ...core.parameters import Parameters
-from ...core.progress import Steps
-from ..bridge.ray_caster import BvhRayCaster
-from ..bridge.read import read_shape, reading_notes
-from ..bridge.write import check_writable, write_parts
+from ...core.progress import Progress, mapped, run
+from ..bridge.computing import decompose_object, summary
+from ..bridge.write import write_parts
 from .screen import Screen
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -31,6 +28,8 @@ class ObjectResult:
         Name of the object in the file.
     record : dict or None
         What is noted on the object as well, None if it was not decomposed.
+    summary : str
+        Its figures in a line, empty if it was not decomposed.
     notes : tuple of str
         Findings that stopped nothing.
     error : str or None
@@ -41,6 +40,7 @@ class ObjectResult:
 
     name: str
     record: dict[str, Any] | None = None
+    summary: str = ""
     notes: tuple[str, ...] = ()
     error: str | None = None
     seconds: float = 0.0
@@ -77,36 +77,26 @@ def _decompose(
     screen: Screen,
 ) -> ObjectResult:
     """Decompose one object and write the parts to it."""
-    # Loads SciPy and scikit-learn, seconds that enabling the add-on must not take.
-    from ...core.decomposition import decompose
+    title = f"{file_name}, {obj.name_full}"
+
+    def show(progress: Progress) -> Progress:
+        screen.progress(title, progress)
+        return progress
 
     started = time.perf_counter()
     try:
-        check_writable(obj)
-        notes = reading_notes(obj)
-        steps = decompose(read_shape(obj), parameters, BvhRayCaster)
-        decomposition = _run(steps, f"{file_name}, {obj.name_full}", screen)
-        notes += decomposition.notes
-        decomposition = replace(decomposition, notes=notes)
+        steps = decompose_object(obj, parameters)
+        decomposition = run(mapped(steps, show))
         write_parts(obj, decomposition, parameters)
     except DecompositionError as error:
         return ObjectResult(obj.name_full, error=str(error))
     return ObjectResult(
         obj.name_full,
         record=json.loads(obj["wcd"]),
-        notes=notes,
+        summary=summary(decomposition),
+        notes=decomposition.notes,
         seconds=time.perf_counter() - started,
     )
-
-
-def _run(steps: Steps[T], title: str, screen: Screen) -> T:
-    """Exhaust `steps`, showing their progress, and return their value."""
-    while True:
-        try:
-            screen.progress(title, next(steps))
-        except StopIteration as stop:
-            value: T = stop.value
-            return value
 
 
 def _show(file_name: str, result: ObjectResult, screen: Screen) -> None:
@@ -116,11 +106,7 @@ def _show(file_name: str, result: ObjectResult, screen: Screen) -> None:
         screen.warning(f"{title}: {note}")
     if result.error:
         screen.error(f"{title}: {result.error}")
-    if result.record:
-        k, parts = result.record["k"], result.record["parts"]
-        mean = sum(part["convexity_rank"] for part in parts) / k
-        screen.result(
-            f"{title}: {k} {'part' if k == 1 else 'parts'},"
-            f" psi {result.record['psi_before']:.3f} -> {result.record['psi']:.3f},"
-            f" mean convexity rank {mean:.3f}, {result.seconds:.1f} s"
-        )
+    if result.summary:
+        # Not every console has the arrow.
+        line = result.summary.replace("→", "->")
+        screen.result(f"{title}: {line}, {result.seconds:.1f} s")
