@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint zip bench clean venv development
+.PHONY: help demo test lint zip bench bench-speed clean venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -17,7 +17,7 @@ PYTHON_HERE := PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python
 help: ## List these commands
 	@echo "make COMMAND [BPY=4.2|5.0|5.2] [PYTHON=path of a Python 3.11 or 3.13]"
 	@echo
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' Makefile
 
 demo: venv ## Decompose Blender's monkey; results in build/demo/
 	@mkdir -p build/demo
@@ -46,6 +46,9 @@ zip: venv ## Build the installable zips into build/
 bench: venv ## Measure quality: make bench PSB=directory of the Princeton benchmark
 	@[ -n "$(PSB)" ] || { echo "Name the benchmark's directory: make bench PSB=directory"; exit 1; }
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/rand_index.py "$(PSB)" $(BENCH)
+
+bench-speed: venv ## Measure seconds and memory on Suzanne
+	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/speed.py
 
 clean: ## Remove everything that these commands made
 	rm -rf build wheels .venv .venv-* .mypy_cache .pytest_cache .ruff_cache

@@ -19,7 +19,8 @@ def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
 
     Solid is a shell that is closed, or nearly so: with holes through which little of
     its area is missing. One inside another may be a cavity and keeps its sense relative
-    to it. Other shells keep theirs, since nothing tells their inside.
+    to it. Nothing tells the inside of other shells: they keep theirs, unless most of
+    what is solid has to be turned.
 
     Parameters
     ----------
@@ -33,10 +34,14 @@ def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
         What was turned.
     """
     shells = find_shells(mesh)
-    flips = shells.against
     solid = _solid(mesh, shells)
-    for shell in _inverted(mesh, shells, flips, solid):
-        flips[shells.of_triangle == shell] ^= True
+    turned = np.zeros(len(solid), dtype=bool)
+    turned[list(_inverted(mesh, shells, solid))] = True
+    areas = np.bincount(shells.of_triangle, mesh.areas)
+    if areas[turned].sum() > areas[solid].sum() / 2:
+        # The object is inside out altogether, what is open on it as well.
+        turned |= ~solid
+    flips = shells.against ^ turned[shells.of_triangle]
     if not flips.any():
         return mesh, ()
     triangles = np.where(flips[:, None], mesh.triangles[:, ::-1], mesh.triangles)
@@ -66,10 +71,10 @@ def _solid(mesh: TriangleMesh, shells: Shells) -> NDArray[np.bool_]:
 def _inverted(
     mesh: TriangleMesh,
     shells: Shells,
-    flips: NDArray[np.bool_],
     solid: NDArray[np.bool_],
 ) -> set[int]:
     """Return the outermost solid shells that face inwards, and what lies in them."""
+    flips = shells.against
     corners = mesh.vertices[mesh.triangles]
     volumes = _volumes(corners, shells.of_triangle, flips)
     inward = np.flatnonzero(solid & (volumes < 0))

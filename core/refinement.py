@@ -32,7 +32,7 @@ def connected_parts(
     parts : (P,) int
         0…K − 1, each used.
     """
-    parts = surface.pieces(labels, smallest_area)
+    parts = _gathered(surface, labels, smallest_area)
     while True:
         areas = surface.areas_of(parts)
         order = np.argsort(-areas, kind="stable")
@@ -47,6 +47,18 @@ def connected_parts(
             shape=(len(joins), len(joins)),
         )
         parts = connected_components(graph, directed=False)[1][parts].astype(np.int64)
+
+
+def _gathered(
+    surface: Surface, labels: NDArray[np.int64], smallest_area: float
+) -> NDArray[np.int64]:
+    """Return connected pieces, those of a label that lie scattered and small as one."""
+    pieces = surface.pieces(labels, smallest_area)
+    areas = surface.areas_of(pieces)
+    alone = np.diff(surface.borders(pieces, len(areas)).indptr) == 0
+    scattered = (alone & (areas < smallest_area))[pieces]
+    keys = np.where(scattered, len(areas) + labels, pieces)
+    return np.unique(keys, return_inverse=True)[1].reshape(-1)
 
 
 def _joins_of_small(

@@ -126,3 +126,11 @@ def test_positions_and_polygons_are_kept():
     result, _ = oriented(mesh)
     assert (result.vertices == mesh.vertices).all()
     assert (result.polygons == mesh.polygons).all()
+
+
+def test_what_is_open_turns_with_an_object_that_is_inside_out():
+    both = shapes.joined(shapes.box(), shapes.moved(shapes.sheet(), offset=(5, 0, 0)))
+    assert_untouched(both)
+    result, notes = oriented(shapes.inside_out(both))
+    assert_same_winding(result, both)
+    assert "inside out" in notes[0]

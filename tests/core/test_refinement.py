@@ -109,3 +109,11 @@ def test_a_merged_part_touches_what_its_halves_touched(tally):
     merged = merge_to(2, tally, touching, 1.0)
     assert merged.tolist() == [0, 1, 0, 0]
     assert touching.sum() == 4
+
+
+def test_scattered_specks_of_a_label_stay_together():
+    boxes = [shapes.box((9 * i, 0, 0), (9 * i + 1, 1, 1)) for i in range(8)]
+    surface = surface_of(shapes.joined(*boxes))
+    labels = np.repeat([0, 1], 24)
+    parts = connected_parts(surface, labels, smallest_area=7.0)
+    assert parts.tolist() == labels.tolist()
