@@ -10,7 +10,7 @@ from .progress import Progress, Steps
 
 # Psi of two sets of samples of one shape differs by about this much: a gain below it
 # is no reason for one more part.
-_PSI_TOLERANCE = 0.003
+_PSI_TOLERANCE = 0.005
 
 
 def search_part_count(

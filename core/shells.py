@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,10 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from .shapes import TriangleMesh
+
+# Thickness, in diagonals, and number of the layers that shells are set apart by.
+_LAYER = 1e-5
+_LAYERS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +67,31 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     closed[open_edges] = False
     against = (side ^ minority[shells]) & windable[shells]
     return Shells(shells, against, windable, closed)
+
+
+def set_apart(mesh: TriangleMesh) -> TriangleMesh:
+    """Return `mesh` with its shells shrunk by a trifle, each by another.
+
+    Boxes are often put together flush. A ray cannot tell the order of faces at the
+    same place, nor count the shells there; a hundred thousandth of the diagonal between
+    them is enough for that, and nothing that anybody sees.
+    """
+    shells = find_shells(mesh).of_triangle
+    areas = np.bincount(shells, mesh.areas)
+    if len(areas) == 1:
+        return mesh
+    ranks = np.argsort(np.argsort(-areas, kind="stable"))
+    steps = ranks[shells] % _LAYERS
+    vectors = (mesh.areas[:, None] * mesh.normals).repeat(3, axis=0)
+    corners = mesh.triangles.ravel()
+    normals = np.stack(
+        [np.bincount(corners, v, len(mesh.vertices)) for v in vectors.T], axis=1
+    )
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    depths = np.zeros(len(mesh.vertices))
+    depths[corners] = _LAYER * mesh.diagonal * steps.repeat(3)
+    return replace(mesh, vertices=mesh.vertices - depths[:, None] * normals)
 
 
 def _wound_copies(

@@ -44,25 +44,34 @@ def viewpoints(scene: Scene, samples: Samples) -> Viewpoints:
     """Move `samples` under the surface and count the shells around them."""
     nudge = PASS * scene.diagonal
     inwards = -samples.normals
-    _, thickness = scene.caster.first_hit(
+    own = scene.closed[samples.triangles].astype(np.int64)
+    _, thickness, _ = scene.march(
         samples.positions + nudge * inwards,
         inwards,
         np.full(len(samples), 2 * scene.diagonal),
+        own,
     )
     offsets = np.minimum(_OFFSET * scene.diagonal, _OFFSET_OF_THICKNESS * thickness)
     offsets = np.maximum(offsets, nudge)
+    positions = samples.positions + offsets[:, None] * inwards
     outside = samples.positions + nudge * samples.normals
-    counts = [
-        scene.shells_around(outside, directions)
-        for directions in _outward_directions(samples.normals)
-    ]
-    # The median: a ray that slips through a hole must not decide.
-    around = np.maximum(np.median(counts, axis=0), 0).astype(np.int64)
     return Viewpoints(
-        samples.positions + offsets[:, None] * inwards,
-        around + scene.closed[samples.triangles],
-        around > 0,
+        positions,
+        np.maximum(_shells_around(scene, positions, samples.normals), own),
+        _shells_around(scene, outside, samples.normals) > 0,
     )
+
+
+def _shells_around(
+    scene: Scene, points: NDArray[np.float64], normals: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """Return the number of closed shells around each point, (N,)."""
+    counts = [
+        scene.shells_around(points, directions)
+        for directions in _outward_directions(normals)
+    ]
+    # The median: a ray that slips between triangles must not decide.
+    return np.maximum(np.median(counts, axis=0), 0).astype(np.int64)
 
 
 def faces_inside(

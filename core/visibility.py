@@ -16,6 +16,7 @@ from .progress import Progress, Steps, within
 from .sampling import Samples, sample_surface
 from .scene import RayCaster, Scene
 from .shapes import TriangleMesh
+from .shells import set_apart
 from .sight import see_all_pairs, viewpoints
 from .spectral import embed
 from .transfer import Transfer
@@ -98,11 +99,12 @@ def look(
         If the surface has no area.
     """
     mesh, notes = oriented(mesh.normalized())
+    apart = set_apart(mesh)
     yield Progress("Samples", 0.0)
     rng = np.random.default_rng(parameters.seed)
-    samples = sample_surface(mesh, parameters.samples, rng)
+    samples = sample_surface(apart, parameters.samples, rng)
     yield Progress("Ray tree", 0.01)
-    scene = Scene(mesh, make_caster(mesh))
+    scene = Scene(apart, make_caster(apart))
     views = viewpoints(scene, samples)
     if parameters.sight == "ALL_PAIRS":
         los = yield from within(see_all_pairs(scene, samples, views), 0.02, 1.0)

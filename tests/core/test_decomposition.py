@@ -124,3 +124,15 @@ def test_bad_input_is_refused_with_a_sentence(vertices, triangles, text):
     with pytest.raises(DecompositionError, match=text) as error:
         split_up(TriangleMesh(vertices, triangles, np.zeros(len(triangles))))
     assert str(error.value).endswith(".")
+
+
+def test_boxes_put_together_flush_are_the_box_they_make():
+    """Faces at the same place are neither passed unseen nor met twice."""
+    flush = shapes.joined(
+        shapes.box((0, 0, 0), (2, 1, 1)), shapes.box((1, 0, 0), (3, 1, 1))
+    )
+    found = split_up(flush)
+    assert found.n_parts == 1
+    assert found.psi_before > 0.99
+    twice = shapes.joined(shapes.box(), shapes.box())
+    assert split_up(twice).psi_before > 0.99
