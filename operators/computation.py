@@ -25,10 +25,6 @@ class Computation:
         except DecompositionError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        for window in context.window_manager.windows:
-            for area in window.screen.areas:
-                # Nothing tells panels that a custom property has changed.
-                area.tag_redraw()
         return {"FINISHED"}
 
     def _warn(self, notes: tuple[str, ...]) -> None:
