@@ -86,8 +86,8 @@ def look(
         In any units; nothing asks for a closed or connected surface.
     parameters : Parameters
     make_caster : callable
-        Returns a RayCaster for the mesh it is given, which is `mesh` with its
-        triangles oriented and its bounding box centered and scaled.
+        Returns a RayCaster for the mesh it is given: `mesh` centered, scaled and
+        oriented, with its shells set apart.
 
     Returns
     -------
