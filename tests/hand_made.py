@@ -30,6 +30,16 @@ def bands(obj, n_parts):
     return ranks * n_parts // len(x)
 
 
+def subdivided_suzanne(levels):
+    """Return Blender's monkey with a subdivision applied, as a new active object."""
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.active_object
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels = levels
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return obj
+
+
 def mesh_object(name, vertices, faces):
     """Return a new active object with a mesh of these vertices and faces."""
     mesh = bpy.data.meshes.new(name)

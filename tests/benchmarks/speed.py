@@ -16,22 +16,12 @@ import time
 import bpy
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
+from hand_made import subdivided_suzanne
 from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.shapes import TriangleMesh
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read import read_shape
-
-
-def suzanne(subdivisions: int) -> TriangleMesh:
-    """Return Blender's monkey, subdivided."""
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.mesh.primitive_monkey_add()
-    obj = bpy.context.active_object
-    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels = subdivisions
-    bpy.ops.object.modifier_apply(modifier=modifier.name)
-    return read_shape(obj)
 
 
 def seconds_by_stage(mesh: TriangleMesh) -> tuple[dict[str, float], float, float]:
@@ -56,7 +46,8 @@ def main() -> int:
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--subdivisions", type=int, default=2)
     arguments = parser.parse_args()
-    mesh = suzanne(arguments.subdivisions)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    mesh = read_shape(subdivided_suzanne(arguments.subdivisions))
     runs = [seconds_by_stage(mesh) for _ in range(arguments.runs)]
     print(f"$ python {' '.join(sys.argv)}")
     print(

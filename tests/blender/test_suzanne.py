@@ -2,9 +2,9 @@
 
 import functools
 
-import bpy
 import numpy as np
 import pytest
+from hand_made import subdivided_suzanne
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
@@ -24,12 +24,7 @@ CROWN = (0.0, 0.5, 0.9)
 
 @functools.cache
 def suzanne(subdivisions: int) -> TriangleMesh:
-    bpy.ops.mesh.primitive_monkey_add()
-    obj = bpy.context.active_object
-    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels = subdivisions
-    bpy.ops.object.modifier_apply(modifier=modifier.name)
-    return read_shape(obj)
+    return read_shape(subdivided_suzanne(subdivisions))
 
 
 def parts_of(mesh: TriangleMesh) -> Decomposition:
