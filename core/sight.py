@@ -195,6 +195,6 @@ def frames(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return two unit vectors that complete each normal to a frame."""
     helpers = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-    tangents = np.cross(normals, helpers)
+    tangents = np.asarray(np.cross(normals, helpers), dtype=np.float64)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
-    return tangents, np.cross(normals, tangents)
+    return tangents, np.asarray(np.cross(normals, tangents), dtype=np.float64)

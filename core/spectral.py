@@ -50,7 +50,7 @@ def embed(
     rng = np.random.default_rng(0)
     n_vectors = min(n_coordinates, n_samples - 1)
     values, vectors = eigsh(
-        _shifted_walk(affinity, spread, scales, _NOISE * rng.random(n_samples)),
+        _shifted_walk(affinity, spread, scales, rng.random((n_samples,))),
         k=n_vectors,
         which="LA",
         v0=rng.random(n_samples),
@@ -85,6 +85,8 @@ def _shifted_walk(
         vector = vector.ravel()
         scaled = scales * vector
         product = affinity @ scaled.astype(affinity.dtype)
-        return scales * (product + spread * scaled.sum()) + (1 + noise) * vector
+        return (
+            scales * (product + spread * scaled.sum()) + (1 + _NOISE * noise) * vector
+        )
 
     return LinearOperator(affinity.shape, multiply, dtype=np.float64)
