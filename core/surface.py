@@ -59,9 +59,8 @@ class Surface:
         Links connect whole shells and what is larger than `firm_area`, not the specks
         that a label may have next to another shell.
         """
-        alike = self.neighbors[
-            (labels[self.neighbors] == labels[self.neighbors[:, :1]]).all(axis=1)
-        ]
+        ends = labels[self.neighbors]
+        alike = self.neighbors[ends[:, 0] == ends[:, 1]]
         pieces = _components(alike, self.n_polygons)
         firm = self.areas_of(pieces) >= firm_area
         one, other = pieces[self.neighbors].T
