@@ -3,7 +3,8 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint zip bench bench-speed clean venv development
+.PHONY: help demo test lint zip bench bench-coacd bench-ablation bench-speed contact-sheet \
+  clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -17,7 +18,7 @@ PYTHON_HERE := PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python
 help: ## List these commands
 	@echo "make COMMAND [BPY=4.2|5.0|5.2] [PYTHON=path of a Python 3.11 or 3.13]"
 	@echo
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' Makefile
 
 demo: venv ## Decompose Blender's monkey; results in build/demo/
 	@mkdir -p build/demo
@@ -43,16 +44,32 @@ lint: development ## Check the format, the rules of the code and the types of co
 zip: venv ## Build the installable zips into build/
 	@$(PYTHON_HERE) .tools/extension.py build --output build
 
-bench: venv ## Measure quality: make bench PSB=directory of the Princeton benchmark
-	@[ -n "$(PSB)" ] || { echo "Name the benchmark's directory: make bench PSB=directory"; exit 1; }
+bench: psb venv ## Measure quality: make bench PSB=directory of the Princeton benchmark
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/rand_index.py "$(PSB)" $(BENCH)
+
+bench-coacd: psb venv ## Segment the benchmark with CoACD: PSB=directory SEGMENTS=folder
+	@[ -n "$(SEGMENTS)" ] || { echo "Name the folder to write to: SEGMENTS=folder"; exit 1; }
+	@$(VENV)/bin/python -m venv .venv-coacd
+	@.venv-coacd/bin/pip install -qq --disable-pip-version-check coacd==1.0.14 numpy scipy
+	@PYTHONPATH=tests PYTHONDONTWRITEBYTECODE=1 .venv-coacd/bin/python \
+	  tests/benchmarks/coacd_segments.py "$(PSB)" "$(SEGMENTS)"
+
+bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=directory
+	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/speed.py
 
+contact-sheet: psb venv ## Draw the benchmark's models in build/contact_sheet/: PSB=directory
+	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/contact_sheet.py "$(PSB)" \
+	  build/contact_sheet $(BENCH)
+
 clean: ## Remove everything that these commands made
 	rm -rf build wheels .venv .venv-* .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+psb:
+	@[ -n "$(PSB)" ] || { echo "Name the benchmark's directory: make $(MAKECMDGOALS) PSB=directory"; exit 1; }
 
 venv:
 	@.tools/make_venv "$(VENV)"

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from sklearn.cluster import KMeans
 from threadpoolctl import threadpool_limits
 
-_STARTS = 10
+_STARTS = 4
 _THREADS = "OMP_NUM_THREADS"
 _DECIMALS = 6
 

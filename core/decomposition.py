@@ -31,7 +31,7 @@ class Decomposition:
     ranks : (K,) float
         Convexity rank of each part (eq. 1).
     psi_before : float
-        Convexity rank of the whole shape, which is psi of one part.
+        Psi of one part: the convexity rank of the whole shape, but for containers.
     psi : float
         Quality of the parts (eq. 5).
     psi_by_k : dict of int to float
@@ -111,14 +111,15 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
         )
     parts = yield from within(partitioner.seamed(parts), 0.7, 1.0)
     parts = _by_size(parts, surface)
-    tally = partitioner.tally(parts)
+    samples = visibility.transfer.to_samples(parts)
+    ranks = visibility.ranked.tally(samples, count(parts)).ranks()
     return Decomposition(
         labels=parts,
         areas=surface.areas_of(parts) * visibility.unit_area,
         face_counts=np.bincount(parts),
-        ranks=tally.ranks(),
+        ranks=ranks,
         psi_before=psi_by_k[1],
-        psi=tally.psi(parameters.alpha),
+        psi=partitioner.psi(parts),
         psi_by_k=psi_by_k,
         notes=visibility.notes + _notes_on_count(parameters, psi_by_k),
     )
@@ -134,7 +135,7 @@ def measure(
     """
     sight = yield from look(mesh, parameters, make_caster)
     rank, standard_error = sight.pairs.rank_of_all()
-    return Measurement(rank, standard_error, parameters.samples, sight.notes)
+    return Measurement(rank, standard_error, len(sight.samples), sight.notes)
 
 
 def _by_size(parts: NDArray[np.int64], surface: Surface) -> NDArray[np.int64]:

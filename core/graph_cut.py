@@ -24,12 +24,12 @@ _LARGEST_CAPACITY = 2**24
 _BAND = 6
 
 
-def dislikes(
+def distances_to_parts(
     embedding: NDArray[np.float64],
     labels: NDArray[np.int64],
     n_labels: int,
 ) -> NDArray[np.float64]:
-    """Return how little each sample likes each label: the data term of eq. 4.
+    """Return how far each sample is from each label: the paper's data term of eq. 4.
 
     The negative logarithm of a Gaussian kernel of the distance to the center of the
     label's samples in the embedding, with the variance within parts, saturated.

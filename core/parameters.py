@@ -41,11 +41,11 @@ class Parameters:
         ),
     )
     alpha: float = parameter(
-        1.0,
+        2.0,
         Knob(
             "Balance",
             "Weight alpha of pairs hidden between parts against pairs visible within"
-            " parts: more splits the shape further",
+            " parts: more splits the shape further; the paper uses 1",
             low=0.0,
             high=10.0,
             advanced=False,
@@ -72,11 +72,31 @@ class Parameters:
             advanced=False,
         ),
     )
+    sampling: str = parameter(
+        "AREA",
+        Knob(
+            "Sampling",
+            "Where the samples are, between which lines of sight run",
+            choices=(
+                Choice(
+                    "AREA",
+                    "By Area",
+                    "Spread evenly over the surface, as many as Samples says",
+                ),
+                Choice(
+                    "FACES",
+                    "By Faces",
+                    "One on each triangle, small meshes being subdivided to 3000, as in"
+                    " the paper",
+                ),
+            ),
+        ),
+    )
     samples: int = parameter(
         1500,
         Knob(
             "Samples",
-            "Points spread evenly over the surface, between which lines of sight run",
+            "Points spread evenly over the surface",
             low=16,
             high=10000,
         ),
@@ -108,6 +128,27 @@ class Parameters:
                     "Ray Hits",
                     "Pairs that the cone's rays found, as in the paper: biased"
                     " towards near and visible pairs",
+                ),
+            ),
+        ),
+    )
+    containers: str = parameter(
+        "FILLED",
+        Knob(
+            "Containers",
+            "Whether what the shape encloses, such as the hollow of a cup, is seen"
+            " through",
+            choices=(
+                Choice(
+                    "FILLED",
+                    "Filled",
+                    "The enclosed outside counts as inside, so that thin walls around"
+                    " it stay whole; shapes that enclose nothing are not affected",
+                ),
+                Choice(
+                    "HOLLOW",
+                    "Hollow",
+                    "Lines of sight run through the inside alone, as in the paper",
                 ),
             ),
         ),
@@ -149,6 +190,25 @@ class Parameters:
     max_parts: int = parameter(
         13,
         Knob("Most Parts", "Where the search for k ends", low=2, high=256),
+    )
+    refinement: str = parameter(
+        "PSI",
+        Knob(
+            "Refinement",
+            "What k-means' clusters and their seams are refined by",
+            choices=(
+                Choice(
+                    "PSI",
+                    "Psi",
+                    "Samples change their part, and seams move, where psi gains by it",
+                ),
+                Choice(
+                    "EMBEDDING",
+                    "Embedding",
+                    "Clusters stay as they are and seams keep to them, as in the paper",
+                ),
+            ),
+        ),
     )
     smoothness: float = parameter(
         2.0,

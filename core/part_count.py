@@ -8,18 +8,20 @@ from numpy.typing import NDArray
 from .partition import Partitioner, count
 from .progress import Progress, Steps
 
-# Psi of two sets of samples of one shape differs by about this much: a gain below it
-# is no reason for one more part.
-_PSI_TOLERANCE = 0.005
+# Psi of two sets of samples of one shape differs by about this much, over the square
+# root of their number: a gain below it is no reason for one more part, ...
+_PSI_TOLERANCE = 0.2
+# ... nor are the last hundredths of all there is to gain: psi saturates.
+_GAIN_TOLERANCE = 0.035
 
 
 def search_part_count(
     partitioner: Partitioner, low: int, high: int
 ) -> Steps[tuple[NDArray[np.int64], dict[int, float]]]:
-    """Return the parts of largest psi, over every k from `low` to `high`.
+    """Return the parts of nearly the largest psi, over every k from `low` to `high`.
 
-    Of several k that are as good within the sampling error of psi, the smallest; one
-    part where no more of them gain anything.
+    Of several k that gain as much over one part, but for a small share of it and the
+    sampling error of psi, the smallest; one part where no more of them gain anything.
 
     Returns
     -------
@@ -35,6 +37,8 @@ def search_part_count(
             break
         parts_by_k[n_parts] = parts
     psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
-    enough = max(psi_by_k.values()) - _PSI_TOLERANCE
+    most = max(psi_by_k.values())
+    noise = _PSI_TOLERANCE / np.sqrt(len(partitioner.visibility.samples))
+    enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
     best = min(k for k, psi in psi_by_k.items() if psi >= enough)
     return parts_by_k[best], psi_by_k

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from .clustering import cluster
 from .convexity import PairTally
-from .graph_cut import cut_seams, dislikes
+from .graph_cut import cut_seams, distances_to_parts
+from .moves import raise_psi
 from .parameters import Parameters
 from .progress import Steps
 from .refinement import connected_parts, merge_to
@@ -35,6 +36,7 @@ class Partitioner:
         self.parameters = parameters
         self.transfer = visibility.transfer
         self.surface = visibility.transfer.surface
+        self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
@@ -49,7 +51,28 @@ class Partitioner:
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
         most = np.zeros(self.surface.n_polygons, dtype=np.int64)
-        n_coordinates = self.parameters.eigenvectors or n_parts
+        if n_parts > 1 and self.by_psi:
+            n_clusters, labels = self._clusters(n_parts)
+            labels = raise_psi(
+                self.visibility.pairs, labels, n_clusters, self.parameters.alpha
+            )
+            most = self._tidied(self.transfer.to_polygons(labels, n_clusters), n_parts)
+        # Psi is better with fewer parts: they are split where it loses least.
+        fewer = most
+        for more in _MORE_CLUSTERS:
+            if count(most) >= n_parts:
+                break
+            n_clusters, labels = self._clusters(n_parts + more)
+            clusters = self.transfer.to_polygons(labels, n_clusters)
+            parts = self._tidied(fewer * n_clusters + clusters, n_parts)
+            if count(parts) > count(most):
+                most = parts
+        return most
+
+    def _clusters(self, n_clusters: int) -> tuple[int, NDArray[np.int64]]:
+        """Return the number of clusters of the samples, and their labels, (N,) int."""
+        n_clusters = min(n_clusters, len(self.visibility.samples))
+        n_coordinates = self.parameters.eigenvectors or n_clusters
         # Samples that see the same, as in a convex shape, are told apart by place.
         coordinates = np.hstack(
             [
@@ -57,15 +80,7 @@ class Partitioner:
                 _PLACE_WEIGHT * self.visibility.samples.positions,
             ]
         )
-        for more in _MORE_CLUSTERS:
-            n_clusters = n_parts + more
-            if count(most) >= n_parts or n_clusters > len(coordinates):
-                break
-            labels = cluster(coordinates, n_clusters, self.parameters.seed)
-            parts = self._tidied(self.transfer.to_polygons(labels, n_clusters), n_parts)
-            if count(parts) > count(most):
-                most = parts
-        return most
+        return n_clusters, cluster(coordinates, n_clusters, self.parameters.seed)
 
     def seamed(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
         """Return the same number of parts with their seams cut anew (eq. 4)."""
@@ -73,9 +88,7 @@ class Partitioner:
         if n_parts == 1 or self.parameters.smoothness == 0:
             return parts
         labels = self.transfer.to_samples(parts)
-        costs = self.transfer.shares @ dislikes(
-            self.visibility.embedding, labels, n_parts
-        )
+        costs = self.transfer.shares @ self._dislikes(labels, n_parts)
         for share in _SOFTER:
             cut = yield from cut_seams(
                 self.surface, parts, costs, share * self.parameters.smoothness
@@ -84,6 +97,16 @@ class Partitioner:
             if count(cut) == n_parts:
                 return cut
         return parts
+
+    def _dislikes(
+        self, labels: NDArray[np.int64], n_labels: int
+    ) -> NDArray[np.float64]:
+        """Return the data term of eq. 4, how little samples like labels, (N, K)."""
+        if not self.by_psi:
+            return distances_to_parts(self.visibility.embedding, labels, n_labels)
+        members = np.eye(n_labels, dtype=np.float32)[labels]
+        pulls = self.visibility.pairs.pulls(members, self.parameters.alpha)
+        return pulls.max(axis=1, keepdims=True) - pulls
 
     def _tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return at most `n_parts` parts, connected where that many allow it."""

@@ -11,6 +11,9 @@ from .shapes import TriangleMesh
 
 # Candidates per sample: each sample is one of a run of neighbors on the curve.
 _CANDIDATES = 16
+# Triangles that the paper calls dense, and how many it makes of fewer.
+_DENSE_FACES = 2000
+_UPSAMPLED_FACES = 3000
 # Bits per axis of the space-filling curve's grid.
 _CURVE_BITS = 16
 
@@ -73,6 +76,50 @@ def sample_surface(
     chosen = runs[np.arange(n_samples), rng.integers(_CANDIDATES, size=n_samples)]
     picked = triangles[chosen]
     return Samples(candidates[chosen], mesh.normals[picked], picked)
+
+
+def sample_faces(mesh: TriangleMesh) -> Samples:
+    """Take the center of each triangle as a sample, as the paper does (section 5).
+
+    The triangles of a mesh with few of them are halved first, always the largest ones,
+    until there are enough; those without area are left out.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With positive area.
+
+    Returns
+    -------
+    Samples
+        Unlike those of `sample_surface`, not of equal area.
+    """
+    triangles = np.flatnonzero(mesh.areas > 0)
+    corners, areas = mesh.vertices[mesh.triangles[triangles]], mesh.areas[triangles]
+    enough = 0 if len(triangles) >= _DENSE_FACES else _UPSAMPLED_FACES
+    while len(corners) < enough:
+        largest = np.argsort(-areas, kind="stable")[: enough - len(corners)]
+        largest = largest[areas[largest] > areas[largest[0]] / 2]
+        halves = _halves(corners[largest])
+        corners[largest] = halves[0]
+        areas[largest] /= 2
+        corners = np.concatenate([corners, halves[1]])
+        areas = np.concatenate([areas, areas[largest]])
+        triangles = np.concatenate([triangles, triangles[largest]])
+    return Samples(corners.mean(axis=1), mesh.normals[triangles], triangles)
+
+
+def _halves(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return triangles (T, 3, 3) cut in two through their longest edges, (2, T, 3, 3).
+
+    The edge from corner i to i + 1 is cut; corner i + 2 lies across.
+    """
+    rows = np.arange(len(corners))
+    edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    first = edges.argmax(axis=1)
+    a, b, c = (corners[rows, (first + step) % 3] for step in range(3))
+    middle = (a + b) / 2
+    return np.stack([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
 
 
 def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -6,8 +6,9 @@ from . import command_line
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
 from .measure import WCD_OT_measure
+from .use_preset import WCD_OT_use_preset
 
-CLASSES = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_clear)
+CLASSES = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_clear, WCD_OT_use_preset)
 
 
 def register() -> None:

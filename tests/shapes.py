@@ -138,6 +138,21 @@ def open_box(divisions=4):
 # Spheres.
 
 
+def cup(wall=0.1):
+    """Return an open cup of 1 × 1 × 1, walls and bottom of one thickness, in quads."""
+    ring = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    inner = wall + (1 - 2 * wall) * ring
+    levels = ((ring, 0), (ring, 1), (inner, 1), (inner, wall))
+    vertices = [(*corner, z) for corners, z in levels for corner in corners]
+    faces = [(3, 2, 1, 0), (12, 13, 14, 15)]
+    for low in (0, 4, 8):
+        faces += [
+            (low + i, low + j, low + 4 + j, low + 4 + i)
+            for i, j in ((0, 1), (1, 2), (2, 3), (3, 0))
+        ]
+    return mesh_of(vertices, faces)
+
+
 def sphere(subdivisions=2, radius=1.0, center=(0, 0, 0)):
     """Return an icosahedron, each face halved and pushed out so often."""
     golden = (1 + np.sqrt(5)) / 2

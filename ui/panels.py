@@ -46,6 +46,13 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
 
     bl_label = "Convex Parts"
 
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """Draw the menu of presets."""
+        self.layout.emboss = "NONE"
+        self.layout.operator_menu_enum(
+            "wcd.use_preset", "preset", text="", icon="PRESET"
+        )
+
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
         layout = self.layout

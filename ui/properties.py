@@ -12,11 +12,12 @@ import numpy as np
 
 from ..core.knobs import Knob, knob_of
 from ..core.parameters import Parameters
+from ..core.presets import Preset
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not knob_of(f).advanced)
 ADVANCED = tuple(f.name for f in fields(Parameters) if knob_of(f).advanced)
-MEASURE = ("samples", "sight", "rays", "cone_angle", "seed")
+MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 
 
 def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
@@ -37,6 +38,8 @@ def is_used(owner: Any, name: str) -> bool:
         return owner.sight == "CONE"
     if name in {"min_parts", "max_parts"}:
         return owner.parts == 0
+    if name == "samples":
+        return owner.sampling == "AREA"
     return True
 
 
@@ -83,6 +86,13 @@ def _value(owner: Any, field: Field[Any]) -> Any:
     if value == float(np.float32(field.default)):
         return field.default
     return float(f"{value:.7g}")
+
+
+def use_preset(owner: Any, chosen: Preset) -> None:
+    """Set all settings of `owner` to those of a preset."""
+    parameters = chosen.parameters()
+    for name in ALL:
+        setattr(owner, name, getattr(parameters, name))
 
 
 class WCD_PG_settings(bpy.types.PropertyGroup):

@@ -12,6 +12,7 @@ from typing import Any
 from ...core.errors import DecompositionError
 from ...core.knobs import Knob, knob_of
 from ...core.parameters import Parameters
+from ...core.presets import PRESETS, preset
 from ..bridge.record import version
 from .exporting import ENDINGS as WRITTEN
 from .importing import ENDINGS as READ
@@ -51,7 +52,8 @@ def parse(arguments: list[str], program: str) -> Request:
     """Return the request that `arguments` state; exits like argparse."""
     parser = _parser(program)
     options = parser.parse_args(arguments)
-    values = {f.name: getattr(options, f.name) for f in fields(Parameters)}
+    names = [field.name for field in fields(Parameters)]
+    given = {n: getattr(options, n) for n in names if hasattr(options, n)}
     try:
         return Request(
             inputs=tuple(options.inputs),
@@ -61,7 +63,7 @@ def parse(arguments: list[str], program: str) -> Request:
             report=options.report,
             up=options.up,
             quiet=options.quiet,
-            parameters=Parameters(**values),
+            parameters=preset(options.preset).parameters(**given),
         )
     except DecompositionError as error:
         parser.error(str(error))
@@ -109,6 +111,16 @@ def _parser(program: str) -> argparse.ArgumentParser:
         help="print the version",
     )
     method = parser.add_argument_group("parameters of the method")
+    words = {_word(each.identifier): each.help for each in PRESETS}
+    method.add_argument(
+        "--preset",
+        metavar="{" + ",".join(words) + "}",
+        type=str.upper,
+        choices=[each.identifier for each in PRESETS],
+        default=PRESETS[0].identifier,
+        help="settings to start from, which the options below change. "
+        + "; ".join(f"{word}: {text}" for word, text in words.items()),
+    )
     for parameter_field in fields(Parameters):
         _add(method, parameter_field)
     return parser
@@ -132,7 +144,7 @@ def _add(group: argparse._ArgumentGroup, parameter_field: Field[Any]) -> None:
     group.add_argument(
         "--" + parameter_field.name.replace("_", "-"),
         type=convert,
-        default=default,
+        default=argparse.SUPPRESS,
         metavar=metavar,
         help=f"{_explained(knob)} (default: {shown})".replace("%", "%%"),
     )

@@ -1,182 +1,146 @@
-"""Rand Index error of the parts on the Princeton Segmentation Benchmark.
+"""Rand Index error of the parts on the Princeton Segmentation Benchmark, and psi.
 
-    make bench PSB=DIRECTORY
+    make bench PSB=DIRECTORY [BENCH="--beside FOLDER --fresh"]
 
 DIRECTORY has the benchmark's own layout: off/N.off and seg/Benchmark/N/N_k.seg. The
 error of a model is 1 - Rand Index over pairs of faces, the mean over its human
 segmentations; "given" asks for the median number of their parts, "auto" for none.
 """
 
-import argparse
-import json
 import os
 import statistics
 import sys
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
-import checkout  # noqa: F401  # makes the package importable
 import numpy as np
-from weak_convex_decomposition.core.decomposition import find_parts
+from kmeans_parts import clusters, connected_clusters
+from over_models import add_jobs, measured, parse, parser
+from princeton import mean_error, median_count, read_humans, read_model
+from score_table import Score, report
+from symmetry import find_mirror
+from weak_convex_decomposition.core.decomposition import Decomposition, find_parts
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.shapes import TriangleMesh
-from weak_convex_decomposition.core.visibility import see
+from weak_convex_decomposition.core.visibility import Visibility, look, see
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
-from weak_convex_decomposition.operators.headless.off_reader import read_off
-
-# fmt: off
-CATEGORIES = (
-    "Human", "Cup", "Glasses", "Airplane", "Ant", "Chair", "Octopus", "Table",
-    "Teddy", "Hand", "Plier", "Fish", "Bird", "Spring", "Armadillo", "Bust", "Mech",
-    "Bearing", "Vase", "FourLeg",
-)
-# fmt: on
-# Of the whole benchmark, by Chen, Golovinskiy and Funkhouser 2009. All but the
-# humans' own are quoted from memory and approximate.
-PUBLISHED = (
-    ("Humans among themselves", 0.103, "recomputed"),
-    ("Randomized Cuts", 0.152, "k given"),
-    ("Normalized Cuts", 0.172, "k given"),
-    ("Shape Diameter", 0.175, "automatic"),
-    ("Core Extraction", 0.210, "automatic"),
-    ("Fitting Primitives", 0.214, "k given"),
-    ("Random Walks", 0.218, "k given"),
-    ("K-Means", 0.251, "k given"),
-)
 
 
-@dataclass(frozen=True)
-class Score:
-    """What was measured on one model."""
-
-    model: int
-    given: float
-    auto: float
-    n_humans: int
-    n_auto: int
-    psi_before: float
-    psi: float
-    seconds: float
-
-    @property
-    def category(self) -> str:
-        return CATEGORIES[(self.model - 1) // 20]
-
-
-def rand_index_error(labels: np.ndarray, truth: np.ndarray) -> float:
-    """Return the share of pairs of faces on which two segmentations disagree."""
-    _, labels = np.unique(labels, return_inverse=True)
-    _, truth = np.unique(truth, return_inverse=True)
-    table = np.bincount(labels * (truth.max() + 1) + truth).astype(float)
-    ours, theirs = (np.bincount(each).astype(float) for each in (labels, truth))
-    agreed = (table**2).sum()
-    pairs = len(labels) * (len(labels) - 1) / 2
-    return (((ours**2).sum() + (theirs**2).sum()) / 2 - agreed) / pairs
-
-
-def score(directory: Path, model: int, parameters: Parameters) -> Score:
+def score(
+    directory: Path,
+    model: int,
+    parameters: Parameters,
+    beside: Path | None,
+    fresh: bool,
+) -> Score:
     """Decompose one model with k chosen, then with k given."""
-    mesh = read_model(directory / "off" / f"{model}.off")
-    humans = [
-        np.loadtxt(path, dtype=int)
-        for path in sorted((directory / "seg/Benchmark" / str(model)).glob("*.seg"))
-    ]
-    n_humans = int(np.median([len(np.unique(human)) for human in humans]))
-    started = time.perf_counter()
-    visibility = run(see(mesh, parameters, BvhRayCaster))
+    mesh = read_model(directory, model)
+    humans = read_humans(directory, model)
+    n_humans = median_count(humans)
+    given_parameters = replace(parameters, parts=n_humans)
+    started, processor_started = time.perf_counter(), time.process_time()
+    # With that many eigenvectors, where they are as many as parts.
+    visibility = run(see(mesh, given_parameters, BvhRayCaster))
     auto = run(find_parts(visibility, parameters))
     seconds = time.perf_counter() - started
-    given = run(find_parts(visibility, replace(parameters, parts=n_humans)))
-
-    def error(labels: np.ndarray) -> float:
-        return statistics.fmean(rand_index_error(labels, human) for human in humans)
-
+    processor_seconds = time.process_time() - processor_started
+    given = run(find_parts(visibility, given_parameters))
     return Score(
-        model,
-        error(given.labels),
-        error(auto.labels),
-        n_humans,
-        auto.n_parts,
-        auto.psi_before,
-        auto.psi,
-        seconds,
+        model=model,
+        given=mean_error(given.labels, humans),
+        auto=mean_error(auto.labels, humans),
+        n_humans=n_humans,
+        n_auto=auto.n_parts,
+        psi_before=auto.psi_before,
+        psi=auto.psi,
+        seconds=seconds,
+        processor_seconds=processor_seconds,
+        **asymmetries(mesh, auto.labels, humans),
+        **(on_fresh_samples(mesh, visibility, auto, parameters) if fresh else {}),
+        **(of_coacd(beside, model, humans) if beside else {}),
     )
 
 
-def read_model(path: Path) -> TriangleMesh:
-    """Return the mesh in an .off file."""
-    vertices, triangles = read_off(path)
-    # The benchmark has nothing but triangles.
-    return TriangleMesh(vertices, np.array(triangles), np.arange(len(triangles)))
+def asymmetries(
+    mesh: TriangleMesh, labels: np.ndarray, humans: list[np.ndarray]
+) -> dict[str, float]:
+    """Return the asymmetry of labels and the humans' mean, if there is a mirror."""
+    mirror = find_mirror(mesh)
+    if mirror is None:
+        return {}
+    return {
+        "asymmetry": mirror.asymmetry(labels),
+        "human_asymmetry": statistics.fmean(map(mirror.asymmetry, humans)),
+    }
 
 
-def report(scores: list[Score], command: str) -> str:
-    """Return the table by category, beside the published averages."""
-    lines = [
-        f"$ {command}",
-        f"bpy {bpy.app.version_string}, Python {sys.version.split()[0]},"
-        f" NumPy {np.__version__}, {os.cpu_count()} cores",
-        "",
-        f"{'category':24}{'given':>7}{'auto':>7}{'k humans':>10}{'k auto':>8}"
-        f"{'psi 1':>8}{'psi':>7}{'seconds':>9}",
-    ]
-    for category in dict.fromkeys(score.category for score in scores):
-        members = [score for score in scores if score.category == category]
-        lines.append(_row(category, members))
-    lines += ["", _row("all", scores), ""]
-    lines += ["Published averages over the whole benchmark:"]
-    lines += [f"{name:24}{error:7.3f}  {how}" for name, error, how in PUBLISHED]
-    lines += ["", "model  given   auto  k humans  k auto  psi 1    psi  seconds"]
-    lines += [
-        f"{s.model:5}{s.given:7.3f}{s.auto:7.3f}{s.n_humans:10}{s.n_auto:8}"
-        f"{s.psi_before:7.3f}{s.psi:7.3f}{s.seconds:9.2f}"
-        for s in scores
-    ]
-    return "\n".join(lines)
+def on_fresh_samples(
+    mesh: TriangleMesh,
+    visibility: Visibility,
+    auto: Decomposition,
+    parameters: Parameters,
+) -> dict[str, float]:
+    """Return psi (eq. 5) by all pairs of samples that no parts were found from."""
+    fresh = run(look(mesh, Parameters(seed=parameters.seed + 1), BvhRayCaster))
+    polygons = mesh.polygons[fresh.samples.triangles]
+
+    def psi(labels: np.ndarray) -> float:
+        tally = fresh.pairs.tally(labels[polygons], int(labels.max()) + 1)
+        return tally.psi(parameters.alpha)
+
+    k = auto.n_parts
+    return {
+        "fresh_psi": psi(auto.labels),
+        "kmeans_psi": psi(clusters(visibility, k, parameters)),
+        "connected_psi": psi(connected_clusters(visibility, k, parameters)),
+    }
 
 
-def _row(name: str, scores: list[Score]) -> str:
-    """Return the means of some scores, and the median of their seconds."""
-
-    def mean(field: str) -> float:
-        return statistics.fmean(getattr(score, field) for score in scores)
-
-    return (
-        f"{name:24}{mean('given'):7.3f}{mean('auto'):7.3f}{mean('n_humans'):10.1f}"
-        f"{mean('n_auto'):8.1f}{mean('psi_before'):8.3f}{mean('psi'):7.3f}"
-        f"{statistics.median(score.seconds for score in scores):9.2f}"
-    )
+def of_coacd(segments: Path, model: int, humans: list[np.ndarray]) -> dict[str, float]:
+    """Return the error and seconds of CoACD, if it did not fail on the model."""
+    if not (segments / f"{model}.seconds").exists():
+        return {}
+    labels = np.loadtxt(segments / f"{model}.seg", dtype=int)
+    return {
+        "coacd": mean_error(labels, humans),
+        "coacd_seconds": float((segments / f"{model}.seconds").read_text()),
+    }
 
 
 def main() -> int:
     """Score every model of a directory and print the table."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("directory", type=Path)
-    parser.add_argument(
-        "--models", type=int, nargs="*", help="numbers of models; all by default"
+    options = parser(__doc__)
+    add_jobs(options)
+    options.add_argument(
+        "--beside", type=Path, metavar="FOLDER", help="what bench-coacd wrote"
     )
-    parser.add_argument(
-        "--parameters",
-        type=json.loads,
-        default={},
-        metavar="JSON",
-        help='fields of Parameters, such as {"sight": "CONE"}',
+    options.add_argument(
+        "--fresh",
+        action="store_true",
+        help="compare psi with that of k-means on other samples, in twice the time",
     )
-    arguments = parser.parse_args()
-    models = arguments.models or sorted(
-        int(path.stem) for path in (arguments.directory / "off").glob("*.off")
-    )
-    if not models:
-        parser.error(f"no models: {arguments.directory}/off holds no .off files")
-    scores = []
-    for model in models:
-        done = score(arguments.directory, model, Parameters(**arguments.parameters))
-        scores.append(done)
+    arguments = parse(options)
+
+    def measure(model: int) -> list[Score]:
+        done = score(
+            arguments.directory,
+            model,
+            arguments.parameters,
+            arguments.beside,
+            arguments.fresh,
+        )
         print(f"{model}: {done.given:.3f} {done.auto:.3f}", file=sys.stderr)
-    print(report(scores, " ".join(["python", *sys.argv])))
+        return [done]
+
+    heading = (
+        f"$ {' '.join(['python', *sys.argv])}\n"
+        f"bpy {bpy.app.version_string}, Python {sys.version.split()[0]},"
+        f" NumPy {np.__version__}, {os.cpu_count()} cores"
+    )
+    print(report(measured(arguments, measure, Score), heading))
     return 0
 
 

@@ -12,6 +12,7 @@ import bpy
 import pytest
 from weak_convex_decomposition.core.knobs import knob_of
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.presets import preset
 from weak_convex_decomposition.core.progress import Progress
 from weak_convex_decomposition.operators.command_line import main
 from weak_convex_decomposition.operators.headless.options import parse
@@ -59,6 +60,11 @@ def test_options_reach_the_parameters():
     assert parameters.cone_angle == pytest.approx(math.radians(60))
     assert (parameters.sight, parameters.psi_pairs) == ("CONE", "RAYS")
     assert parse(["a.obj", "--sight", "All_Pairs"], "wcd").parameters == Parameters()
+
+
+def test_options_change_a_preset():
+    parameters = parse(["a.obj", "--alpha=3", "--preset=paper"], "wcd").parameters
+    assert parameters == preset("PAPER").parameters(alpha=3.0)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from hand_made import give_user_data
 from snapshot import snapshot
 from weak_convex_decomposition.core.decomposition import decompose, measure
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.presets import PRESETS
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read import read_shape
@@ -149,3 +150,15 @@ def test_every_parameter_is_a_property_of_operator_and_settings():
     for field in fields(Parameters):
         assert field.name in operator
         assert field.name in settings
+
+
+def test_a_preset_sets_every_setting_of_the_scene():
+    settings = bpy.context.scene.wcd
+    settings.seed, settings.alpha = 5, 7.0
+    for each in PRESETS:
+        assert bpy.ops.wcd.use_preset(preset=each.identifier) == {"FINISHED"}
+        found = asdict(parameters_from(settings))
+        angle = found.pop("cone_angle")
+        expected = asdict(each.parameters())
+        assert angle == pytest.approx(expected.pop("cone_angle"))
+        assert found == expected

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapes
 from weak_convex_decomposition.core import graph_cut
-from weak_convex_decomposition.core.graph_cut import cut_seams, dislikes
+from weak_convex_decomposition.core.graph_cut import cut_seams, distances_to_parts
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.surface import Surface, surface_of
 
@@ -152,7 +152,7 @@ def test_dislikes_grow_with_the_distance_to_the_center():
     rng = np.random.default_rng(0)
     labels = np.repeat([0, 1, 2], 20)
     embedding = np.eye(3)[labels] + 0.1 * rng.normal(size=(60, 3))
-    costs = dislikes(embedding, labels, 3)
+    costs = distances_to_parts(embedding, labels, 3)
     assert costs.shape == (60, 3)
     assert (costs.argmin(axis=1) == labels).all()
     assert costs.min() >= 0
@@ -164,8 +164,10 @@ def test_dislikes_grow_with_the_distance_to_the_center():
 
 
 def test_dislikes_of_samples_in_one_place_are_finite():
-    assert np.isfinite(dislikes(np.ones((10, 2)), np.repeat([0, 1], 5), 2)).all()
+    assert np.isfinite(
+        distances_to_parts(np.ones((10, 2)), np.repeat([0, 1], 5), 2)
+    ).all()
 
 
 def test_dislikes_of_a_label_without_samples_are_finite():
-    assert np.isfinite(dislikes(np.eye(4), np.array([0, 0, 1, 1]), 3)).all()
+    assert np.isfinite(distances_to_parts(np.eye(4), np.array([0, 0, 1, 1]), 3)).all()

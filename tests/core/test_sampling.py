@@ -3,7 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.sampling import sample_surface
+from brute_caster import BruteCaster
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.sampling import sample_faces, sample_surface
+from weak_convex_decomposition.core.visibility import look
 
 
 def draw(mesh, n_samples=400, seed=0):
@@ -92,3 +97,40 @@ def test_no_sample_falls_on_a_triangle_without_area():
     triangles = draw(mesh).triangles
     assert triangles.min() >= 12
     assert triangles.max() < 24
+
+
+def test_a_dense_mesh_has_a_sample_on_each_triangle():
+    mesh = shapes.sphere(4)
+    samples = sample_faces(mesh)
+    assert (samples.triangles == np.arange(len(mesh.triangles))).all()
+    centers = mesh.vertices[mesh.triangles].mean(axis=1)
+    assert np.allclose(samples.positions, centers)
+    assert np.allclose(samples.normals, mesh.normals)
+
+
+@pytest.mark.parametrize("make", [shapes.box, shapes.comb, uneven_box])
+def test_few_triangles_are_subdivided_to_three_thousand(make):
+    mesh = make()
+    samples = sample_faces(mesh)
+    assert len(samples) == 3000
+    corners = mesh.vertices[mesh.triangles[samples.triangles, 0]]
+    heights = ((samples.positions - corners) * samples.normals).sum(axis=1)
+    assert np.allclose(heights, 0)
+    # Large triangles get their share of the samples; small ones are left whole.
+    counts = np.bincount(samples.triangles, minlength=len(mesh.triangles))
+    assert counts.min() >= 1
+    large = mesh.areas > 4 * mesh.areas.sum() / 3000
+    densities = counts[large] / mesh.areas[large]
+    assert densities.max() <= 3 * densities.min()
+
+
+def test_faces_without_area_are_no_samples():
+    flat = shapes.mesh_of([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [(0, 1, 2)])
+    samples = sample_faces(shapes.joined(flat, shapes.box()))
+    assert samples.triangles.min() == 1
+
+
+def test_faces_can_be_too_many_for_all_pairs():
+    message = "all pairs of 20,480 faces are too many; choose Cone"
+    with pytest.raises(DecompositionError, match=message):
+        run(look(shapes.sphere(5), Parameters(sampling="FACES"), BruteCaster))

@@ -1,0 +1,74 @@
+"""Named sets of parameters."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from .errors import DecompositionError
+from .parameters import Parameters
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A set of parameters with a name.
+
+    Attributes
+    ----------
+    identifier, label, help : str
+    changes : dict of str to value
+        Fields of `Parameters` that differ from their defaults.
+    """
+
+    identifier: str
+    label: str
+    help: str
+    changes: dict[str, Any]
+
+    def parameters(self, **changes: Any) -> Parameters:
+        """Return these parameters but for some `changes` of one's own."""
+        return Parameters(**(self.changes | changes))
+
+
+PRESETS = (
+    Preset("DEFAULT", "Default", "What gives the best parts of most shapes", {}),
+    Preset(
+        "DENSE",
+        "Many Samples",
+        "Rays in wide cones from many samples, for shapes with many thin parts",
+        {"sight": "CONE", "samples": 6000},
+    ),
+    Preset(
+        "PAPER",
+        "Paper",
+        "The settings of Asafi, Goren and Cohen-Or 2013, for comparison",
+        {
+            "sampling": "FACES",
+            "sight": "CONE",
+            "rays": 30,
+            "cone_angle": math.radians(60.0),
+            "psi_pairs": "RAYS",
+            "containers": "HOLLOW",
+            "alpha": 1.0,
+            "regularization": 0.0,
+            "eigenvectors": 0,
+            "refinement": "EMBEDDING",
+        },
+    ),
+)
+
+
+def preset(identifier: str) -> Preset:
+    """Return the preset of that identifier.
+
+    Raises
+    ------
+    DecompositionError
+        If there is none.
+    """
+    for found in PRESETS:
+        if found.identifier == identifier:
+            return found
+    names = ", ".join(each.identifier for each in PRESETS)
+    raise DecompositionError(f"There is no preset {identifier!r}; choose from {names}.")

@@ -1,0 +1,189 @@
+"""What each stage is good for: the Rand Index error with it switched off.
+
+    make bench-ablation PSB=DIRECTORY [BENCH="--jobs 2"]
+
+One line for each; errors are those of rand_index.py. Psi is counted for all of them as
+the full method counts it, by its own samples.
+"""
+
+import statistics
+import sys
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+from over_models import add_jobs, measured, parse, parser
+from princeton import category, mean_error, median_count, read_humans, read_model
+from weak_convex_decomposition.core import part_count, partition, visibility
+from weak_convex_decomposition.core.decomposition import find_parts
+from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.presets import preset
+from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
+
+FULL = "full"
+CONE = {"sight": "CONE", "samples": 3000}
+# What each line changes of the parameters.
+CHANGES: dict[str, dict[str, object]] = {
+    FULL: {},
+    "no regularization": {"regularization": 0.0},
+    "cone sight": CONE,
+    "cone sight, psi from ray hits": {**CONE, "psi_pairs": "RAYS"},
+    "as many eigenvectors as parts": {"eigenvectors": 0},
+    "containers hollow": {"containers": "HOLLOW"},
+    "balance alpha = 1": {"alpha": 1.0},
+    "no psi-raising moves": {},
+    "no psi in moves and seams": {"refinement": "EMBEDDING"},
+    "no graph cut": {"smoothness": 0.0},
+    "no tolerance in the search for k": {},
+    "the paper's preset": preset("PAPER").changes,
+}
+# What lines replace in the code, where no parameter does: module, name, replacement.
+PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
+    "no psi-raising moves": [
+        (partition, "raise_psi", lambda _pairs, labels, *_: labels)
+    ],
+    "no tolerance in the search for k": [
+        (part_count, "_PSI_TOLERANCE", 0.0),
+        (part_count, "_GAIN_TOLERANCE", 0.0),
+    ],
+}
+# What comes after lines of sight: lines that differ in these alone share them.
+AFTERWARDS = {
+    "parts", "alpha", "containers", "normalization", "regularization", "eigenvectors",
+    "min_parts", "max_parts", "refinement", "smoothness", "smallest_part",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one model on one line."""
+
+    model: int
+    line: str
+    given: float
+    auto: float
+    n_auto: int
+    psi: float
+
+
+def outcomes(directory: Path, model: int, parameters: Parameters) -> list[Outcome]:
+    """Return what comes of one model on every line."""
+    mesh, humans = read_model(directory, model), read_humans(directory, model)
+    n_humans = median_count(humans)
+    found = []
+    with shared_sight():
+        full = run(visibility.see(mesh, parameters, BvhRayCaster))
+        for line, changes in CHANGES.items():
+            settings = replace(parameters, **changes)
+            given_settings = replace(settings, parts=n_humans)
+            with patched(PATCHES.get(line, ())):
+                # With that many eigenvectors, where they are as many as parts.
+                seen = run(visibility.see(mesh, given_settings, BvhRayCaster))
+                auto = run(find_parts(seen, settings))
+                given = run(find_parts(seen, given_settings))
+            samples = full.transfer.to_samples(auto.labels)
+            tally = full.pairs.tally(samples, auto.n_parts)
+            found.append(
+                Outcome(
+                    model,
+                    line,
+                    mean_error(given.labels, humans),
+                    mean_error(auto.labels, humans),
+                    auto.n_parts,
+                    tally.psi(parameters.alpha),
+                )
+            )
+    return found
+
+
+@contextmanager
+def patched(replacements: Sequence[tuple[Any, str, Any]]) -> Iterator[None]:
+    """Put replacements in the place of what modules have under a name."""
+    with ExitStack() as stack:
+        for module, name, replacement in replacements:
+            stack.enter_context(mock.patch.object(module, name, replacement))
+        yield
+
+
+@contextmanager
+def shared_sight() -> Iterator[None]:
+    """Look once for all lines that see the same: that takes longest."""
+
+    def looked_at(_mesh: object, parameters: Parameters, _caster: object) -> Hashable:
+        named = vars(parameters).items()
+        return frozenset(item for item in named if item[0] not in AFTERWARDS)
+
+    keys: dict[str, Callable[..., Hashable]] = {
+        "look": looked_at,
+        "_through_containers": id,
+    }
+    shared = {name: once(getattr(visibility, name), key) for name, key in keys.items()}
+    with patched([(visibility, name, steps) for name, steps in shared.items()]):
+        yield
+
+
+def once(steps: Callable[..., Any], key: Callable[..., Hashable]) -> Callable[..., Any]:
+    """Return the steps as they are for the first call of each key, then their value."""
+    kept: dict[Hashable, Any] = {}
+
+    def steps_or_value(*arguments: Any) -> Iterator[Any]:
+        if key(*arguments) not in kept:
+            kept[key(*arguments)] = yield from steps(*arguments)
+        return kept[key(*arguments)]
+
+    return steps_or_value
+
+
+def report(found: Sequence[Outcome]) -> str:
+    """Return the table, one line for each stage switched off."""
+    dry = [outcome for outcome in found if category(outcome.model) != "Cup"]
+    n_models = len({outcome.model for outcome in found})
+    rows = [
+        f"Means over {n_models} models",
+        "",
+        f"{'':34}{'':14}{'without cups':>15}",
+        f"{'':34}{'given':>7}{'auto':>7}{'given':>8}{'auto':>7}{'k auto':>8}{'psi':>7}",
+    ]
+    for line in CHANGES:
+        cells = (
+            format(_mean(some, line, field), form)
+            for some, field, form in (
+                (found, "given", "7.3f"),
+                (found, "auto", "7.3f"),
+                (dry, "given", "8.3f"),
+                (dry, "auto", "7.3f"),
+                (found, "n_auto", "8.1f"),
+                (found, "psi", "7.3f"),
+            )
+        )
+        rows.append(f"{line:34}{''.join(cells)}")
+    return "\n".join(rows)
+
+
+def _mean(found: Sequence[Outcome], line: str, field: str) -> float:
+    """Return the mean of a figure on one line; of nothing, it is not a number."""
+    figures = [getattr(outcome, field) for outcome in found if outcome.line == line]
+    return statistics.fmean(figures) if figures else float("nan")
+
+
+def main() -> int:
+    """Measure every model of a directory on every line and print the table."""
+    options = parser(__doc__)
+    add_jobs(options)
+    arguments = parse(options)
+
+    def measure(model: int) -> list[Outcome]:
+        print(model, file=sys.stderr)
+        return outcomes(arguments.directory, model, arguments.parameters)
+
+    found = measured(arguments, measure, Outcome)
+    print(f"$ {' '.join(['python', *sys.argv])}\n\n{report(found)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

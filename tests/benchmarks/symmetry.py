@@ -1,0 +1,118 @@
+"""Mirror asymmetry of parts: the share of a symmetric shape that is cut one-sidedly.
+
+No Blender and no lines of sight: points spread over the surface, and for each the face
+that lies where its mirror image is.
+"""
+
+from dataclasses import dataclass
+
+import checkout  # noqa: F401  # makes the package importable
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial import cKDTree
+from weak_convex_decomposition.core.sampling import Samples, sample_surface
+from weak_convex_decomposition.core.shapes import TriangleMesh
+
+# Points that stand for the surface, and every how manieth is mirrored.
+POINTS = 40_000
+STEP = 10
+# Distance from its mirror image, in diagonals, at which a surface counts as symmetric,
+# and the share of it that has to be.
+NEAR = 0.01
+ENOUGH = 0.95
+# How far apart two points of normals one unit apart count, in diagonals: the two sides
+# of a thin wall are not each other's mirror image.
+NORMAL_WEIGHT = 0.01
+# A plane moves to where the nearest points want it, so many times.
+ROUNDS = 4
+TRUSTED = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Mirror:
+    """What lies on both sides of the mirror plane of a shape.
+
+    Attributes
+    ----------
+    faces : (N,) int
+        Face of each of N points of equal area.
+    images : (N,) int
+        Face where the point's mirror image is.
+    """
+
+    faces: np.ndarray
+    images: np.ndarray
+
+    def asymmetry(self, labels: np.ndarray) -> float:
+        """Return the share of the area that is cut otherwise than its mirror image.
+
+        Each part has one other, or itself, for its mirror image: such that as much as
+        possible of the area has the label that its mirror image calls for.
+        """
+        _, labels = np.unique(labels, return_inverse=True)
+        n_labels = int(labels.max()) + 1
+        pairs = labels[self.faces] * n_labels + labels[self.images]
+        overlaps = np.bincount(pairs, minlength=n_labels**2).reshape(n_labels, n_labels)
+        matches = linear_sum_assignment(overlaps, maximize=True)
+        return 1.0 - float(overlaps[matches].sum() / len(self.faces))
+
+
+def find_mirror(mesh: TriangleMesh) -> Mirror | None:
+    """Return the best mirror plane's two sides, or None for a shape without one."""
+    mesh = mesh.normalized()
+    samples = sample_surface(mesh, POINTS, np.random.default_rng(0))
+    reflector = _Reflector(samples)
+    found = [
+        image for normal in _normals(samples) for image in reflector.improved(normal)
+    ]
+    rows, fit = max(found, key=lambda image: image[1])
+    if fit < ENOUGH:
+        return None
+    faces = mesh.polygons[samples.triangles]
+    return Mirror(faces[::STEP], faces[rows])
+
+
+def _normals(samples: Samples) -> np.ndarray:
+    """Return the axes of space and the principal axes of a shape, (6, 3)."""
+    _, principal = np.linalg.eigh(np.cov(samples.positions.T))
+    return np.concatenate([np.eye(3), principal.T])
+
+
+class _Reflector:
+    """Mirrors points of a surface, and finds what lies there."""
+
+    def __init__(self, samples: Samples) -> None:
+        self.samples = samples
+        self.points = samples.positions[::STEP]
+        self.normals = samples.normals[::STEP]
+        self.tree = cKDTree(
+            np.hstack([samples.positions, NORMAL_WEIGHT * samples.normals])
+        )
+
+    def improved(self, normal: np.ndarray) -> list[tuple[np.ndarray, float]]:
+        """Return rows of the samples at the mirror images, and how well they fit.
+
+        For a plane through the center with this normal, and for what becomes of it: a
+        plane is normal to the way from points to their images, halfway between them.
+        """
+        found = []
+        offset = float(self.samples.positions.mean(axis=0) @ normal)
+        for _ in range(ROUNDS):
+            rows, distances = self._images(normal, offset)
+            found.append((rows, float((distances <= NEAR).mean())))
+            trusted = distances <= np.quantile(distances, TRUSTED)
+            ends = self.samples.positions[rows[trusted]]
+            ways = ends - self.points[trusted]
+            normal = np.linalg.eigh(ways.T @ ways)[1][:, -1]
+            offset = float(((ends + self.points[trusted]) / 2 @ normal).mean())
+        return found
+
+    def _images(
+        self, normal: np.ndarray, offset: float
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the sample nearest to each point's mirror image, and its distance."""
+        heights = self.points @ normal - offset
+        points = self.points - 2 * np.outer(heights, normal)
+        normals = self.normals - 2 * np.outer(self.normals @ normal, normal)
+        _, rows = self.tree.query(np.hstack([points, NORMAL_WEIGHT * normals]))
+        return rows, np.linalg.norm(self.samples.positions[rows] - points, axis=1)
