@@ -20,7 +20,6 @@ from princeton import category, mean_error, median_count, read_humans, read_mode
 from weak_convex_decomposition.core import part_count, partition, visibility
 from weak_convex_decomposition.core.decomposition import find_parts
 from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.presets import preset
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
 
@@ -39,7 +38,6 @@ CHANGES: dict[str, dict[str, object]] = {
     "no psi in moves and seams": {"refinement": "EMBEDDING"},
     "no graph cut": {"smoothness": 0.0},
     "no tolerance in the search for k": {},
-    "the paper's preset": preset("PAPER").changes,
 }
 # What lines replace in the code, where no parameter does: module, name, replacement.
 PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
