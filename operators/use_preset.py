@@ -18,6 +18,13 @@ class WCD_OT_use_preset(bpy.types.Operator):
     bl_description = "Set all settings in the sidebar to those of a preset"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip of a preset's entry in the menu."""
+        return preset(properties.preset).help
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set them."""
         use_preset(context.scene.wcd, preset(self.preset))

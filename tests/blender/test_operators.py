@@ -1,5 +1,6 @@
 import json
 from dataclasses import asdict, fields
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -12,6 +13,7 @@ from weak_convex_decomposition.core.presets import PRESETS
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read import read_shape
+from weak_convex_decomposition.operators.use_preset import WCD_OT_use_preset
 from weak_convex_decomposition.ui.properties import parameters_from
 
 FAST = {"samples": 300}
@@ -162,3 +164,7 @@ def test_a_preset_sets_every_setting_of_the_scene():
         expected = asdict(each.parameters())
         assert angle == pytest.approx(expected.pop("cone_angle"))
         assert found == expected
+        tooltip = WCD_OT_use_preset.description(
+            bpy.context, SimpleNamespace(preset=each.identifier)
+        )
+        assert tooltip == each.help
