@@ -20,9 +20,9 @@ TOWARDS_CAMERA = 0.4  # radians: the camera stands to the right of the front
 # Elements of the bear: center and radius; mirrored ones have both signs of x.
 BEAR = [
     ((0, 0, 0), 2.1),
-    ((0, -0.1, 2.7), 1.8),
-    ((0, -1.1, 2.5), 0.8),
-    *(((s * 1.0, 0, 3.65), 0.9) for s in (-1, 1)),
+    ((0, -0.1, 2.2), 1.8),
+    ((0, -1.1, 2.0), 0.8),
+    *(((s * 1.0, 0, 3.15), 0.9) for s in (-1, 1)),
     *(
         ((s * (1.3 + t), -0.3 * t, 0.6 - 0.1 * t), 0.8)
         for s in (-1, 1)
