@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from .convexity import KnownPairs
+from .convexity import KnownPairs, pair_counts
 from .progress import Progress, Steps
 from .sampling import Samples
 from .scene import Scene
@@ -113,11 +113,7 @@ def see_uniform_pairs(
     visible = yield from see_pairs(scene, samples, views, first, second)
 
     def counted(chosen: NDArray[np.bool_]) -> sparse.csr_array:
-        ones = np.ones(chosen.sum(), dtype=np.float32)
-        half = sparse.coo_array(
-            (ones, (first[chosen], second[chosen])), shape=(n_samples, n_samples)
-        ).tocsr()
-        return sparse.csr_array(half + half.T)
+        return pair_counts(first[chosen], second[chosen], n_samples)
 
     return KnownPairs(counted(visible), counted(np.ones_like(visible)))
 
@@ -125,10 +121,6 @@ def see_uniform_pairs(
 def _symmetric(found: list[NDArray[np.int64]], n_samples: int) -> sparse.csr_array:
     """Return the 0-1 matrix with entries at the pairs found, and their mirrors."""
     rows, columns = np.concatenate([np.zeros((2, 0), dtype=np.int64), *found], axis=1)
-    half = sparse.coo_array(
-        (np.ones(len(rows), dtype=np.float32), (rows, columns)),
-        shape=(n_samples, n_samples),
-    ).tocsr()
-    matrix = sparse.csr_array(half + half.T)
+    matrix = pair_counts(rows, columns, n_samples)
     matrix.data[:] = 1.0
     return matrix

@@ -35,8 +35,6 @@ _STRIDE = 0.5
 _ENDS = 1.0
 # Segments between two reports of progress.
 _SEGMENTS_PER_STEP = 2**16
-
-
 # What a cell holds.
 _INSIDE, _ENCLOSED_OUTSIDE, _OPEN = np.arange(3, dtype=np.uint8)
 
@@ -78,8 +76,7 @@ def find_enclosed(scene: Scene, mesh: TriangleMesh) -> Steps[Grid]:
     -------
     Steps of Grid
     """
-    corners = mesh.vertices[mesh.triangles.ravel()]
-    low, high = corners.min(axis=0), corners.max(axis=0)
+    low, high = mesh.bounds
     size = float((high - low).max()) / _CELLS
     shape = np.maximum(np.ceil((high - low) / size), 1).astype(np.int64)
     low = (low + high - shape * size) / 2

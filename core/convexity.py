@@ -12,6 +12,22 @@ from scipy import sparse
 Matrix: TypeAlias = NDArray[np.float32] | sparse.csr_array
 
 
+def members_of(labels: NDArray[np.int64], n_labels: int) -> NDArray[np.float32]:
+    """Return 1 where a sample has a label and 0 elsewhere, (N, `n_labels`)."""
+    return np.eye(n_labels, dtype=np.float32)[labels]
+
+
+def pair_counts(
+    first: NDArray[np.int64], second: NDArray[np.int64], n_samples: int
+) -> sparse.csr_array:
+    """Return how often each pair was named, either way round, (N, N) float32."""
+    half = sparse.coo_array(
+        (np.ones(len(first), dtype=np.float32), (first, second)),
+        shape=(n_samples, n_samples),
+    ).tocsr()
+    return sparse.csr_array(half + half.T)
+
+
 @dataclass(frozen=True, eq=False)
 class KnownPairs:
     """What is known of which pairs of samples see each other.
@@ -52,8 +68,7 @@ class KnownPairs:
 
     def tally(self, labels: NDArray[np.int64], n_labels: int) -> PairTally:
         """Count visible and known pairs between every two labels."""
-        members = np.zeros((self.n_samples, n_labels), dtype=np.float32)
-        members[np.arange(self.n_samples), labels] = 1.0
+        members = members_of(labels, n_labels)
         visible = members.T @ (self.visible @ members)
         if self.known is None:
             sizes = members.sum(axis=0, dtype=np.float64)
@@ -78,9 +93,7 @@ class KnownPairs:
             visible = np.array(self.visible)
             visible[first, second] = visible[second, first] = 1.0
             return KnownPairs(visible, None)
-        ones = np.ones(len(first), dtype=np.float32)
-        half = sparse.coo_array((ones, (first, second)), shape=self.known.shape)
-        chosen = sparse.csr_array(half + half.T)
+        chosen = pair_counts(first, second, self.n_samples)
         return KnownPairs(
             sparse.csr_array(self.visible + self.known * chosen), self.known
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .convexity import KnownPairs
+from .convexity import KnownPairs, members_of
 
 # Sweeps over all samples at most; most shapes settle within five.
 _SWEEPS = 10
@@ -37,7 +37,7 @@ def raise_psi(
         Those of `n_labels` that psi is better without are not used any more.
     """
     labels = labels.copy()
-    members = np.eye(n_labels, dtype=np.float32)[labels]
+    members = members_of(labels, n_labels)
     for _ in range(_SWEEPS):
         before = labels.copy()
         for turn in range(_TURNS):
@@ -46,7 +46,7 @@ def raise_psi(
             best, here = pulls.argmax(axis=1), labels[rows]
             better = pulls.max(axis=1) > pulls[np.arange(len(here)), here]
             labels[rows] = np.where(better, best, here)
-            members[rows] = np.eye(n_labels, dtype=np.float32)[labels[rows]]
+            members[rows] = members_of(labels[rows], n_labels)
         if (labels == before).all():
             break
     return labels

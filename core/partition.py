@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .clustering import cluster
-from .convexity import PairTally
+from .convexity import PairTally, members_of
 from .graph_cut import cut_seams, distances_to_parts
 from .moves import raise_psi
 from .parameters import Parameters
@@ -51,18 +51,21 @@ class Partitioner:
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
         most = np.zeros(self.surface.n_polygons, dtype=np.int64)
-        if n_parts > 1 and self.by_psi:
-            n_clusters, labels = self._clusters(n_parts)
-            labels = raise_psi(
+        if n_parts == 1:
+            return most
+        n_clusters, labels = self._clusters(n_parts)
+        if self.by_psi:
+            raised = raise_psi(
                 self.visibility.pairs, labels, n_clusters, self.parameters.alpha
             )
-            most = self._tidied(self.transfer.to_polygons(labels, n_clusters), n_parts)
+            most = self._tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
         # Psi is better with fewer parts: they are split where it loses least.
         fewer = most
         for more in _MORE_CLUSTERS:
             if count(most) >= n_parts:
                 break
-            n_clusters, labels = self._clusters(n_parts + more)
+            if more:
+                n_clusters, labels = self._clusters(n_parts + more)
             clusters = self.transfer.to_polygons(labels, n_clusters)
             parts = self._tidied(fewer * n_clusters + clusters, n_parts)
             if count(parts) > count(most):
@@ -104,7 +107,7 @@ class Partitioner:
         """Return the data term of eq. 4, how little samples like labels, (N, K)."""
         if not self.by_psi:
             return distances_to_parts(self.visibility.embedding, labels, n_labels)
-        members = np.eye(n_labels, dtype=np.float32)[labels]
+        members = members_of(labels, n_labels)
         pulls = self.visibility.pairs.pulls(members, self.parameters.alpha)
         return pulls.max(axis=1, keepdims=True) - pulls
 

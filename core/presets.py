@@ -7,23 +7,20 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import DecompositionError
+from .knobs import Choice, Knob
 from .parameters import Parameters
 
 
 @dataclass(frozen=True)
-class Preset:
+class Preset(Choice):
     """A set of parameters with a name.
 
     Attributes
     ----------
-    identifier, label, help : str
     changes : dict of str to value
         Fields of `Parameters` that differ from their defaults.
     """
 
-    identifier: str
-    label: str
-    help: str
     changes: dict[str, Any]
 
     def parameters(self, **changes: Any) -> Parameters:
@@ -56,6 +53,10 @@ PRESETS = (
             "refinement": "EMBEDDING",
         },
     ),
+)
+
+PRESET_KNOB = Knob(
+    "Preset", "Settings to start from, which others then change", choices=PRESETS
 )
 
 

@@ -78,18 +78,24 @@ class TriangleMesh:
         return int(self.polygons.max()) + 1
 
     @property
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest corner of the box around the triangles' vertices."""
+        used = self.vertices[self.triangles.ravel()]
+        return used.min(axis=0), used.max(axis=0)
+
+    @property
     def diagonal(self) -> float:
         """Length of the diagonal of the bounding box of the triangles' vertices."""
-        used = self.vertices[self.triangles.ravel()]
-        return float(np.linalg.norm(used.max(axis=0) - used.min(axis=0)))
+        low, high = self.bounds
+        return float(np.linalg.norm(high - low))
 
     def normalized(self) -> TriangleMesh:
         """Return the mesh centered, with a bounding box of diagonal 1.
 
         Ray casters work in single precision and tolerances in shares of the diagonal.
         """
-        used = self.vertices[self.triangles.ravel()]
-        center = (used.max(axis=0) + used.min(axis=0)) / 2
+        low, high = self.bounds
+        center = (high + low) / 2
         if self.diagonal == 0 or not np.isfinite(self.diagonal):
             raise DecompositionError(
                 "The faces have no area; choose an object with a surface."

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
-from dataclasses import Field, dataclass, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from ...core.errors import DecompositionError
 from ...core.knobs import Knob, knob_of
 from ...core.parameters import Parameters
-from ...core.presets import PRESETS, preset
+from ...core.presets import PRESET_KNOB, PRESETS, preset
 from ..bridge.record import version
 from .exporting import ENDINGS as WRITTEN
 from .importing import ENDINGS as READ
@@ -23,6 +23,8 @@ Split the mesh objects of each INPUT into weakly convex parts.
 INPUT ends in one of {" ".join(READ)}.
 Results go to the files that the options name; a summary goes to standard output,
 progress, warnings and errors to standard error."""
+
+_DEFAULT_PRESET = PRESETS[0].identifier
 
 _EPILOG = f"""\
 output formats:
@@ -52,8 +54,9 @@ def parse(arguments: list[str], program: str) -> Request:
     """Return the request that `arguments` state; exits like argparse."""
     parser = _parser(program)
     options = parser.parse_args(arguments)
-    names = [field.name for field in fields(Parameters)]
-    given = {n: getattr(options, n) for n in names if hasattr(options, n)}
+    names = {field.name for field in fields(Parameters)}
+    given = {name: value for name, value in vars(options).items() if name in names}
+    chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
     try:
         return Request(
             inputs=tuple(options.inputs),
@@ -63,7 +66,7 @@ def parse(arguments: list[str], program: str) -> Request:
             report=options.report,
             up=options.up,
             quiet=options.quiet,
-            parameters=preset(options.preset).parameters(**given),
+            parameters=chosen.parameters(**given),
         )
     except DecompositionError as error:
         parser.error(str(error))
@@ -111,25 +114,15 @@ def _parser(program: str) -> argparse.ArgumentParser:
         help="print the version",
     )
     method = parser.add_argument_group("parameters of the method")
-    words = {_word(each.identifier): each.help for each in PRESETS}
-    method.add_argument(
-        "--preset",
-        metavar="{" + ",".join(words) + "}",
-        type=str.upper,
-        choices=[each.identifier for each in PRESETS],
-        default=PRESETS[0].identifier,
-        help="settings to start from, which the options below change. "
-        + "; ".join(f"{word}: {text}" for word, text in words.items()),
-    )
+    _add(method, "preset", PRESET_KNOB, _DEFAULT_PRESET)
     for parameter_field in fields(Parameters):
-        _add(method, parameter_field)
+        knob = knob_of(parameter_field)
+        _add(method, parameter_field.name, knob, parameter_field.default)
     return parser
 
 
-def _add(group: argparse._ArgumentGroup, parameter_field: Field[Any]) -> None:
-    """Add the option of one parameter."""
-    knob = knob_of(parameter_field)
-    default = parameter_field.default
+def _add(group: argparse._ArgumentGroup, name: str, knob: Knob, default: Any) -> None:
+    """Add an option; unless it is given, the options have no such name."""
     if knob.choices:
         convert: Callable[[str], Any] = _choice(knob)
         metavar = "{" + ",".join(_word(c.identifier) for c in knob.choices) + "}"
@@ -142,7 +135,7 @@ def _add(group: argparse._ArgumentGroup, parameter_field: Field[Any]) -> None:
         metavar = "N" if isinstance(default, int) else "X"
         shown = f"{default:g}"
     group.add_argument(
-        "--" + parameter_field.name.replace("_", "-"),
+        "--" + name.replace("_", "-"),
         type=convert,
         default=argparse.SUPPRESS,
         metavar=metavar,

@@ -19,7 +19,7 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 from hand_made import decomposition_of
 from over_models import parse, parser
-from princeton import mean_error, read_humans
+from princeton import mean_error, overlaps, read_humans
 from scipy.optimize import linear_sum_assignment
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
@@ -78,11 +78,9 @@ def most_agreed(humans: list[np.ndarray]) -> np.ndarray:
 def alike(labels: np.ndarray, model: np.ndarray) -> np.ndarray:
     """Return labels renumbered as those of `model` that they cover most of."""
     _, labels = np.unique(labels, return_inverse=True)
-    n_labels, n_model = int(labels.max()) + 1, int(model.max()) + 1
-    overlaps = np.bincount(labels * n_model + model, minlength=n_labels * n_model)
-    mine, theirs = linear_sum_assignment(
-        overlaps.reshape(n_labels, n_model), maximize=True
-    )
+    table = overlaps(labels, model)
+    n_labels, n_model = table.shape
+    mine, theirs = linear_sum_assignment(table, maximize=True)
     numbers = np.full(n_labels, -1)
     numbers[mine] = theirs
     left = np.flatnonzero(numbers < 0)

@@ -70,12 +70,19 @@ def mean_error(labels: np.ndarray, humans: list[np.ndarray]) -> float:
     return statistics.fmean(rand_index_error(labels, human) for human in humans)
 
 
+def overlaps(labels: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return how many faces have each two of the labels 0…K - 1 and 0…L - 1, (K, L)."""
+    shape = int(labels.max()) + 1, int(others.max()) + 1
+    pairs = np.ravel_multi_index((labels, others), shape)
+    return np.bincount(pairs, minlength=shape[0] * shape[1]).reshape(shape)
+
+
 def rand_index_error(labels: np.ndarray, truth: np.ndarray) -> float:
     """Return the share of pairs of faces on which two segmentations disagree."""
     _, labels = np.unique(labels, return_inverse=True)
     _, truth = np.unique(truth, return_inverse=True)
-    table = np.bincount(labels * (truth.max() + 1) + truth).astype(float)
-    ours, theirs = (np.bincount(each).astype(float) for each in (labels, truth))
+    table = overlaps(labels, truth).astype(float)
+    ours, theirs = table.sum(axis=1), table.sum(axis=0)
     agreed = (table**2).sum()
     pairs = len(labels) * (len(labels) - 1) / 2
     return (((ours**2).sum() + (theirs**2).sum()) / 2 - agreed) / pairs

@@ -6,8 +6,8 @@ that lies where its mirror image is.
 
 from dataclasses import dataclass
 
-import checkout  # noqa: F401  # makes the package importable
 import numpy as np
+from princeton import overlaps
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from weak_convex_decomposition.core.sampling import Samples, sample_surface
@@ -50,11 +50,9 @@ class Mirror:
         possible of the area has the label that its mirror image calls for.
         """
         _, labels = np.unique(labels, return_inverse=True)
-        n_labels = int(labels.max()) + 1
-        pairs = labels[self.faces] * n_labels + labels[self.images]
-        overlaps = np.bincount(pairs, minlength=n_labels**2).reshape(n_labels, n_labels)
-        matches = linear_sum_assignment(overlaps, maximize=True)
-        return 1.0 - float(overlaps[matches].sum() / len(self.faces))
+        table = overlaps(labels[self.faces], labels[self.images])
+        matches = linear_sum_assignment(table, maximize=True)
+        return 1.0 - float(table[matches].sum() / len(self.faces))
 
 
 def find_mirror(mesh: TriangleMesh) -> Mirror | None:
