@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .parameters import Parameters
-from .part_count import search_part_count
+from .part_count import given_part_count, search_part_count
 from .partition import Partitioner, count
-from .progress import Progress, Steps, within
+from .progress import Steps, within
 from .shapes import TriangleMesh
 from .surface import Surface
 from .visibility import MakeCaster, Visibility, look, see
@@ -96,19 +96,13 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
     """
     surface = visibility.transfer.surface
     partitioner = Partitioner(visibility, parameters)
-    whole = partitioner.partition(1)
     if parameters.parts:
-        yield Progress("Parts", 0.0)
-        parts = partitioner.partition(parameters.parts)
-        psi_by_k = {
-            k: partitioner.psi(p) for k, p in ((1, whole), (count(parts), parts))
-        }
+        search = given_part_count(partitioner, parameters.parts, parameters.max_parts)
     else:
-        parts, psi_by_k = yield from within(
-            search_part_count(partitioner, parameters.min_parts, parameters.max_parts),
-            0.0,
-            0.7,
+        search = search_part_count(
+            partitioner, parameters.min_parts, parameters.max_parts
         )
+    parts, psi_by_k = yield from within(search, 0.0, 0.7)
     parts = yield from within(partitioner.seamed(parts), 0.7, 1.0)
     parts = _by_size(parts, surface)
     samples = visibility.transfer.to_samples(parts)

@@ -93,7 +93,7 @@ class Parameters:
         ),
     )
     samples: int = parameter(
-        1500,
+        1200,
         Knob(
             "Samples",
             "Points spread evenly over the surface",
@@ -162,25 +162,6 @@ class Parameters:
                 Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
                 Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
             ),
-        ),
-    )
-    regularization: float = parameter(
-        1.0,
-        Knob(
-            "Regularization",
-            "Share of a mean sample's lines of sight that every sample gets to all"
-            " others, so that nearly isolated samples do not become parts",
-            low=0.0,
-            high=10.0,
-        ),
-    )
-    eigenvectors: int = parameter(
-        12,
-        Knob(
-            "Eigenvectors",
-            "Coordinates of the embedding; 0 takes as many as parts",
-            low=0,
-            high=64,
         ),
     )
     min_parts: int = parameter(

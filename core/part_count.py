@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,9 +17,12 @@ _PSI_TOLERANCE = 0.2
 _GAIN_TOLERANCE = 0.035
 
 
+Partitions: TypeAlias = tuple[NDArray[np.int64], dict[int, float]]
+
+
 def search_part_count(
     partitioner: Partitioner, low: int, high: int
-) -> Steps[tuple[NDArray[np.int64], dict[int, float]]]:
+) -> Steps[Partitions]:
     """Return the parts of nearly the largest psi, over every k from `low` to `high`.
 
     Of several k that gain as much over one part, but for a small share of it and the
@@ -29,16 +34,46 @@ def search_part_count(
     psi_by_k : dict of int to float
         For one part, and for every k that the shape allows.
     """
-    parts_by_k = {1: partitioner.partition(1)}
-    for n_parts in range(low, high + 1):
-        yield Progress("Number of parts", (n_parts - low) / (high + 1 - low))
-        parts = partitioner.partition(n_parts)
-        if count(parts) < n_parts:
-            break
-        parts_by_k[n_parts] = parts
-    psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
+    parts_by_k, psi_by_k = yield from _partitions(partitioner, low, high)
     most = max(psi_by_k.values())
     noise = _PSI_TOLERANCE / np.sqrt(len(partitioner.visibility.samples))
     enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
     best = min(k for k, psi in psi_by_k.items() if psi >= enough)
     return parts_by_k[best], psi_by_k
+
+
+def given_part_count(
+    partitioner: Partitioner, n_parts: int, high: int
+) -> Steps[Partitions]:
+    """Return the parts that a search up to `high` would find for k = `n_parts`.
+
+    As many as can be where these are fewer; otherwise like `search_part_count`.
+    """
+    if not partitioner.by_psi:
+        high = n_parts
+    parts_by_k, psi_by_k = yield from _partitions(
+        partitioner, n_parts, max(n_parts, high)
+    )
+    return parts_by_k[min(n_parts, max(parts_by_k))], psi_by_k
+
+
+def _partitions(
+    partitioner: Partitioner, low: int, high: int
+) -> Steps[tuple[dict[int, NDArray[np.int64]], dict[int, float]]]:
+    """Return the parts and psi of one part, and of every k that the shape allows."""
+    parts_by_k = {1: partitioner.partition(1)}
+    for n_parts in range(low, high + 1):
+        yield Progress("Number of parts", (n_parts - low) / (high + 1 - low))
+        parts = partitioner.partition(n_parts)
+        parts_by_k.setdefault(count(parts), parts)
+        if count(parts) < n_parts:
+            break
+    psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
+    if partitioner.by_psi:
+        # What k-means misses with few clusters it may find with more.
+        for n_parts in range(max(parts_by_k) - 1, low - 1, -1):
+            merged = partitioner.merged(parts_by_k[n_parts + 1], n_parts)
+            psi = partitioner.psi(merged)
+            if psi > psi_by_k[n_parts]:
+                parts_by_k[n_parts], psi_by_k[n_parts] = merged, psi
+    return parts_by_k, psi_by_k

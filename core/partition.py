@@ -18,8 +18,8 @@ from .visibility import Visibility
 _PLACE_WEIGHT = 1e-3
 # How many more clusters are tried when k of them make fewer than k parts.
 _MORE_CLUSTERS = (0, 1, 2, 4, 8)
-# Seams that would swallow a part are cut again with these shares of lambda.
-_SOFTER = (1.0, 0.25, 0.0625)
+# Seams that would cost too much are cut again with these shares of lambda.
+_SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 
 
 class Partitioner:
@@ -50,46 +50,55 @@ class Partitioner:
 
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
-        most = np.zeros(self.surface.n_polygons, dtype=np.int64)
+        parts = np.zeros(self.surface.n_polygons, dtype=np.int64)
         if n_parts == 1:
-            return most
-        n_clusters, labels = self._clusters(n_parts)
+            return parts
         if self.by_psi:
+            n_clusters, labels = self._clusters(n_parts)
             raised = raise_psi(
                 self.visibility.pairs, labels, n_clusters, self.parameters.alpha
             )
-            most = self._tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
-        # Psi is better with fewer parts: they are split where it loses least.
-        fewer = most
+            parts = self._tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
+        # Psi may be better with fewer parts: they are split where it loses least.
+        return self._split(parts, n_parts)
+
+    def _split(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+        """Return parts split along k-means' clusters into `n_parts` connected ones."""
+        most = parts
         for more in _MORE_CLUSTERS:
             if count(most) >= n_parts:
                 break
-            if more:
-                n_clusters, labels = self._clusters(n_parts + more)
+            n_clusters, labels = self._clusters(n_parts + more)
             clusters = self.transfer.to_polygons(labels, n_clusters)
-            parts = self._tidied(fewer * n_clusters + clusters, n_parts)
-            if count(parts) > count(most):
-                most = parts
+            split = self._tidied(parts * n_clusters + clusters, n_parts)
+            if count(split) > count(most):
+                most = split
         return most
 
     def _clusters(self, n_clusters: int) -> tuple[int, NDArray[np.int64]]:
         """Return the number of clusters of the samples, and their labels, (N,) int."""
         n_clusters = min(n_clusters, len(self.visibility.samples))
-        n_coordinates = self.parameters.eigenvectors or n_clusters
         # Samples that see the same, as in a convex shape, are told apart by place.
         coordinates = np.hstack(
             [
-                self.visibility.embedding[:, :n_coordinates],
+                self.visibility.embedding[:, :n_clusters],
                 _PLACE_WEIGHT * self.visibility.samples.positions,
             ]
         )
         return n_clusters, cluster(coordinates, n_clusters, self.parameters.seed)
 
     def seamed(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Return the same number of parts with their seams cut anew (eq. 4)."""
+        """Return the same number of parts with their seams cut anew (eq. 4).
+
+        Smooth seams cost psi: no more of it than its moves have won over k-means.
+        """
         n_parts = count(parts)
         if n_parts == 1 or self.parameters.smoothness == 0:
             return parts
+        enough = -np.inf
+        if self.by_psi:
+            plain = self._split(np.zeros_like(parts), n_parts)
+            enough = min(self.psi(plain), self.psi(parts))
         labels = self.transfer.to_samples(parts)
         costs = self.transfer.shares @ self._dislikes(labels, n_parts)
         for share in _SOFTER:
@@ -97,7 +106,7 @@ class Partitioner:
                 self.surface, parts, costs, share * self.parameters.smoothness
             )
             cut = self._tidied(cut, n_parts)
-            if count(cut) == n_parts:
+            if count(cut) == n_parts and self.psi(cut) >= enough:
                 return cut
         return parts
 
@@ -114,9 +123,11 @@ class Partitioner:
     def _tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return at most `n_parts` parts, connected where that many allow it."""
         parts = connected_parts(self.surface, labels, self.smallest_area)
+        return parts if count(parts) <= n_parts else self.merged(parts, n_parts)
+
+    def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+        """Return `n_parts` parts, merged from more where psi loses least."""
         n_pieces = count(parts)
-        if n_pieces <= n_parts:
-            return parts
         touching = self.surface.borders(parts, n_pieces).toarray() > 0
         merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
         return merged[parts]

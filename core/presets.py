@@ -48,8 +48,6 @@ PRESETS = (
             "psi_pairs": "RAYS",
             "containers": "HOLLOW",
             "alpha": 1.0,
-            "regularization": 0.0,
-            "eigenvectors": 0,
             "refinement": "EMBEDDING",
         },
     ),

@@ -13,30 +13,23 @@ _SAME = 1e-3
 
 
 def embed(
-    affinity: Matrix,
-    n_coordinates: int,
-    regularization: float,
-    stochastic: bool,
+    affinity: Matrix, n_coordinates: int, stochastic: bool
 ) -> NDArray[np.float64]:
     """Return coordinates in which samples of one weakly convex part are near.
 
-    The affinity M gets `regularization` times its mean degree spread over each row,
-    A = M + tau d / N, which keeps nearly isolated samples from standing out as parts
-    of their own and joins what is disconnected. The leading eigenvectors of
-    D^-1/2 A D^-1/2 (the trailing ones of the Laplacian I - D^-1/2 A D^-1/2), each
-    times its eigenvalue, are coordinates whose distances are those of a diffusion
-    along the lines of sight.
+    The coordinates are the leading eigenvectors of D^-1/2 M D^-1/2, D the diagonal of
+    the row sums of M: the trailing ones of the Laplacian I - D^-1/2 M D^-1/2. Each is
+    as long as its eigenvalue: those of eigenvalue 0, which shapes of few convex parts
+    have many of, are arbitrary and must not count.
 
     Parameters
     ----------
     affinity : (N, N) float32 or sparse
-        Symmetric, not negative, with a positive diagonal.
+        M: symmetric, not negative, with a positive diagonal.
     n_coordinates : int
         Number of eigenvectors; fewer where N is too small.
-    regularization : float
-        tau.
     stochastic : bool
-        Take the eigenvectors of the random walk D^-1 A instead.
+        Take the eigenvectors of the random walk D^-1 M instead.
 
     Returns
     -------
@@ -45,12 +38,11 @@ def embed(
     """
     n_samples = affinity.shape[0]
     degrees = np.asarray(affinity.sum(axis=1), dtype=np.float64).ravel()
-    spread = regularization * degrees.mean() / n_samples
-    scales = 1.0 / np.sqrt(degrees + spread * n_samples)
+    scales = 1.0 / np.sqrt(degrees)
     rng = np.random.default_rng(0)
     n_vectors = min(n_coordinates, n_samples - 1)
     values, vectors = eigsh(
-        _shifted_walk(affinity, spread, scales, rng.random((n_samples,))),
+        _shifted_walk(affinity, scales, rng.random((n_samples,))),
         k=n_vectors,
         which="LA",
         v0=rng.random(n_samples),
@@ -70,11 +62,10 @@ def embed(
 
 def _shifted_walk(
     affinity: Matrix,
-    spread: float,
     scales: NDArray[np.float64],
     noise: NDArray[np.float64],
 ) -> LinearOperator:
-    """Return I + S (M + spread) S, S the diagonal of `scales`, and some noise on it.
+    """Return I + S M S, S the diagonal of `scales`, and some noise on it.
 
     Shifted by I, so that the tolerance of eigenvalues near 0 is not 0. Where samples
     are all alike, a Krylov space ends early and ARPACK goes on from random numbers of
@@ -83,10 +74,7 @@ def _shifted_walk(
 
     def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:
         vector = vector.ravel()
-        scaled = scales * vector
-        product = affinity @ scaled.astype(affinity.dtype)
-        return (
-            scales * (product + spread * scaled.sum()) + (1 + _NOISE * noise) * vector
-        )
+        product = affinity @ (scales * vector).astype(affinity.dtype)
+        return scales * product + (1 + _NOISE * noise) * vector
 
     return LinearOperator(affinity.shape, multiply, dtype=np.float64)

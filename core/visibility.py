@@ -153,8 +153,7 @@ def see(
     yield Progress("Embedding", 0.95)
     embedding = embed(
         sight.along_rays.visible,
-        parameters.eigenvectors or max(parameters.parts, parameters.max_parts),
-        parameters.regularization,
+        max(parameters.parts, parameters.max_parts),
         parameters.normalization == "STOCHASTIC",
     )
     return Visibility(

@@ -15,25 +15,33 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+import numpy as np
 from over_models import add_jobs, measured, parse, parser
 from princeton import category, mean_error, median_count, read_humans, read_model
 from weak_convex_decomposition.core import part_count, partition, visibility
 from weak_convex_decomposition.core.decomposition import find_parts
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.spectral import embed
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
+
+
+def of_equal_length(embedding: np.ndarray) -> np.ndarray:
+    """Return the embedding with eigenvectors that are not scaled by eigenvalues."""
+    lengths = np.linalg.norm(embedding, axis=0)
+    return embedding / lengths * np.sqrt(len(embedding))
+
 
 FULL = "full"
 CONE = {"sight": "CONE", "samples": 3000}
 # What each line changes of the parameters.
 CHANGES: dict[str, dict[str, object]] = {
     FULL: {},
-    "no regularization": {"regularization": 0.0},
     "cone sight": CONE,
     "cone sight, psi from ray hits": {**CONE, "psi_pairs": "RAYS"},
-    "as many eigenvectors as parts": {"eigenvectors": 0},
     "containers hollow": {"containers": "HOLLOW"},
     "balance alpha = 1": {"alpha": 1.0},
+    "eigenvectors of equal length": {},
     "no psi-raising moves": {},
     "no psi in moves and seams": {"refinement": "EMBEDDING"},
     "no graph cut": {"smoothness": 0.0},
@@ -41,6 +49,9 @@ CHANGES: dict[str, dict[str, object]] = {
 }
 # What lines replace in the code, where no parameter does: module, name, replacement.
 PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
+    "eigenvectors of equal length": [
+        (visibility, "embed", lambda *given: of_equal_length(embed(*given)))
+    ],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],
@@ -51,8 +62,8 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
 }
 # What comes after lines of sight: lines that differ in these alone share them.
 AFTERWARDS = {
-    "parts", "alpha", "containers", "normalization", "regularization", "eigenvectors",
-    "min_parts", "max_parts", "refinement", "smoothness", "smallest_part",
+    "parts", "alpha", "containers", "normalization", "min_parts", "max_parts",
+    "refinement", "smoothness", "smallest_part",
 }  # fmt: skip
 
 

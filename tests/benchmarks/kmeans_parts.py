@@ -1,25 +1,26 @@
 """Plain k-means of the samples' embedding, to hold the psi of our parts against."""
 
+from dataclasses import replace
+from unittest import mock
+
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
-from sklearn.cluster import KMeans
+from weak_convex_decomposition.core import clustering
 from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.refinement import connected_parts, merge_to
+from weak_convex_decomposition.core.partition import Partitioner
 from weak_convex_decomposition.core.visibility import Visibility
 
 # Runs of k-means, of which the best counts.
 STARTS = 20
-# How many more clusters are tried when k of them make fewer than k parts.
-MORE_CLUSTERS = (0, 1, 2, 4, 8)
 
 
 def clusters(
     visibility: Visibility, n_clusters: int, parameters: Parameters
 ) -> np.ndarray:
     """Return the cluster of each polygon, connected or not."""
-    coordinates = visibility.embedding[:, : parameters.eigenvectors or n_clusters]
-    model = KMeans(n_clusters, n_init=STARTS, random_state=parameters.seed)
-    labels = model.fit_predict(coordinates).astype(np.int64)
+    coordinates = visibility.embedding[:, :n_clusters]
+    with mock.patch.object(clustering, "_STARTS", STARTS):
+        labels = clustering.cluster(coordinates, n_clusters, parameters.seed)
     return visibility.transfer.to_polygons(labels, n_clusters)
 
 
@@ -27,19 +28,6 @@ def connected_clusters(
     visibility: Visibility, n_parts: int, parameters: Parameters
 ) -> np.ndarray:
     """Return as many connected parts of clusters as ours are, and no specks."""
-    surface = visibility.transfer.surface
-    smallest_area = parameters.smallest_part * surface.areas.sum()
-    for more in MORE_CLUSTERS:
-        labels = clusters(visibility, n_parts + more, parameters)
-        parts = connected_parts(surface, labels, smallest_area)
-        n_pieces = int(parts.max()) + 1
-        if n_pieces >= n_parts:
-            break
-    samples = visibility.transfer.to_samples(parts)
-    merged = merge_to(
-        n_parts,
-        visibility.pairs.tally(samples, n_pieces),
-        surface.borders(parts, n_pieces).toarray() > 0,
-        parameters.alpha,
-    )
-    return merged[parts]
+    plain = Partitioner(visibility, replace(parameters, refinement="EMBEDDING"))
+    with mock.patch.object(clustering, "_STARTS", STARTS):
+        return plain.partition(n_parts)

@@ -36,7 +36,8 @@ def test_the_figures_agree_with_each_other(decomposed, make):
 def test_a_given_number_of_parts_has_its_psi(seen):
     found = run(find_parts(seen(shapes.comb), Parameters(samples=150, parts=4)))
     assert found.n_parts == 4
-    assert set(found.psi_by_k) == {1, 4}
+    searched = run(find_parts(seen(shapes.comb), Parameters(samples=150)))
+    assert found.psi_by_k[4] == searched.psi_by_k[4]
     assert found.notes == ()
 
 
@@ -78,11 +79,11 @@ def test_progress_rises_from_nothing_to_all():
 # Shapes that are hardly any, and such that are none.
 
 
-def test_few_samples_and_many_eigenvectors():
-    found = split_up(shapes.l_prism(), samples=16, eigenvectors=64, max_parts=13)
+def test_few_samples_and_many_parts():
+    found = split_up(shapes.l_prism(), samples=16, max_parts=64)
     assert 1 <= found.n_parts <= 8
     assert np.isfinite(found.psi)
-    found = split_up(shapes.l_prism(), samples=16, parts=16, eigenvectors=0)
+    found = split_up(shapes.l_prism(), samples=16, parts=16)
     assert 1 <= found.n_parts <= 8
 
 

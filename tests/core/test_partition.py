@@ -69,6 +69,17 @@ def test_heavy_seams_swallow_no_part(seen):
     assert count(run(partitioner.seamed(parts))) == 5
 
 
+@pytest.mark.parametrize("make", SHAPES, ids=by_name)
+@pytest.mark.parametrize("n_parts", [2, 3, 5])
+def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
+    heavy = replace(PARAMETERS, smoothness=20.0)
+    partitioner = Partitioner(seen(make), heavy)
+    parts = partitioner.partition(n_parts)
+    plain = Partitioner(seen(make), replace(heavy, refinement="EMBEDDING"))
+    won = min(partitioner.psi(parts), plain.psi(plain.partition(n_parts)))
+    assert partitioner.psi(run(partitioner.seamed(parts))) >= won
+
+
 def test_a_large_smallest_part_leaves_few(seen):
     partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smallest_part=0.3))
     parts = partitioner.partition(8)

@@ -25,7 +25,7 @@ def test_no_preset_repeats_a_default():
 
 def test_the_paper_has_its_own_settings():
     paper = preset("PAPER").parameters()
-    assert (paper.rays, paper.alpha, paper.regularization) == (30, 1.0, 0.0)
+    assert (paper.rays, paper.alpha) == (30, 1.0)
     assert paper.cone_angle == pytest.approx(math.radians(60))
     assert (paper.sampling, paper.sight) == ("FACES", "CONE")
     assert (paper.psi_pairs, paper.containers) == ("RAYS", "HOLLOW")
