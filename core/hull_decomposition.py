@@ -1,0 +1,149 @@
+"""A shape in convex hulls: cut until they are close, joined where they may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cut_search import best_cut
+from .enclosing import enclose
+from .enclosure import Enclosure
+from .hull_parameters import HullParameters
+from .joining import join_pieces
+from .orientation import oriented
+from .piece import Cell, Piece, piece_of_part, whole
+from .progress import Progress, Steps, within
+from .shapes import TriangleMesh
+from .solid import Solid, solid_of
+
+# Pieces are cut until there are this many times as many as hulls asked for: joining
+# them makes up for cuts that looked best one by one.
+_SURPLUS = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class HullDecomposition:
+    """Convex shapes that a shape is made of, in its units.
+
+    Attributes
+    ----------
+    shapes : tuple of Enclosure
+        The largest first.
+    errors : (K,) float
+        CoACD's concavity of the convex hull of each piece; half of the longest side of
+        the shape is 1.
+    volume_ratio : float
+        Sum of the volumes of the shapes over that of the solid, `inf` for a shape that
+        has no inside.
+    notes : tuple of str
+        Sentences to the user about what is worth knowing.
+    """
+
+    shapes: tuple[Enclosure, ...]
+    errors: NDArray[np.float64]
+    volume_ratio: float
+    notes: tuple[str, ...]
+
+    @property
+    def n_hulls(self) -> int:
+        """Number of shapes K."""
+        return len(self.shapes)
+
+
+def build_hulls(
+    mesh: TriangleMesh,
+    labels: NDArray[np.int64],
+    parameters: HullParameters,
+    seed: int,
+) -> Steps[HullDecomposition]:
+    """Put convex shapes around a mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    labels : (P,) int
+        Part of each polygon, 0-based: along the seams between them it is cut first.
+    parameters : HullParameters
+    seed : int
+        Of the samples.
+
+    Returns
+    -------
+    Steps of HullDecomposition
+        Yields Progress; `run` gets the value.
+
+    Raises
+    ------
+    DecompositionError
+        If the surface has no area.
+    """
+    yield Progress("Solid", 0.0)
+    low, high = mesh.bounds
+    size = float((high - low).max()) / 2
+    normalized, notes = oriented(mesh.normalized())
+    # From a diagonal of 1 to CoACD's units: the longest side is 2.
+    vertices = normalized.vertices * (mesh.diagonal / size)
+    solid = solid_of(replace(normalized, vertices=vertices), seed)
+    parts = labels[mesh.polygons]
+    if parameters.pieces == "PARTS":
+        start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
+        pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
+    else:
+        pieces = yield from _within_error(solid, parts, parameters)
+    pieces.sort(key=lambda piece: -piece.hull.volume)
+    center = (high + low) / 2
+    shapes = tuple(
+        enclose(piece.hull, parameters, size).moved(size, center) for piece in pieces
+    )
+    errors = np.array([piece.error for piece in pieces])
+    volume = float(solid.volumes.sum()) * size**3
+    total = sum(shape.volume for shape in shapes)
+    return HullDecomposition(
+        shapes,
+        errors,
+        total / volume if volume > 0 else np.inf,
+        (*notes, *_notes(errors, parameters)),
+    )
+
+
+def _within_error(
+    solid: Solid, parts: NDArray[np.int64], parameters: HullParameters
+) -> Steps[list[Piece]]:
+    """Return pieces within the largest error, as far as so many may be."""
+    most = parameters.max_hulls
+    cells = yield from within(
+        _cut(solid, parts, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
+    )
+    return (yield from within(join_pieces(cells, parameters.max_error, most), 0.9, 1.0))
+
+
+def _cut(
+    solid: Solid, parts: NDArray[np.int64], max_error: float, most: int
+) -> Steps[list[Cell]]:
+    """Cut the piece that strays farthest, again and again."""
+    cells = [whole(solid, parts)]
+    done: list[Cell] = []
+    while cells and len(cells) + len(done) < most:
+        yield Progress("Cutting", (len(cells) + len(done)) / most)
+        worst = max(cells, key=lambda cell: cell.error)
+        if worst.error <= max_error:
+            break
+        cells.remove(worst)
+        sides = best_cut(solid, worst)
+        if sides:
+            cells += sides
+        else:
+            done.append(worst)
+    return done + cells
+
+
+def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str, ...]:
+    """Say why the error is larger than asked for, if so."""
+    if parameters.pieces == "PARTS" or errors.max() <= parameters.max_error:
+        return ()
+    return (
+        f"The error is {errors.max():.3f}, above Largest Error: {parameters.max_hulls}"
+        " hulls are too few for this shape; raise Most Hulls.",
+    )

@@ -1,0 +1,107 @@
+"""Every knob of collision hulls: default, bounds, label and help, once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from .knobs import Choice, Knob, check, parameter
+
+
+@dataclass(frozen=True)
+class HullParameters:
+    """The settings of collision hulls; see each field's help.
+
+    Raises
+    ------
+    DecompositionError
+        If a value is out of its bounds or not one of its choices.
+    """
+
+    shape: str = parameter(
+        "HULL",
+        Knob(
+            "Shape",
+            "What is put around each piece",
+            choices=(
+                Choice("HULL", "Convex Hull", "The smallest convex shape around it"),
+                Choice("BOX", "Box", "A box of small volume, turned any way"),
+                Choice("CAPSULE", "Capsule", "A cylinder with round ends"),
+                Choice("SPHERE", "Sphere", "The smallest sphere around it"),
+                Choice("CYLINDER", "Cylinder", "A cylinder of small volume"),
+            ),
+            advanced=False,
+        ),
+    )
+    pieces: str = parameter(
+        "BY_ERROR",
+        Knob(
+            "Pieces",
+            "What the shapes are put around",
+            choices=(
+                Choice(
+                    "BY_ERROR",
+                    "By Error",
+                    "The solid, cut along the seams of the parts and elsewhere until"
+                    " every hull is within Largest Error",
+                ),
+                Choice(
+                    "PARTS",
+                    "Parts",
+                    "The parts as they are, one shape each; joined, those that add"
+                    " least volume first, where there are more than Most Hulls",
+                ),
+            ),
+            advanced=False,
+        ),
+    )
+    max_error: float = parameter(
+        0.05,
+        Knob(
+            "Largest Error",
+            "How far a hull may stray from the shape, where half of the shape's longest"
+            " side is 1: CoACD's concavity. Hulls that exceed it are split further,"
+            " neighbors within it are joined",
+            low=0.001,
+            high=1.0,
+            advanced=False,
+        ),
+    )
+    max_hulls: int = parameter(
+        32,
+        Knob(
+            "Most Hulls",
+            "Number of hulls at most; where it is too small for Largest Error, those"
+            " are joined that stray least",
+            low=1,
+            high=256,
+            advanced=False,
+        ),
+    )
+    max_vertices: int = parameter(
+        64,
+        Knob(
+            "Most Vertices",
+            "Vertices of a hull at most; fewer lie within the exact hull",
+            low=4,
+            high=1024,
+        ),
+    )
+    margin: float = parameter(
+        0.0,
+        Knob(
+            "Margin",
+            "Distance by which the faces of shapes are moved outwards, inwards if"
+            " negative, in the units of the mesh",
+            low=-1000.0,
+            high=1000.0,
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field."""
+        for parameter_field in fields(self):
+            value = getattr(self, parameter_field.name)
+            check(parameter_field, value)
+            # Plain Python numbers, whatever kind a script passed.
+            plain = type(HullParameters.__dict__[parameter_field.name])(value)
+            object.__setattr__(self, parameter_field.name, plain)

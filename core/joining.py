@@ -1,0 +1,105 @@
+"""Pieces joined where one hull does for two."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Sequence
+from itertools import count
+
+from .piece import Piece, join, volume_error_of
+from .progress import Progress, Steps
+
+# Pieces whose bounding boxes are this near may touch; the longest side is 2.
+_NEAR = 0.03
+
+# Error, numbers of two pieces, and the two as one once its error is exact.
+_Joint = tuple[float, int, int, Piece | None]
+
+
+def join_pieces(
+    pieces: Sequence[Piece], max_error: float, max_pieces: int
+) -> Steps[list[Piece]]:
+    """Join neighbors within `max_error`, and more where there are too many pieces.
+
+    Those come first that stray least together. Pieces that touch nothing are joined
+    only where there is no other way.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+    max_error : float
+        Of two pieces as one.
+    max_pieces : int
+
+    Returns
+    -------
+    Steps of list of Piece
+    """
+    joined = yield from _join(pieces, max_error, max_pieces, _touch)
+    if len(joined) > max_pieces:
+        joined = yield from _join(joined, 0.0, max_pieces, lambda *_: True)
+    return joined
+
+
+def _join(
+    pieces: Sequence[Piece],
+    max_error: float,
+    max_pieces: int,
+    may: Callable[[Piece, Piece], bool],
+) -> Steps[list[Piece]]:
+    """Join pieces of which `may` is true; otherwise as `join_pieces`."""
+    alive: dict[int, Piece] = {}
+    queue: list[_Joint] = []
+    for piece in pieces:
+        _add(piece, len(alive), alive, queue, may)
+    for number in count(len(pieces)):
+        found = _next_joint(alive, queue, max_error, max_pieces)
+        if found is None:
+            break
+        yield Progress("Joining", 1 - len(alive) / (len(pieces) + 1))
+        one, other, joint = found
+        del alive[one], alive[other]
+        _add(joint, number, alive, queue, may)
+    return list(alive.values())
+
+
+def _add(
+    piece: Piece,
+    number: int,
+    alive: dict[int, Piece],
+    queue: list[_Joint],
+    may: Callable[[Piece, Piece], bool],
+) -> None:
+    """Add a piece under a number of its own, and its joints with the others."""
+    for other, neighbor in alive.items():
+        if may(neighbor, piece):
+            # The volume term alone: it is cheap, and never above the error.
+            error = volume_error_of(neighbor, piece)
+            heapq.heappush(queue, (error, other, number, None))
+    alive[number] = piece
+
+
+def _next_joint(
+    alive: dict[int, Piece], queue: list[_Joint], max_error: float, max_pieces: int
+) -> tuple[int, int, Piece] | None:
+    """Return the two pieces to be joined next, and what they are as one."""
+    while queue:
+        error, one, other, joint = heapq.heappop(queue)
+        if one not in alive or other not in alive:
+            continue
+        if error > max_error and len(alive) <= max_pieces:
+            return None
+        if joint:
+            return one, other, joint
+        joint = join(alive[one], alive[other])
+        heapq.heappush(queue, (joint.error, one, other, joint))
+    return None
+
+
+def _touch(one: Piece, other: Piece) -> bool:
+    """Return whether the bounding boxes of two pieces meet, or nearly."""
+    (low, high), (other_low, other_high) = (
+        (piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0))
+        for piece in (one, other)
+    )
+    return bool(((low - _NEAR <= other_high) & (other_low - _NEAR <= high)).all())

@@ -1,0 +1,207 @@
+"""Pieces of a solid: their hulls, how far these stray, cuts and joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .cutting import cross_section, cut_triangles
+from .hull import Hull, convex_hull, hull_volume
+from .solid import Solid
+
+# Weight k of the volume term in CoACD's concavity.
+_VOLUME_WEIGHT = 0.3
+# Samples on a hull's surface.
+_HULL_SAMPLES = 400
+# Thickness of the hulls of flat pieces; the longest side of a shape is 2.
+THIN = 2e-3
+# Share of the distance between samples that a surface may seem off by.
+_SLACK = 0.4
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Part of a solid.
+
+    Attributes
+    ----------
+    points : (C, 3) float
+        Points whose convex hull is that of the piece.
+    boundary : (N, 3) float
+        Samples on the surface within the piece and on the faces cut.
+    volume : float
+    spacing : float
+        Distance between neighboring samples.
+    """
+
+    points: NDArray[np.float64]
+    boundary: NDArray[np.float64]
+    volume: float
+    spacing: float
+
+    @cached_property
+    def hull(self) -> Hull:
+        """The convex hull."""
+        return convex_hull(self.points, THIN)
+
+    @cached_property
+    def volume_error(self) -> float:
+        """Radius of a ball as large as what the hull adds, times k (CoACD's R_v)."""
+        return _radius(self.hull.volume - self.volume)
+
+    @cached_property
+    def error(self) -> float:
+        """CoACD's concavity: the larger of R_v and the Hausdorff distance H_b.
+
+        Wei, Liu, Ling and Su 2022, "Approximate Convex Decomposition for 3D Meshes with
+        Collision-Aware Concavity and Tree Search", section 4; H_b is the distance
+        between the surfaces of the piece and of its hull, from samples on both.
+        """
+        if len(self.boundary) == 0:
+            return self.volume_error
+        depth = -self.hull.heights(self.boundary).min()
+        tree = cKDTree(np.concatenate([self.boundary, self.hull.vertices]))
+        away = tree.query(_spread(self.hull.corners))[0].max()
+        return max(self.volume_error, depth, away - _SLACK * self.spacing)
+
+
+@dataclass(frozen=True, eq=False)
+class Cell(Piece):
+    """A piece on one side of each of some planes, which can be cut further.
+
+    Attributes
+    ----------
+    corners : (T, 3, 3) float
+        Triangles of the surface within.
+    parts : (N,) int
+        Part of each sample of `boundary`, −1 on cut faces.
+    chords : (C, 3) float
+        Pieces of lines through the inside.
+    volumes : (C,) float
+        Volume that each stands for.
+    planes : (P, 4) float
+        n · x + d ≤ 0 within.
+    """
+
+    corners: NDArray[np.float64]
+    parts: NDArray[np.int64]
+    chords: NDArray[np.float64]
+    volumes: NDArray[np.float64]
+    planes: NDArray[np.float64]
+
+
+def whole(solid: Solid, parts: NDArray[np.int64]) -> Cell:
+    """Return a solid uncut; `parts` (T,) has the part of each triangle."""
+    return Cell(
+        solid.vertices,
+        solid.samples,
+        float(solid.volumes.sum()),
+        solid.spacing,
+        solid.corners,
+        parts[solid.triangles],
+        solid.chords,
+        solid.volumes,
+        np.zeros((0, 4)),
+    )
+
+
+def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
+    """Return a piece of the triangles `chosen` (T,) and the inside next to them.
+
+    Lines through the inside belong to the part whose surface is nearest.
+    """
+    samples = chosen[solid.triangles]
+    nearest = cKDTree(solid.samples).query(solid.chords)[1]
+    return Piece(
+        solid.corners[chosen].reshape(-1, 3),
+        solid.samples[samples],
+        float(solid.volumes[samples[nearest]].sum()) if len(solid.chords) else 0.0,
+        solid.spacing,
+    )
+
+
+def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
+    """Return what lies below and above a plane (4,); either may be empty."""
+    below, above, segments = cut_triangles(cell.corners, plane)
+    face = cross_section(solid, plane, cell.points)
+    face = face[(_heights(face, cell.planes) <= 0).all(axis=1)]
+    rim = segments.reshape(-1, 3)
+    return (
+        _side(cell, plane, below, rim, face),
+        _side(cell, -plane, above, rim, face),
+    )
+
+
+def join(one: Piece, other: Piece) -> Piece:
+    """Return two pieces as one; a face between them, cut before, is gone."""
+    boundary, counts = np.unique(
+        np.concatenate([one.boundary, other.boundary]), axis=0, return_counts=True
+    )
+    return Piece(
+        np.concatenate([one.hull.vertices, other.hull.vertices]),
+        boundary[counts == 1],
+        one.volume + other.volume,
+        one.spacing,
+    )
+
+
+def volume_error_of(one: Piece, other: Piece) -> float:
+    """Return the volume error of two pieces as one."""
+    points = np.concatenate([one.hull.vertices, other.hull.vertices])
+    return _radius(hull_volume(points) - one.volume - other.volume)
+
+
+def _side(
+    cell: Cell,
+    plane: NDArray[np.float64],
+    corners: NDArray[np.float64],
+    rim: NDArray[np.float64],
+    face: NDArray[np.float64],
+) -> Cell:
+    """Return what of a cell lies below a plane, given the surface there."""
+    points, boundary, chords = (
+        _heights(places, plane[None])[:, 0] <= 0
+        for places in (cell.points, cell.boundary, cell.chords)
+    )
+    return Cell(
+        np.concatenate([cell.points[points], rim]),
+        np.concatenate([cell.boundary[boundary], face]),
+        float(cell.volumes[chords].sum()),
+        cell.spacing,
+        corners,
+        np.concatenate([cell.parts[boundary], np.full(len(face), -1)]),
+        cell.chords[chords],
+        cell.volumes[chords],
+        np.concatenate([cell.planes, plane[None]]),
+    )
+
+
+def _radius(volume: float) -> float:
+    """Return the volume error that an added volume makes."""
+    return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))
+
+
+def _heights(
+    points: NDArray[np.float64], planes: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return how far points (M, 3) are above planes (P, 4), (M, P)."""
+    heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
+    return heights
+
+
+def _spread(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return points spread over triangles (F, 3, 3), the same every time."""
+    rng = np.random.default_rng(0)
+    a, b, c = np.moveaxis(corners, 1, 0)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1).cumsum()
+    draws = (np.arange(_HULL_SAMPLES) + rng.random(_HULL_SAMPLES)) / _HULL_SAMPLES
+    rows = np.minimum(np.searchsorted(areas, draws * areas[-1]), len(areas) - 1)
+    root, split = np.sqrt(rng.random((2, _HULL_SAMPLES)))
+    split = split**2
+    shares = np.stack([1 - root, root * (1 - split), root * split], axis=1)
+    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", shares, corners[rows])
+    return points

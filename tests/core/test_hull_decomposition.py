@@ -1,0 +1,158 @@
+import numpy as np
+import pytest
+import shapes
+from convexity_check import assert_convex
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.hull_decomposition import build_hulls
+from weak_convex_decomposition.core.hull_parameters import HullParameters
+from weak_convex_decomposition.core.progress import Progress, run
+
+
+def hulls_of(mesh, labels=None, **values):
+    if labels is None:
+        labels = np.zeros(mesh.n_polygons, dtype=np.int64)
+    return run(build_hulls(mesh, labels, HullParameters(**values), 0))
+
+
+def covered(decomposition, points):
+    """Return which points are in a hull."""
+    heights = [shape.heights(points) for shape in decomposition.shapes]
+    return np.min(heights, axis=0) < 1e-6
+
+
+@pytest.mark.parametrize("make", [shapes.box, lambda: shapes.sphere(2)])
+def test_a_convex_shape_is_one_hull(make):
+    found = hulls_of(make(), max_vertices=1000)
+    assert found.n_hulls == 1
+    assert found.volume_ratio == pytest.approx(1, abs=0.02)
+    assert found.notes == ()
+
+
+@pytest.mark.parametrize(
+    "make", [shapes.l_shape, shapes.u_shape, shapes.plus, shapes.table, shapes.dumbbell]
+)
+def test_hulls_are_within_the_error(make):
+    mesh = make()
+    found = hulls_of(mesh)
+    assert 2 <= found.n_hulls <= 10
+    assert found.errors.max() <= 0.05
+    assert found.volume_ratio < 1.06
+    assert covered(found, mesh.vertices).all()
+    for shape in found.shapes:
+        assert_convex(shape.hull)
+        assert len(shape.hull.vertices) <= 64
+    volumes = [shape.volume for shape in found.shapes]
+    assert volumes == sorted(volumes, reverse=True)
+
+
+def test_the_error_is_concavity():
+    # One hull over a U: its gap is 4 wide and deep, half of the longest side is 4.
+    found = hulls_of(shapes.u_shape(), max_hulls=1)
+    gap, solid = 4 * 4 * 2, 8 * 2 * 2 + 2 * 4 * 2 * 2
+    hausdorff = 2 / 4  # of the middle of the gap's lid from the legs
+    volume = 0.3 * np.cbrt(3 * gap / 4**3 / (4 * np.pi))
+    assert volume < hausdorff
+    assert found.errors[0] == pytest.approx(hausdorff, abs=0.03)
+    assert found.volume_ratio == pytest.approx(1 + gap / solid, rel=0.03)
+    assert found.notes == (
+        f"The error is {found.errors[0]:.3f}, above Largest Error: 1 hulls are too few"
+        " for this shape; raise Most Hulls.",
+    )
+
+
+def test_a_cup_stays_hollow():
+    found = hulls_of(shapes.cup())
+    assert found.n_hulls <= 32
+    hollow = np.array([[0.5, 0.5, z] for z in (0.3, 0.5, 0.7, 0.9)])
+    assert not covered(found, hollow).any()
+
+
+def test_larger_errors_need_fewer_hulls():
+    counts = [
+        hulls_of(shapes.comb(), max_error=error).n_hulls for error in (0.05, 0.15, 1.0)
+    ]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[-1] == 1
+
+
+def test_the_result_does_not_depend_on_units_and_place():
+    mesh = shapes.table()
+    found = hulls_of(mesh)
+    moved = hulls_of(shapes.moved(mesh, scale=10.0, offset=(100, 0, 0)))
+    assert moved.n_hulls == found.n_hulls
+    assert moved.errors == pytest.approx(found.errors, abs=1e-3)
+    corners = [
+        shape.hull.vertices.mean(axis=0) * 10 + [100, 0, 0] for shape in found.shapes
+    ]
+    assert [s.hull.vertices.mean(axis=0) for s in moved.shapes] == pytest.approx(
+        np.array(corners), abs=0.1
+    )
+
+
+def test_the_same_input_gives_the_same_hulls():
+    one, other = hulls_of(shapes.plus()), hulls_of(shapes.plus())
+    for first, second in zip(one.shapes, other.shapes, strict=True):
+        assert (first.hull.vertices == second.hull.vertices).all()
+
+
+def test_one_shape_for_each_part():
+    mesh = shapes.joined(shapes.box(), shapes.box((2, 0, 0), (4, 1, 1)))
+    labels = np.repeat([1, 0], 6)
+    found = hulls_of(mesh, labels, pieces="PARTS", max_error=0.001)
+    assert [round(shape.volume, 3) for shape in found.shapes] == [2, 1]
+    boxes = hulls_of(mesh, labels, pieces="PARTS", shape="BOX")
+    assert [round(shape.volume, 3) for shape in boxes.shapes] == [2, 1]
+    assert hulls_of(mesh, labels, pieces="PARTS", max_hulls=1).n_hulls == 1
+
+
+def test_fewer_hulls_than_connected_pieces():
+    mesh = shapes.joined(
+        *(shapes.box((2 * i, 0, 0), (2 * i + 1, 1, 1)) for i in range(4))
+    )
+    for most in (1, 2, 3):
+        found = hulls_of(mesh, max_hulls=most)
+        assert found.n_hulls == most
+        assert covered(found, mesh.vertices).all()
+        assert len(found.notes) == 1
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        shapes.sheet,
+        shapes.open_box,
+        lambda: shapes.inside_out(shapes.box()),
+        lambda: shapes.mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]),
+    ],
+    ids=["sheet", "open", "inside out", "triangle"],
+)
+def test_shapes_that_are_no_solids_have_hulls(make):
+    mesh = make()
+    found = hulls_of(mesh, max_hulls=8)
+    assert 1 <= found.n_hulls <= 8
+    for shape in found.shapes:
+        assert_convex(shape.hull)
+    assert covered(found, mesh.vertices).all()
+
+
+def test_points_have_no_hull():
+    flat = shapes.mesh_of([(0, 0, 0)] * 3, [(0, 1, 2)])
+    with pytest.raises(DecompositionError, match="no area"):
+        hulls_of(flat)
+
+
+def test_progress_rises():
+    steps = build_hulls(
+        shapes.comb(), np.zeros(shapes.comb().n_polygons, int), HullParameters(), 0
+    )
+    fractions = [p.fraction for p in steps if isinstance(p, Progress)]
+    assert len(fractions) > 5
+    assert fractions == sorted(fractions)
+    assert fractions[-1] <= 1
+
+
+def test_parameters_are_checked():
+    with pytest.raises(DecompositionError, match="Most Vertices is 3"):
+        HullParameters(max_vertices=3)
+    with pytest.raises(DecompositionError, match="Shape cannot be 'CONE'"):
+        HullParameters(shape="CONE")
