@@ -20,8 +20,8 @@ _ROUNDS = 1000
 def enclose(hull: Hull, parameters: HullParameters, unit: float) -> Enclosure:
     """Return the shape that `parameters` ask for around a hull.
 
-    Boxes, spheres, cylinders and capsules contain the hull. So do hulls, but for the
-    vertices they may not have.
+    Boxes, spheres, cylinders and capsules contain the hull. So do hulls, to a ten
+    thousandth of the longest side, unless they may have too few vertices.
 
     Parameters
     ----------
@@ -32,8 +32,7 @@ def enclose(hull: Hull, parameters: HullParameters, unit: float) -> Enclosure:
     """
     margin = parameters.margin / unit
     if parameters.shape == "HULL":
-        hull = simplified(hull, parameters.max_vertices)
-        grown = simplified(offset(hull, margin), parameters.max_vertices)
+        grown = simplified(offset(hull, margin), parameters.max_vertices, THIN / 10)
         return Enclosure("HULL", grown, np.zeros(3), np.eye(3), np.zeros(3))
     shape = _FITS[parameters.shape](hull)
     least = np.where(shape.sizes > 0, THIN / 2, 0.0)

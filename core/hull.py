@@ -74,28 +74,33 @@ def hull_volume(points: NDArray[np.float64]) -> float:
         return 0.0
 
 
-def simplified(hull: Hull, max_vertices: int) -> Hull:
-    """Return a hull of at most `max_vertices` of the vertices of `hull`.
+def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
+    """Return the hull of some of the vertices of a hull.
 
-    It lies within `hull`. Vertices are taken where they are farthest out of what was
-    taken before.
+    Vertices are taken where they are farthest out of those taken before.
+
+    Parameters
+    ----------
+    hull : Hull
+    max_vertices : int
+        4 or more.
+    tolerance : float
+        Vertices that are less far out are left out, however many there may be: single
+        precision makes creases of what is nearly flat.
     """
-    if len(hull.vertices) <= max_vertices:
-        return hull
     chosen = _tetrahedron(hull.vertices)
     coarse = _hull(hull.vertices[chosen])
-    while len(chosen) < max_vertices:
+    while True:
         heights = hull.vertices @ coarse.planes[:, :3].T + coarse.planes[:, 3]
-        highest = heights.argmax(axis=0)[
-            np.argsort(-heights.max(axis=0), kind="stable")
-        ]
+        facets = np.argsort(-heights.max(axis=0), kind="stable")
+        facets = facets[heights.max(axis=0)[facets] > tolerance]
         # Several facets may have the same vertex farthest out of them.
-        new = [row for row in dict.fromkeys(highest.tolist()) if row not in chosen]
-        if not new:
-            break
-        chosen += new[: min(_VERTICES_A_ROUND, max_vertices - len(chosen))]
+        new = list(dict.fromkeys(heights.argmax(axis=0)[facets].tolist()))
+        room = min(_VERTICES_A_ROUND, max_vertices - len(chosen))
+        if room == 0 or not new:
+            return coarse
+        chosen += new[:room]
         coarse = _hull(hull.vertices[chosen])
-    return coarse
 
 
 def offset(hull: Hull, margin: float) -> Hull:

@@ -34,6 +34,8 @@ class HullDecomposition:
     errors : (K,) float
         CoACD's concavity of the convex hull of each piece; half of the longest side of
         the shape is 1.
+    parts : (K,) int
+        Part that most of each shape is of.
     volume_ratio : float
         Sum of the volumes of the shapes over that of the solid, `inf` for a shape that
         has no inside.
@@ -43,6 +45,7 @@ class HullDecomposition:
 
     shapes: tuple[Enclosure, ...]
     errors: NDArray[np.float64]
+    parts: NDArray[np.int64]
     volume_ratio: float
     notes: tuple[str, ...]
 
@@ -103,6 +106,7 @@ def build_hulls(
     return HullDecomposition(
         shapes,
         errors,
+        np.array([_main_part(solid, parts, piece) for piece in pieces]),
         total / volume if volume > 0 else np.inf,
         (*notes, *_notes(errors, parameters)),
     )
@@ -137,6 +141,12 @@ def _cut(
         else:
             done.append(worst)
     return done + cells
+
+
+def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
+    """Return the part that most of the surface in a piece's hull is of."""
+    inside = piece.hull.heights(solid.samples) <= 0
+    return int(np.bincount(parts[solid.triangles][inside], minlength=1).argmax())
 
 
 def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str, ...]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
-from .knobs import Choice, Knob, check, parameter
+from .hull_names import NAMINGS, hull_names
+from .knobs import Choice, Knob, parameter, settle
 
 
 @dataclass(frozen=True)
@@ -97,11 +98,29 @@ class HullParameters:
         ),
     )
 
+    naming: str = parameter(
+        "PLAIN",
+        Knob(
+            "Naming",
+            "How hulls are named",
+            choices=tuple(
+                Choice(naming.identifier, naming.label, naming.help)
+                for naming in NAMINGS
+            ),
+            advanced=False,
+        ),
+    )
+    template: str = parameter(
+        "{name}_{n:02d}",
+        Knob(
+            "Template",
+            "Names of hulls with Naming by Template: {name} stands for the object, {n}"
+            " for the number of the hull, {kind} for its shape, {prefix} for Unreal's"
+            " prefix",
+        ),
+    )
+
     def __post_init__(self) -> None:
-        """Check every field."""
-        for parameter_field in fields(self):
-            value = getattr(self, parameter_field.name)
-            check(parameter_field, value)
-            # Plain Python numbers, whatever kind a script passed.
-            plain = type(HullParameters.__dict__[parameter_field.name])(value)
-            object.__setattr__(self, parameter_field.name, plain)
+        """Check every field, and that the template tells hulls apart."""
+        settle(self)
+        hull_names(self.naming, self.template, "name", ("HULL", "HULL"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import Field, dataclass, field
+from dataclasses import Field, dataclass, field, fields
 from numbers import Integral, Real
 from typing import Any
 
@@ -60,6 +60,18 @@ def knob_of(parameter_field: Field[Any]) -> Knob:
     return knob
 
 
+def settle(parameters: Any) -> None:
+    """Check every field of a frozen dataclass of parameters, and make it plain.
+
+    Scripts may pass NumPy's numbers; kept are Python's.
+    """
+    for parameter_field in fields(parameters):
+        value = getattr(parameters, parameter_field.name)
+        check(parameter_field, value)
+        default: Any = parameter_field.default
+        object.__setattr__(parameters, parameter_field.name, type(default)(value))
+
+
 def check(parameter_field: Field[Any], value: Any) -> None:
     """Raise if `value` is not one that the field's knob allows."""
     knob = knob_of(parameter_field)
@@ -69,6 +81,10 @@ def check(parameter_field: Field[Any], value: Any) -> None:
             raise DecompositionError(
                 f"{knob.label} cannot be {value!r}; choose one of {', '.join(allowed)}."
             )
+        return
+    if isinstance(parameter_field.default, str):
+        if not isinstance(value, str):
+            raise DecompositionError(f"{knob.label} must be a text, not {value!r}.")
         return
     whole = isinstance(parameter_field.default, int)
     number = isinstance(value, Integral if whole else Real)

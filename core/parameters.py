@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from .errors import DecompositionError
-from .knobs import Choice, Knob, check, parameter
+from .knobs import Choice, Knob, parameter, settle
 
 
 @dataclass(frozen=True)
@@ -217,12 +217,7 @@ class Parameters:
 
     def __post_init__(self) -> None:
         """Check every field, and what fields ask of each other."""
-        for parameter_field in fields(self):
-            value = getattr(self, parameter_field.name)
-            check(parameter_field, value)
-            # Plain Python numbers, whatever kind a script passed.
-            plain = type(Parameters.__dict__[parameter_field.name])(value)
-            object.__setattr__(self, parameter_field.name, plain)
+        settle(self)
         if self.min_parts > self.max_parts:
             raise DecompositionError(
                 f"Fewest Parts is {self.min_parts}, above Most Parts,"

@@ -3,12 +3,19 @@
 import bpy
 
 from . import command_line
+from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
 from .measure import WCD_OT_measure
 from .use_preset import WCD_OT_use_preset
 
-CLASSES = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_clear, WCD_OT_use_preset)
+CLASSES = (
+    WCD_OT_decompose,
+    WCD_OT_measure,
+    WCD_OT_build_hulls,
+    WCD_OT_clear,
+    WCD_OT_use_preset,
+)
 
 
 def register() -> None:

@@ -1,4 +1,4 @@
-"""Take back what decomposing and measuring left on the active object."""
+"""Take back what the other operators left on the active object."""
 
 from __future__ import annotations
 
@@ -8,18 +8,17 @@ import bpy
 
 from ..core.errors import DecompositionError
 from .bridge.erase import clear
+from .bridge.hulls import erase_hulls
 from .bridge.record import has_record
 from .bridge.target import refusal
 
 
 class WCD_OT_clear(bpy.types.Operator):
-    """Remove everything that decomposing and measuring added to the object."""
+    """Remove parts, hulls and whatever else was added to the object."""
 
     bl_idname = "wcd.clear"
     bl_label = "Clear Convex Parts"
-    bl_description = (
-        "Remove everything that decomposing and measuring added to the object"
-    )
+    bl_description = "Remove parts, hulls and whatever else was added to the object"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -36,6 +35,7 @@ class WCD_OT_clear(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Clear the active object."""
         try:
+            erase_hulls(context.active_object)
             clear(context.active_object)
         except DecompositionError as error:
             self.report({"ERROR"}, str(error))

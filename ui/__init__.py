@@ -2,13 +2,14 @@
 
 import bpy
 
-from .panels import WCD_PT_advanced, WCD_PT_main, WCD_PT_parts
+from .panels import WCD_PT_advanced, WCD_PT_hulls, WCD_PT_main, WCD_PT_parts
 from .properties import WCD_PG_settings
 
 CLASSES = (
     WCD_PG_settings,
     WCD_PT_main,
     WCD_PT_parts,
+    WCD_PT_hulls,
     WCD_PT_advanced,
 )
 

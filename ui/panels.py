@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from .properties import ADVANCED, ALL, FRONT, MEASURE, draw
+from .properties import ADVANCED, ALL, FRONT, HULLS, MEASURE, draw
 
 # Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
 _MARGINS = 80
@@ -31,7 +31,8 @@ def notes_of(result: dict[str, Any]) -> list[str]:
 
     The status bar shows one report at a time, the last one.
     """
-    notes = [*result.get("notes", ()), *result.get("measured", {}).get("notes", ())]
+    results = (result, result.get("measured", {}), result.get("hulls", {}))
+    notes = [note for noted in results for note in noted.get("notes", ())]
     return list(dict.fromkeys(notes))
 
 
@@ -102,6 +103,37 @@ class WCD_PT_parts(_Sidebar, bpy.types.Panel):
             rank = f"{part['convexity_rank']:.2f}"
             material = materials.get(part["material"])
             _columns(box.row(), material, part["name"], f"{part['faces']:,}", rank)
+
+
+class WCD_PT_hulls(_Sidebar, bpy.types.Panel):
+    """Collision hulls: settings, button and result."""
+
+    bl_label = "Collision Hulls"
+    bl_parent_id = "WCD_PT_main"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        settings = context.scene.wcd
+        draw(layout, settings, HULLS)
+        button = layout.operator(
+            "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
+        )
+        _hand_over(settings, button, HULLS)
+        result = result_of(context.active_object).get("hulls")
+        if not result:
+            return
+        _line(layout, "Largest Error", f"{result['largest_error']:.3f}")
+        if result["volume_ratio"]:
+            _line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
+        box = layout.box().column(align=True)
+        _columns(box.row(), None, "Hull", "Vertices", "Error")
+        for hull in result["hulls"]:
+            obj = bpy.data.objects.get(hull["name"])
+            material = obj.data.materials[0] if obj and obj.data.materials else None
+            error = f"{hull['error']:.3f}"
+            _columns(box.row(), material, hull["name"], str(hull["vertices"]), error)
 
 
 class WCD_PT_advanced(_Sidebar, bpy.types.Panel):

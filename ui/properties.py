@@ -1,4 +1,4 @@
-"""Blender properties made from the fields of `Parameters`."""
+"""Blender properties made from the fields of the parameters."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..core.hull_parameters import HullParameters
 from ..core.knobs import Knob, knob_of
 from ..core.parameters import Parameters
 from ..core.presets import Preset
@@ -17,19 +18,24 @@ from ..core.presets import Preset
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not knob_of(f).advanced)
 ADVANCED = tuple(f.name for f in fields(Parameters) if knob_of(f).advanced)
+HULLS = tuple(field.name for field in fields(HullParameters))
+_FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 
 
 def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
     """Return the annotations that give a Blender class these parameters."""
-    by_name = {field.name: field for field in fields(Parameters)}
-    return {name: _property(by_name[name]) for name in names}
+    return {name: _property(_FIELDS[name]) for name in names}
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
     """Return the `Parameters` that `owner`, of a class so annotated, holds."""
-    by_name = {field.name: field for field in fields(Parameters)}
-    return Parameters(**{name: _value(owner, by_name[name]) for name in names})
+    return Parameters(**{name: _value(owner, _FIELDS[name]) for name in names})
+
+
+def hull_parameters_from(owner: Any) -> HullParameters:
+    """Return the `HullParameters` that `owner`, of a class so annotated, holds."""
+    return HullParameters(**{name: _value(owner, _FIELDS[name]) for name in HULLS})
 
 
 def is_used(owner: Any, name: str) -> bool:
@@ -40,6 +46,12 @@ def is_used(owner: Any, name: str) -> bool:
         return owner.parts == 0
     if name == "samples":
         return owner.sampling == "AREA"
+    if name == "max_error":
+        return owner.pieces == "BY_ERROR"
+    if name == "max_vertices":
+        return owner.shape == "HULL"
+    if name == "template":
+        return owner.naming == "TEMPLATE"
     return True
 
 
@@ -63,6 +75,8 @@ def _property(field: Field[Any]) -> Any:
     if knob.choices:
         items = [(c.identifier, c.label, c.help) for c in knob.choices]
         return bpy.props.EnumProperty(items=items, **described)
+    if isinstance(field.default, str):
+        return bpy.props.StringProperty(**described)
     whole = isinstance(field.default, int)
     described |= _bounds(knob, int if whole else float)
     if whole:
@@ -99,4 +113,4 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
     """The settings of a scene, handed to the operators by the sidebar."""
 
 
-WCD_PG_settings.__annotations__ = annotations()
+WCD_PG_settings.__annotations__ = annotations((*ALL, *HULLS))

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, TypeVar
 
 import bpy
 
+from ...core.errors import DecompositionError
+from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
-from ...core.progress import Steps
+from ...core.progress import Steps, within
+from .hulls import hull_refusal, part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes
 from .record import check_records
@@ -17,8 +20,9 @@ from .write import check_writable
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition, Measurement
+    from ...core.hull_decomposition import HullDecomposition
 
-    Result = TypeVar("Result", Decomposition, Measurement)
+    Result = TypeVar("Result", Decomposition, Measurement, HullDecomposition)
 
 
 def decompose_object(
@@ -50,6 +54,44 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
     check_records(obj)
     steps = measure(read_shape(obj), parameters, BvhRayCaster)
     return _with_notes(reading_notes(obj), steps)
+
+
+def build_hulls_of(
+    obj: bpy.types.Object, parameters: Parameters, hull_parameters: HullParameters
+) -> Steps[HullDecomposition]:
+    """Check and read an object; return the work of building hulls around its parts.
+
+    An object without parts is decomposed, but they are not written to it. Errors are
+    those of `decompose_object`.
+    """
+    # As above.
+    from ...core.decomposition import decompose
+    from ...core.hull_decomposition import build_hulls
+
+    reason = hull_refusal(obj)
+    if reason:
+        raise DecompositionError(f"{reason}.")
+    check_records(obj)
+    mesh, labels = read_shape(obj), part_labels(obj)
+
+    def work() -> Steps[HullDecomposition]:
+        found = labels
+        if found is None:
+            parts = yield from within(decompose(mesh, parameters, BvhRayCaster), 0, 0.4)
+            found = parts.labels
+        steps = build_hulls(mesh, found, hull_parameters, parameters.seed)
+        return (yield from within(steps, 0.0 if labels is not None else 0.4, 1.0))
+
+    return _with_notes(reading_notes(obj), work())
+
+
+def hull_summary(found: HullDecomposition) -> str:
+    """Return the figures of a hull decomposition in a line."""
+    return (
+        f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
+        f" largest error {found.errors.max():.3f},"
+        f" volume of hulls / volume {found.volume_ratio:.2f}"
+    )
 
 
 def _with_notes(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:

@@ -32,7 +32,7 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh:
     polygons = np.empty(len(mesh.loop_triangles), dtype=np.int32)
     mesh.loop_triangle_polygons.foreach_get("value", polygons)
     return TriangleMesh(
-        vertices.reshape(-1, 3).astype(np.float64) * _stretch(obj),
+        vertices.reshape(-1, 3).astype(np.float64) * stretch(obj),
         triangles.reshape(-1, 3).astype(np.int64),
         polygons.astype(np.int64),
     )
@@ -57,7 +57,7 @@ def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
+def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
     """Return the factor of each axis, 1 throughout if the scale is uniform."""
     scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
     if not np.isfinite(scale).all() or not scale.all():

@@ -8,6 +8,7 @@ mesh's, whichever of its objects was active.
 from __future__ import annotations
 
 import json
+import math
 import tomllib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -16,14 +17,17 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ...core.errors import DecompositionError
+from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition, Measurement
+    from ...core.hull_decomposition import HullDecomposition
 
 _RESULT = "wcd"
 _RESTORE = "wcd_restore"
 _MEASURED = "measured"
+_HULLS = "hulls"
 _MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
 
 
@@ -88,7 +92,7 @@ def write_result(
     groups: list[str],
     materials: list[str],
 ) -> None:
-    """Note a decomposition on its object, keeping its measurement."""
+    """Note a decomposition on its object, keeping all else."""
     parts = zip(
         groups,
         materials,
@@ -117,10 +121,7 @@ def write_result(
         ],
         "notes": list(decomposition.notes),
     }
-    measured = _read(obj, _RESULT).get(_MEASURED)
-    if measured:
-        result[_MEASURED] = measured
-    _write(obj, _RESULT, result)
+    _write(obj, _RESULT, {**result, **_beside_parts(obj)})
 
 
 def write_measurement(
@@ -138,11 +139,35 @@ def write_measurement(
     _write(obj, _RESULT, result)
 
 
-def forget_parts(obj: bpy.types.Object) -> None:
-    """Remove what was noted of a decomposition, keeping a measurement."""
+def write_hull_record(
+    obj: bpy.types.Object,
+    found: HullDecomposition,
+    parameters: HullParameters,
+    hulls: list[dict[str, Any]],
+) -> None:
+    """Note the hulls of an object, keeping what else is noted."""
+    result = _read(obj, _RESULT) or {"version": version()}
+    ratio = found.volume_ratio
+    result[_HULLS] = {
+        "parameters": asdict(parameters),
+        "largest_error": float(found.errors.max()),
+        "volume_ratio": ratio if math.isfinite(ratio) else None,
+        "hulls": hulls,
+        "notes": list(found.notes),
+    }
+    _write(obj, _RESULT, result)
+
+
+def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
+    """Return what is noted on an object besides its decomposition."""
     result = _read(obj, _RESULT)
-    kept = {k: v for k, v in result.items() if k in {"version", _MEASURED}}
-    _write(obj, _RESULT, kept if _MEASURED in kept else {})
+    return {key: result[key] for key in (_MEASURED, _HULLS) if key in result}
+
+
+def forget_parts(obj: bpy.types.Object) -> None:
+    """Remove what was noted of a decomposition, keeping all else."""
+    kept = _beside_parts(obj)
+    _write(obj, _RESULT, {"version": version(), **kept} if kept else {})
 
 
 def forget_result(obj: bpy.types.Object) -> None:

@@ -130,6 +130,8 @@ def _add(group: argparse._ArgumentGroup, name: str, knob: Knob, default: Any) ->
     elif knob.subtype == "ANGLE":
         convert, metavar = _angle(knob), "DEGREES"
         shown = f"{math.degrees(default):g}"
+    elif isinstance(default, str):
+        convert, metavar, shown = str, "TEXT", default
     else:
         convert = type(default)
         metavar = "N" if isinstance(default, int) else "X"

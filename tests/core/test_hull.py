@@ -48,7 +48,7 @@ def test_flat_points_have_a_thin_hull(points):
 @pytest.mark.parametrize("most", [4, 5, 20, 64])
 def test_simplified_hulls_are_convex_and_within(most):
     sphere = convex_hull(shapes.sphere(3).vertices, 1e-3)
-    hull = simplified(sphere, most)
+    hull = simplified(sphere, most, 0.0)
     assert_convex(hull)
     assert len(hull.vertices) == most
     assert sphere.heights(hull.vertices).max() < 1e-9
@@ -58,10 +58,12 @@ def test_simplified_hulls_are_convex_and_within(most):
     assert hull.volume > ConvexHull(sphere.vertices[rows]).volume
 
 
-def test_few_vertices_stay_as_they_are():
-    cube = convex_hull(CUBE, 1e-3)
-    assert simplified(cube, 8) is cube
-    assert len(simplified(cube, 7).vertices) == 7
+def test_what_is_nearly_flat_has_no_vertices():
+    bumps = np.array([[0.5, 0.5, 1.001], [1.0005, 1, 1]])
+    hull = convex_hull(np.concatenate([CUBE, bumps]), 1e-3)
+    assert len(simplified(hull, 64, 0.0).vertices) == 9
+    assert len(simplified(hull, 64, 0.01).vertices) == 8
+    assert len(simplified(hull, 7, 0.01).vertices) == 7
 
 
 def test_offset_moves_every_face():

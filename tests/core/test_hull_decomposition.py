@@ -17,7 +17,7 @@ def hulls_of(mesh, labels=None, **values):
 def covered(decomposition, points):
     """Return which points are in a hull."""
     heights = [shape.heights(points) for shape in decomposition.shapes]
-    return np.min(heights, axis=0) < 1e-6
+    return np.min(heights, axis=0) < 1e-3
 
 
 @pytest.mark.parametrize("make", [shapes.box, lambda: shapes.sphere(2)])

@@ -1,0 +1,149 @@
+"""Hull decompositions -> objects in a collection of their own, and back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ...core.errors import DecompositionError
+from ...core.hull_names import hull_names
+from ...core.hull_parameters import HullParameters
+from .erase import PART_LAYER
+from .materials import part_materials
+from .read import stretch
+from .record import read_restore, write_hull_record
+from .target import refusal
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ...core.enclosure import Enclosure
+    from ...core.hull_decomposition import HullDecomposition
+
+# Custom property of hulls, and of the collections made for them.
+_TAG = "wcd_hull"
+
+
+def hull_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why hulls cannot be made for an object, None if they can."""
+    reason = refusal(obj, writes_mesh=False)
+    if reason is None and obj.mode != "OBJECT":
+        return "Hulls are objects: made in Object Mode alone; switch the mode"
+    return reason
+
+
+def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return the hulls that an object has, by name."""
+    return sorted((c for c in obj.children if _TAG in c), key=lambda c: c.name)
+
+
+def part_labels(obj: bpy.types.Object) -> np.ndarray | None:
+    """Return the part of each polygon, None if the object has no parts of ours."""
+    attribute = obj.data.attributes.get(PART_LAYER)
+    if attribute is None or read_restore(obj.data) is None:
+        return None
+    labels = np.empty(len(obj.data.polygons), dtype=np.int32)
+    attribute.data.foreach_get("value", labels)
+    # Faces added since carry whatever Blender gave them.
+    return np.maximum(labels, 0).astype(np.int64)
+
+
+def write_hulls(
+    obj: bpy.types.Object, found: HullDecomposition, parameters: HullParameters
+) -> list[bpy.types.Object]:
+    """Make the hulls of an object, in place of earlier ones; return them.
+
+    Raises
+    ------
+    DecompositionError
+        If another object has a name that a hull needs; nothing is changed then.
+    """
+    kinds = [shape.kind for shape in found.shapes]
+    names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
+    _check_free(names, hulls_of(obj))
+    erase_hulls(obj)
+    collection = _collection(obj)
+    materials = part_materials(int(found.parts.max()) + 1, [])
+    scale = stretch(obj)
+    hulls = []
+    for row, name in enumerate(names):
+        material = materials[found.parts[row]]
+        hull = _hull_object(name, found.shapes[row], scale, material)
+        hull[_TAG] = json.dumps(_figures(found, row))
+        hull.parent = obj
+        collection.objects.link(hull)
+        hulls.append(hull)
+    entries = [{"name": h.name, **_figures(found, row)} for row, h in enumerate(hulls)]
+    write_hull_record(obj, found, parameters, entries)
+    return hulls
+
+
+def erase_hulls(obj: bpy.types.Object) -> None:
+    """Remove an object's hulls, and their collection if nothing else is in it."""
+    hulls = hulls_of(obj)
+    if hulls and obj.mode != "OBJECT":
+        raise DecompositionError(
+            "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
+            " Object Mode first."
+        )
+    collections = {c for hull in hulls for c in hull.users_collection if _TAG in c}
+    meshes = [hull.data for hull in hulls]
+    for hull in hulls:
+        bpy.data.objects.remove(hull)
+    for mesh in meshes:
+        if mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+    for collection in collections:
+        if not collection.all_objects and not collection.children:
+            bpy.data.collections.remove(collection)
+
+
+def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> None:
+    """Raise if an object has a name that a hull needs, `former` ones aside."""
+    ours = {hull.name for hull in former}
+    taken = [name for name in names if name in bpy.data.objects and name not in ours]
+    if taken:
+        raise DecompositionError(
+            f"There is an object {taken[0]} already; rename it or choose another"
+            " Naming."
+        )
+
+
+def _collection(obj: bpy.types.Object) -> bpy.types.Collection:
+    """Return a new collection for an object's hulls, beside the object."""
+    collection = bpy.data.collections.new(f"{obj.name} hulls")
+    collection[_TAG] = True
+    homes = [c for c in obj.users_collection if c.is_editable]
+    (homes[0] if homes else bpy.context.scene.collection).children.link(collection)
+    return collection
+
+
+def _hull_object(
+    name: str, shape: Enclosure, scale: np.ndarray, material: bpy.types.Material
+) -> bpy.types.Object:
+    """Return an object with the mesh of a shape."""
+    outline = shape.outline()
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(
+        (outline.vertices / scale).tolist(), [], outline.triangles.tolist()
+    )
+    mesh.materials.append(material)
+    hull = bpy.data.objects.new(name, mesh)
+    hull.color = material.diffuse_color
+    hull.show_wire = True
+    hull.hide_render = True
+    return hull
+
+
+def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
+    """Return what is noted of a hull."""
+    shape = found.shapes[row]
+    return {
+        "kind": shape.kind,
+        "error": float(found.errors[row]),
+        "volume": float(shape.volume),
+        "part": int(found.parts[row]),
+        "vertices": len(shape.outline().vertices),
+    }

@@ -1,0 +1,64 @@
+"""Put convex hulls, or simpler shapes, around the active mesh."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, ClassVar
+
+import bpy
+
+from ..core.progress import Steps
+from ..ui.properties import (
+    HULLS,
+    annotations,
+    draw,
+    hull_parameters_from,
+    parameters_from,
+)
+from .bridge.computing import build_hulls_of, hull_summary
+from .bridge.hulls import hull_refusal, write_hulls
+from .bridge.target import Target
+from .computation import Computation
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ..core.hull_decomposition import HullDecomposition
+
+
+class WCD_OT_build_hulls(Computation, bpy.types.Operator):
+    """Put collision hulls around the active mesh, led by its parts."""
+
+    bl_idname = "wcd.build_hulls"
+    bl_label = "Build Collision Hulls"
+    bl_description = (
+        "Put collision hulls around the active mesh, along the seams of its parts; it"
+        " is decomposed with the settings of the scene if it has none"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the active object can have hulls."""
+        reason = hull_refusal(context.active_object)
+        if reason:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the settings."""
+        draw(self.layout, self, HULLS)
+
+    def _begin(self, context: bpy.types.Context) -> Steps[HullDecomposition]:
+        self._parameters = hull_parameters_from(self)
+        self._target = Target.of(context.active_object)
+        self._started = time.perf_counter()
+        parameters = parameters_from(context.scene.wcd)
+        return build_hulls_of(context.active_object, parameters, self._parameters)
+
+    def _commit(self, value: HullDecomposition) -> None:
+        write_hulls(self._target.find(), value, self._parameters)
+        self._warn(value.notes)
+        seconds = time.perf_counter() - self._started
+        self.report({"INFO"}, f"{hull_summary(value)}, {seconds:.1f} s")
+
+
+WCD_OT_build_hulls.__annotations__ = annotations(HULLS)
