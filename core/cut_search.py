@@ -25,6 +25,8 @@ _NEAR = 0.05
 _POINTS_IN_LEVEL = 4
 _LEVEL_DIGITS = 5
 _MOST_LEVELS = 6
+# A plane passes a level so far on either side: faces in it then belong to one side.
+_SKIM = 1e-5
 # Directions whose extreme points stand for a hull while planes are compared.
 _EXTREMES = directions(96)
 # Points of a piece that are looked at, at most, and those that make a side.
@@ -89,7 +91,8 @@ def _ranked_planes(cell: Cell) -> NDArray[np.float64]:
         step = np.ptp(heights) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)
         near = levels[np.abs(levels - offset) < step][:_MOST_LEVELS]
-        offsets = np.sort(np.concatenate([offset + _BETWEEN * step, near]))
+        steps = [offset + _BETWEEN * step, near - _SKIM, near + _SKIM]
+        offsets = np.sort(np.concatenate(steps))
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += _added_volumes(cell, points, reaches, heights, direction, offsets)
     order = np.argsort(added, kind="stable")

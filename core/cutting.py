@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -50,31 +52,53 @@ def cut_triangles(
     return np.concatenate(below), np.concatenate(above), segments
 
 
-def cross_section(
-    solid: Solid, plane: NDArray[np.float64], within: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return points spread evenly over where a plane cuts the inside, (M, 3).
+@dataclass(frozen=True, eq=False)
+class Section:
+    """Where a plane cuts the inside of a shape.
 
-    Parameters
+    Attributes
     ----------
-    solid : Solid
     plane : (4,) float
-    within : (P, 3) float
-        Points whose bounding box the result has to be in.
+    axes : (2, 3) float
+        Of the plane.
+    segments : (S, 2, 2) float
+        Contour, along `axes`.
     """
+
+    plane: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    segments: NDArray[np.float64]
+
+    def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points spread evenly in the box around points (P, 3), (M, 3)."""
+        flat = within @ self.axes.T
+        steps = [
+            np.arange(low + 0.39 * _GRAIN, high, _GRAIN)
+            for low, high in zip(flat.min(axis=0), flat.max(axis=0), strict=True)
+        ]
+        columns, rows = np.nonzero(_is_inside(self.segments, *steps).T)
+        spots = np.stack([steps[0][columns], steps[1][rows]], axis=1)
+        return spots @ self.axes - self.plane[3] * self.plane[:3]
+
+    def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return which points (M, 3) of the plane are inside, (M,)."""
+        across, up = (points @ self.axes.T).T[..., None]
+        (x0, y0), (x1, y1) = self.segments.transpose(1, 2, 0)
+        turns = (y1 > up).astype(np.int64) - (y0 > up)
+        rise = np.where(y1 == y0, 1.0, y1 - y0)
+        before = x0 + (up - y0) / rise * (x1 - x0) <= across
+        windings = (turns * before).sum(axis=1)
+        inside: NDArray[np.bool_] = (windings != 0) & (turns.sum(axis=1) == 0)
+        return inside
+
+
+def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
+    """Return where a plane (4,) cuts the inside of a solid."""
     normal = plane[:3]
     across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     across /= np.linalg.norm(across)
     axes = np.stack([across, np.cross(normal, across)])
-    segments = cut_triangles(solid.corners, plane)[2] @ axes.T
-    flat = within @ axes.T
-    steps = [
-        np.arange(low + 0.39 * _GRAIN, high, _GRAIN)
-        for low, high in zip(flat.min(axis=0), flat.max(axis=0), strict=True)
-    ]
-    columns, rows = np.nonzero(_is_inside(segments, *steps).T)
-    spots = np.stack([steps[0][columns], steps[1][rows]], axis=1)
-    return spots @ axes - plane[3] * normal
+    return Section(plane, axes, cut_triangles(solid.corners, plane)[2] @ axes.T)
 
 
 def _is_inside(

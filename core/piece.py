@@ -15,12 +15,17 @@ from .solid import Solid
 
 # Weight k of the volume term in CoACD's concavity.
 _VOLUME_WEIGHT = 0.3
+# Samples of a piece whose depth in its hull is looked at, at most.
+_MOST_SAMPLES = 2500
 # Samples on a hull's surface.
 _HULL_SAMPLES = 400
 # Thickness of the hulls of flat pieces; the longest side of a shape is 2.
 THIN = 2e-3
 # Share of the distance between samples that a surface may seem off by.
 _SLACK = 0.4
+# Determinant of normals below which planes have no corner, and what counts as on one.
+_PARALLEL = 1e-4
+_ON_PLANE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +68,8 @@ class Piece:
         """
         if len(self.boundary) == 0:
             return self.volume_error
-        depth = -self.hull.heights(self.boundary).min()
+        few = self.boundary[:: -(-len(self.boundary) // _MOST_SAMPLES)]
+        depth = -self.hull.heights(few).min()
         tree = cKDTree(np.concatenate([self.boundary, self.hull.vertices]))
         away = tree.query(_spread(self.hull.corners))[0].max()
         return max(self.volume_error, depth, away - _SLACK * self.spacing)
@@ -127,9 +133,11 @@ def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
 def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
     """Return what lies below and above a plane (4,); either may be empty."""
     below, above, segments = cut_triangles(cell.corners, plane)
-    face = cross_section(solid, plane, cell.points)
+    section = cross_section(solid, plane)
+    face = section.spread(cell.points)
     face = face[(_heights(face, cell.planes) <= 0).all(axis=1)]
-    rim = segments.reshape(-1, 3)
+    tips = _meeting_points(cell.planes, plane)
+    rim = np.concatenate([segments.reshape(-1, 3), tips[section.holds(tips)]])
     return (
         _side(cell, plane, below, rim, face),
         _side(cell, -plane, above, rim, face),
@@ -183,6 +191,20 @@ def _side(
 def _radius(volume: float) -> float:
     """Return the volume error that an added volume makes."""
     return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))
+
+
+def _meeting_points(
+    planes: NDArray[np.float64], plane: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return where a plane meets two others (P, 4) at a corner of their cell, (M, 3).
+
+    Such corners may lie within the solid, where no triangle has a vertex.
+    """
+    one, other = np.triu_indices(len(planes), 1)
+    triples = np.stack([planes[one], planes[other], plane + 0 * planes[one]], axis=1)
+    firm = np.abs(np.linalg.det(triples[:, :, :3])) > _PARALLEL
+    points = np.linalg.solve(triples[firm, :, :3], -triples[firm, :, 3:])[..., 0]
+    return points[(_heights(points, planes) <= _ON_PLANE).all(axis=1)]
 
 
 def _heights(
