@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint zip bench bench-coacd bench-ablation bench-speed contact-sheet \
+.PHONY: help demo test lint zip bench bench-coacd bench-hulls bench-ablation bench-speed contact-sheet \
   clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
@@ -53,6 +53,14 @@ bench-coacd: psb venv ## Segment the benchmark with CoACD: PSB=directory SEGMENT
 	@.venv-coacd/bin/pip install -qq --disable-pip-version-check coacd==1.0.14 numpy scipy
 	@PYTHONPATH=tests PYTHONDONTWRITEBYTECODE=1 .venv-coacd/bin/python \
 	  tests/benchmarks/coacd_segments.py "$(PSB)" "$(SEGMENTS)"
+
+bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
+	@[ -n "$(MESHES)" ] || { echo "Name the directory of meshes: MESHES=directory"; exit 1; }
+	@$(VENV)/bin/python -m venv .venv-hulls
+	@.venv-hulls/bin/pip install -qq --disable-pip-version-check \
+	  coacd==1.0.14 vhacdx trimesh embreex numpy scipy
+	@PYTHONPATH=tests PYTHONDONTWRITEBYTECODE=1 .venv-hulls/bin/python \
+	  tests/benchmarks/hulls.py "$(MESHES)" build/bench_hulls "$(VENV)/bin/python"
 
 bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=directory
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)

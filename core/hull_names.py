@@ -22,23 +22,23 @@ class Naming:
 
 
 NAMINGS = (
-    Naming("PLAIN", "Plain", "Name hull 01", "{name} hull {n:02d}"),
+    Naming("PLAIN", "Plain", "Like Name hull 01", "{name} hull {n:02d}"),
     Naming(
         "UNREAL",
         "Unreal",
-        "UCX_Name_01, with UBX for boxes, USP for spheres and UCP for capsules",
+        "Like UCX_Name_01, with UBX for boxes, USP for spheres and UCP for capsules",
         "{prefix}_{name}_{n:02d}",
     ),
     Naming(
         "UNITY",
         "Unity",
-        "Name_collider_01; Unity has no names of its own for colliders",
+        "Like Name_collider_01; Unity has no names of its own for colliders",
         "{name}_collider_{n:02d}",
     ),
     Naming(
         "GODOT",
         "Godot",
-        "Name_01-convcolonly, which Godot's importer makes a convex shape of",
+        "Like Name_01-convcolonly, which Godot's importer makes a convex shape of",
         "{name}_{n:02d}-convcolonly",
     ),
     Naming("TEMPLATE", "By Template", "As Template says", ""),

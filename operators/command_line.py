@@ -13,6 +13,7 @@ import bpy
 
 from ..core.errors import DecompositionError
 from .headless.exporting import save
+from .headless.hulls import build_and_save
 from .headless.importing import USUAL_UP, load
 from .headless.options import Request, parse
 from .headless.parts import ObjectResult, decompose_objects
@@ -87,11 +88,11 @@ def _input(
     trial: EngineTrial | None,
     screen: Screen,
 ) -> InputResult:
-    """Decompose one input and write its model and picture, as far as possible."""
+    """Decompose one input and write its model, picture and hulls, as far as may be."""
     started = time.perf_counter()
     errors: list[str] = []
     parts: tuple[ObjectResult, ...] = ()
-    output = picture = None
+    output = picture = hulls = None
     try:
         objects = load(path, request.up)
     except DecompositionError as error:
@@ -112,8 +113,28 @@ def _input(
             screen,
         ):
             picture = targets.picture
+        if targets.hulls:
+            try:
+                parts = build_and_save(
+                    targets.hulls,
+                    up or "Z",
+                    objects,
+                    parts,
+                    (request.parameters, request.hull_parameters),
+                    screen,
+                )
+                hulls = targets.hulls
+            except DecompositionError as error:
+                screen.error(str(error))
+                errors.append(str(error))
     return InputResult(
-        path, parts, tuple(errors), output, picture, time.perf_counter() - started
+        path,
+        parts,
+        tuple(errors),
+        output,
+        picture,
+        hulls,
+        time.perf_counter() - started,
     )
 
 

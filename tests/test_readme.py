@@ -10,11 +10,12 @@ from dataclasses import fields
 
 import pytest
 from conftest import PACKAGE, ROOT
+from weak_convex_decomposition.core.hull_parameters import HullParameters
 from weak_convex_decomposition.core.knobs import knob_of
 from weak_convex_decomposition.core.parameters import Parameters
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-PARAMETERS = fields(Parameters)
+PARAMETERS = (*fields(Parameters), *fields(HullParameters))
 FILES_TOLD_OF = sorted(
     file.relative_to(ROOT).as_posix()
     for folder in ("core", "ui")
@@ -34,9 +35,10 @@ def blocks(language):
 
 
 def rows_of_parameters():
-    rows = [line for line in section("Parameters").splitlines() if line.startswith("|")]
-    assert re.fullmatch(r"[|-]+", rows[1])
-    return rows[2:]
+    lines = section("Parameters").splitlines()
+    rows = [line for line in lines if re.match(r"\| `\w+` \|", line)]
+    assert len([line for line in lines if re.fullmatch(r"[|-]{6,}", line)]) == 2
+    return rows
 
 
 def number(knob, value):
@@ -53,6 +55,8 @@ def row(field):
         about = "".join(
             f"; `{c.identifier}`: {c.help[0].lower()}{c.help[1:]}" for c in knob.choices
         )
+    elif isinstance(field.default, str):
+        default, bounds = f"`{field.default}`", "text"
     else:
         default = number(knob, field.default)
         bounds = f"{number(knob, knob.low)}…{number(knob, knob.high)}"
@@ -102,7 +106,7 @@ def test_every_make_command_exists():
 
 def test_every_option_is_one():
     options = {o.replace("-", "_") for o in re.findall(r"[` ]--([a-z-]+)", README)}
-    own = {"help", "output", "picture", "preset", "report"}
+    own = {"help", "hulls", "output", "picture", "preset", "report"}
     blenders = {"command"}
     assert options <= own | blenders | {field.name for field in PARAMETERS}
 

@@ -1,4 +1,4 @@
-"""The command line's options; those of the method come from `Parameters`."""
+"""The command line's options; those of the method come from its parameters."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import DecompositionError
+from ...core.hull_parameters import HullParameters
 from ...core.knobs import Knob, knob_of
 from ...core.parameters import Parameters
 from ...core.presets import PRESET_KNOB, PRESETS, preset
 from ..bridge.record import version
 from .exporting import ENDINGS as WRITTEN
+from .hull_files import HULL_ENDINGS
 from .importing import ENDINGS as READ
 from .targets import Targets, targets_for
 
@@ -32,8 +34,15 @@ output formats:
   .glb    one material a part; the record as extras of the node
   .obj    one material and group a part, in an .mtl file beside it
   .ply    colors and part numbers on the vertices; vertices on seams doubled
-OUTPUT ends in one of {" ".join(WRITTEN)}. With several inputs, OUTPUT and PICTURE
-contain {{name}}, which stands for the input's name without its ending.
+OUTPUT ends in one of {" ".join(WRITTEN)}. With several inputs, OUTPUT, PICTURE and
+HULLS contain {{name}}, which stands for the input's name without its ending.
+
+hull formats:
+  .glb .obj .usd  an object a hull
+  .stl            all hulls in one mesh
+  .urdf .xml      for simulators (.xml is MuJoCo's MJCF); each hull an .obj file in the
+                  folder HULLS_hulls beside it
+HULLS ends in one of {" ".join(HULL_ENDINGS)}.
 
 exit status: 0 all done; 1 some input failed and the rest is done; 2 wrong usage."""
 
@@ -48,25 +57,37 @@ class Request:
     up: str | None
     quiet: bool
     parameters: Parameters
+    hull_parameters: HullParameters
 
 
 def parse(arguments: list[str], program: str) -> Request:
     """Return the request that `arguments` state; exits like argparse."""
     parser = _parser(program)
     options = parser.parse_args(arguments)
-    names = {field.name for field in fields(Parameters)}
-    given = {name: value for name, value in vars(options).items() if name in names}
+    given, for_hulls = (
+        {
+            f.name: getattr(options, f.name)
+            for f in fields(kind)
+            if hasattr(options, f.name)
+        }
+        for kind in (Parameters, HullParameters)
+    )
     chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
     try:
         return Request(
             inputs=tuple(options.inputs),
             targets=targets_for(
-                options.inputs, options.output, options.picture, options.report
+                options.inputs,
+                options.output,
+                options.picture,
+                options.report,
+                options.hulls,
             ),
             report=options.report,
             up=options.up,
             quiet=options.quiet,
             parameters=chosen.parameters(**given),
+            hull_parameters=HullParameters(**for_hulls),
         )
     except DecompositionError as error:
         parser.error(str(error))
@@ -97,6 +118,11 @@ def _parser(program: str) -> argparse.ArgumentParser:
         help="write a picture of the parts, seen from the front and the back",
     )
     parser.add_argument(
+        "--hulls",
+        metavar="HULLS",
+        help="write collision hulls of the parts",
+    )
+    parser.add_argument(
         "--up",
         type=str.upper,
         choices=("Y", "Z"),
@@ -118,6 +144,10 @@ def _parser(program: str) -> argparse.ArgumentParser:
     for parameter_field in fields(Parameters):
         knob = knob_of(parameter_field)
         _add(method, parameter_field.name, knob, parameter_field.default)
+    hulls = parser.add_argument_group("parameters of --hulls")
+    for parameter_field in fields(HullParameters):
+        knob = knob_of(parameter_field)
+        _add(hulls, parameter_field.name, knob, parameter_field.default)
     return parser
 
 

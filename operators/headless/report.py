@@ -27,7 +27,7 @@ class InputResult:
         Empty if the file could not be read.
     errors : tuple of str
         Why it could not be read, or its results not be written.
-    output, picture : Path or None
+    output, picture, hulls : Path or None
         The files that were written.
     seconds : float
         Time for all of it.
@@ -38,6 +38,7 @@ class InputResult:
     errors: tuple[str, ...]
     output: Path | None
     picture: Path | None
+    hulls: Path | None
     seconds: float
 
     @property
@@ -73,6 +74,7 @@ def _input(result: InputResult) -> dict[str, Any]:
         "input": str(result.path),
         "output": str(result.output) if result.output else None,
         "picture": str(result.picture) if result.picture else None,
+        "hulls": str(result.hulls) if result.hulls else None,
         "errors": list(result.errors),
         "seconds": round(result.seconds, 3),
         "objects": [_object(obj) for obj in result.objects],

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...core.errors import DecompositionError
 from .exporting import ENDINGS
+from .hull_files import HULL_ENDINGS
 
 _NAME = "{name}"
 
@@ -19,6 +20,7 @@ class Targets:
 
     output: Path | None
     picture: Path | None
+    hulls: Path | None = None
 
 
 def targets_for(
@@ -26,6 +28,7 @@ def targets_for(
     output: str | None,
     picture: str | None,
     report: Path | None,
+    hulls: str | None = None,
 ) -> tuple[Targets, ...]:
     """Return the targets of each input.
 
@@ -36,12 +39,13 @@ def targets_for(
     """
     outputs = _resolved(inputs, output, "--output", ENDINGS)
     pictures = _resolved(inputs, picture, "--picture", (".png",))
-    files = [file for file in (*outputs, *pictures, report) if file]
+    hull_files = _resolved(inputs, hulls, "--hulls", HULL_ENDINGS)
+    files = [file for file in (*outputs, *pictures, *hull_files, report) if file]
     files += [file.with_suffix(".mtl") for file in outputs if _has_materials(file)]
     for file in files:
         _check_writable(file)
     _check_distinct(files, inputs)
-    return tuple(map(Targets, outputs, pictures))
+    return tuple(map(Targets, outputs, pictures, hull_files))
 
 
 def _has_materials(file: Path | None) -> bool:
