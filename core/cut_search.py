@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .hull import directions, hull_volume
+from .hull_cost import cost_of_sides
 from .piece import Cell, cut
 from .solid import Solid
 
@@ -49,13 +50,14 @@ def best_cut(solid: Solid, cell: Cell) -> tuple[Cell, Cell] | None:
         None if no plane has points on both sides.
     """
     best, least = None, np.inf
+    solid_volume = float(solid.volumes.sum())
     for plane in _distinct(_ranked_planes(cell)):
         sides = cut(solid, cell, plane)
         if min(len(side.corners) for side in sides) == 0:
             continue
-        errors = sides[0].error + sides[1].error
-        if errors < least:
-            best, least = sides, errors
+        cost = cost_of_sides(*sides, solid_volume)
+        if cost < least:
+            best, least = sides, cost
     return best
 
 

@@ -6,13 +6,14 @@ import heapq
 from collections.abc import Callable, Sequence
 from itertools import count
 
-from .piece import Piece, join, volume_error_of
+from .hull_cost import cost_of_joint, least_cost
+from .piece import Piece, join
 from .progress import Progress, Steps
 
 # Pieces whose bounding boxes are this near may touch; the longest side is 2.
 _NEAR = 0.03
 
-# Error, numbers of two pieces, and the two as one once its error is exact.
+# Cost, numbers of two pieces, and the two as one once the cost is exact.
 _Joint = tuple[float, int, int, Piece | None]
 
 
@@ -21,8 +22,8 @@ def join_pieces(
 ) -> Steps[list[Piece]]:
     """Join neighbors within `max_error`, and more where there are too many pieces.
 
-    Those come first that stray least together. Pieces that touch nothing are joined
-    only where there is no other way.
+    Those come first that cost least together. Pieces that touch nothing are joined only
+    where there is no other way.
 
     Parameters
     ----------
@@ -50,16 +51,17 @@ def _join(
     """Join pieces of which `may` is true; otherwise as `join_pieces`."""
     alive: dict[int, Piece] = {}
     queue: list[_Joint] = []
+    solid_volume = sum(piece.volume for piece in pieces)
     for piece in pieces:
-        _add(piece, len(alive), alive, queue, may)
+        _add(piece, len(alive), alive, queue, may, solid_volume)
     for number in count(len(pieces)):
-        found = _next_joint(alive, queue, max_error, max_pieces)
+        found = _next_joint(alive, queue, max_error, max_pieces, solid_volume)
         if found is None:
             break
         yield Progress("Joining", 1 - len(alive) / (len(pieces) + 1))
         one, other, joint = found
         del alive[one], alive[other]
-        _add(joint, number, alive, queue, may)
+        _add(joint, number, alive, queue, may, solid_volume)
     return list(alive.values())
 
 
@@ -69,30 +71,34 @@ def _add(
     alive: dict[int, Piece],
     queue: list[_Joint],
     may: Callable[[Piece, Piece], bool],
+    solid_volume: float,
 ) -> None:
     """Add a piece under a number of its own, and its joints with the others."""
     for other, neighbor in alive.items():
         if may(neighbor, piece):
-            # The volume term alone: it is cheap, and never above the error.
-            error = volume_error_of(neighbor, piece)
-            heapq.heappush(queue, (error, other, number, None))
+            cost = least_cost(neighbor, piece, solid_volume)
+            heapq.heappush(queue, (cost, other, number, None))
     alive[number] = piece
 
 
 def _next_joint(
-    alive: dict[int, Piece], queue: list[_Joint], max_error: float, max_pieces: int
+    alive: dict[int, Piece],
+    queue: list[_Joint],
+    max_error: float,
+    max_pieces: int,
+    solid_volume: float,
 ) -> tuple[int, int, Piece] | None:
     """Return the two pieces to be joined next, and what they are as one."""
     while queue:
-        error, one, other, joint = heapq.heappop(queue)
+        _, one, other, joint = heapq.heappop(queue)
         if one not in alive or other not in alive:
             continue
-        if error > max_error and len(alive) <= max_pieces:
-            return None
-        if joint:
+        if joint is None:
+            joint = join(alive[one], alive[other])
+            cost = cost_of_joint(joint, solid_volume)
+            heapq.heappush(queue, (cost, one, other, joint))
+        elif joint.error <= max_error or len(alive) > max_pieces:
             return one, other, joint
-        joint = join(alive[one], alive[other])
-        heapq.heappush(queue, (joint.error, one, other, joint))
     return None
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .cutting import cross_section, cut_triangles
-from .hull import Hull, convex_hull, hull_volume
+from .hull import Hull, convex_hull
 from .solid import Solid
 
 # Weight k of the volume term in CoACD's concavity.
@@ -53,10 +53,15 @@ class Piece:
         """The convex hull."""
         return convex_hull(self.points, THIN)
 
-    @cached_property
+    @property
+    def added_volume(self) -> float:
+        """Volume that the hull adds; negative for what samples miss."""
+        return self.hull.volume - self.volume
+
+    @property
     def volume_error(self) -> float:
         """Radius of a ball as large as what the hull adds, times k (CoACD's R_v)."""
-        return _radius(self.hull.volume - self.volume)
+        return volume_error(self.added_volume)
 
     @cached_property
     def error(self) -> float:
@@ -157,12 +162,6 @@ def join(one: Piece, other: Piece) -> Piece:
     )
 
 
-def volume_error_of(one: Piece, other: Piece) -> float:
-    """Return the volume error of two pieces as one."""
-    points = np.concatenate([one.hull.vertices, other.hull.vertices])
-    return _radius(hull_volume(points) - one.volume - other.volume)
-
-
 def _side(
     cell: Cell,
     plane: NDArray[np.float64],
@@ -188,8 +187,8 @@ def _side(
     )
 
 
-def _radius(volume: float) -> float:
-    """Return the volume error that an added volume makes."""
+def volume_error(volume: float) -> float:
+    """Return the volume error (R_v times k) that an added volume makes."""
     return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))
 
 

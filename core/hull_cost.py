@@ -1,0 +1,43 @@
+"""What hulls cost: their errors, and the volume that they add.
+
+Errors alone cannot tell a snug hull from one that fills what is thin.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .hull import hull_volume
+from .piece import Piece, volume_error
+
+# Error that adding the whole volume of the solid is worth.
+_PRICE = 1.0
+# A usual error: larger ones cost more than their share where pieces are joined, since
+# the largest of all is what counts.
+_USUAL = 0.05
+
+
+def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
+    """Return what the hulls of both sides of a cut cost."""
+    added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
+    return one.error + other.error + _price(added, solid_volume)
+
+
+def cost_of_joint(joint: Piece, solid_volume: float) -> float:
+    """Return what the hull of two pieces as one costs."""
+    return joint.error**2 / _USUAL + _price(joint.added_volume, solid_volume)
+
+
+def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
+    """Return what two pieces as one cost at least: as far as their volume tells.
+
+    The other term of their error takes far longer.
+    """
+    points = np.concatenate([one.hull.vertices, other.hull.vertices])
+    added = hull_volume(points) - one.volume - other.volume
+    return volume_error(added) ** 2 / _USUAL + _price(added, solid_volume)
+
+
+def _price(added: float, solid_volume: float) -> float:
+    """Return what an added volume costs; nothing where the solid has none."""
+    return _PRICE * max(added, 0.0) / solid_volume if solid_volume > 0 else 0.0
