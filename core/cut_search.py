@@ -13,9 +13,11 @@ from .piece import Cell, cut
 from .solid import Solid
 
 # Planes along each direction, and between the best ones of these in a second look.
-_PLANES = 12
-_BETWEEN = np.array([-0.6, -0.3, 0.3, 0.6])
-_LOOKED_AT_TWICE = 2
+_PLANES = 7
+_BETWEEN = np.array([-2, -1, 1, 2]) / 3
+_LOOKED_AT_TWICE = 4
+# Digits to which added volumes are compared.
+_DIGITS = 7
 # Directions closer than this cosine are one.
 _SAME = 0.995
 # Cuts that are made to see which is best; those alike count as one.
@@ -87,7 +89,8 @@ def _ranked_planes(cell: Cell) -> NDArray[np.float64]:
         offsets = np.linspace(low, high, _PLANES + 2)[1:-1]
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += _added_volumes(cell, points, reaches, heights, direction, offsets)
-    for row in np.argsort(added, kind="stable")[:_LOOKED_AT_TWICE]:
+    # Rounded, so that noise does not choose between planes that are alike.
+    for row in np.argsort(np.round(added, _DIGITS), kind="stable")[:_LOOKED_AT_TWICE]:
         direction, offset = planes[row][:3], -planes[row][3]
         heights = points @ direction
         step = np.ptp(heights) / (_PLANES + 1)
@@ -97,7 +100,7 @@ def _ranked_planes(cell: Cell) -> NDArray[np.float64]:
         offsets = np.sort(np.concatenate(steps))
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += _added_volumes(cell, points, reaches, heights, direction, offsets)
-    order = np.argsort(added, kind="stable")
+    order = np.argsort(np.round(added, _DIGITS), kind="stable")
     return np.array(planes)[order[np.isfinite(added)[order]]]
 
 

@@ -20,12 +20,13 @@ _USUAL = 0.05
 def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
     """Return what the hulls of both sides of a cut cost."""
     added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
-    return one.error + other.error + _price(added, solid_volume)
+    return _rounded(one.error + other.error + _price(added, solid_volume))
 
 
 def cost_of_joint(joint: Piece, solid_volume: float) -> float:
     """Return what the hull of two pieces as one costs."""
-    return joint.error**2 / _USUAL + _price(joint.added_volume, solid_volume)
+    price = _price(joint.added_volume, solid_volume)
+    return _rounded(joint.error**2 / _USUAL + price)
 
 
 def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
@@ -35,9 +36,14 @@ def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
     """
     points = np.concatenate([one.hull.vertices, other.hull.vertices])
     added = hull_volume(points) - one.volume - other.volume
-    return volume_error(added) ** 2 / _USUAL + _price(added, solid_volume)
+    return _rounded(volume_error(added) ** 2 / _USUAL + _price(added, solid_volume))
 
 
 def _price(added: float, solid_volume: float) -> float:
     """Return what an added volume costs; nothing where the solid has none."""
     return _PRICE * max(added, 0.0) / solid_volume if solid_volume > 0 else 0.0
+
+
+def _rounded(cost: float) -> float:
+    """Return a cost without the noise that would choose between what is alike."""
+    return round(cost, 6)

@@ -95,7 +95,8 @@ def build_hulls(
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
     else:
         pieces = yield from _within_error(solid, parts, parameters)
-    pieces.sort(key=lambda piece: -piece.hull.volume)
+    # Rounded: those of one size stay in the order in which they were cut.
+    pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
     center = (high + low) / 2
     shapes = tuple(
         enclose(piece.hull, parameters, size).moved(size, center) for piece in pieces
@@ -131,7 +132,7 @@ def _cut(
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
         yield Progress("Cutting", (len(cells) + len(done)) / most)
-        worst = max(cells, key=lambda cell: cell.error)
+        worst = max(cells, key=lambda cell: round(cell.error, 6))
         if worst.error <= max_error:
             break
         cells.remove(worst)

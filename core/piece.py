@@ -15,8 +15,8 @@ from .solid import Solid
 
 # Weight k of the volume term in CoACD's concavity.
 _VOLUME_WEIGHT = 0.3
-# Samples of a piece whose depth in its hull is looked at, at most.
-_MOST_SAMPLES = 2500
+# Samples times faces of the hull that they are looked up to be behind, at most.
+_MOST_HEIGHTS = 500_000
 # Samples on a hull's surface.
 _HULL_SAMPLES = 400
 # Thickness of the hulls of flat pieces; the longest side of a shape is 2.
@@ -73,7 +73,8 @@ class Piece:
         """
         if len(self.boundary) == 0:
             return self.volume_error
-        few = self.boundary[:: -(-len(self.boundary) // _MOST_SAMPLES)]
+        n_heights = len(self.boundary) * len(self.hull.planes)
+        few = self.boundary[:: -(-n_heights // _MOST_HEIGHTS)]
         depth = -self.hull.heights(few).min()
         tree = cKDTree(np.concatenate([self.boundary, self.hull.vertices]))
         away = tree.query(_spread(self.hull.corners))[0].max()
