@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .form import Shape
 from .parameters import Parameters
 from .part_count import given_part_count, search_part_count
 from .partition import Partitioner, count
 from .progress import Steps, within
-from .shapes import TriangleMesh
+from .scene import MakeCaster
 from .surface import Surface
-from .visibility import MakeCaster, Visibility, look, see
+from .visibility import Visibility, look, see
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,11 +24,11 @@ class Decomposition:
     Attributes
     ----------
     labels : (P,) int
-        Part of each polygon, 0-based; the largest part comes first.
+        Part of each polygon, or point of a cloud, 0-based; the largest comes first.
     areas : (K,) float
-        Area of each part, in the units of the mesh squared.
+        Area of each part, in the units of the shape squared.
     face_counts : (K,) int
-        Polygons of each part.
+        Polygons, or points, of each part.
     ranks : (K,) float
         Convexity rank of each part (eq. 1).
     psi_before : float
@@ -38,6 +39,8 @@ class Decomposition:
         Psi for every number of parts that was tried, before seams were cut.
     notes : tuple of str
         Sentences to the user about what is worth knowing.
+    normals : (P, 3) float or None
+        Outward normals of the points of a cloud whose own were missing or wrong.
     """
 
     labels: NDArray[np.int64]
@@ -48,6 +51,7 @@ class Decomposition:
     psi: float
     psi_by_k: dict[int, float]
     notes: tuple[str, ...]
+    normals: NDArray[np.float64] | None = None
 
     @property
     def n_parts(self) -> int:
@@ -75,16 +79,16 @@ class Measurement:
 
 
 def decompose(
-    mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
+    shape: Shape, parameters: Parameters, make_caster: MakeCaster
 ) -> Steps[Decomposition]:
-    """Split `mesh` into weakly convex parts; arguments and errors are those of `look`.
+    """Split `shape` into weakly convex parts; arguments and errors are those of `look`.
 
     Returns
     -------
     Steps of Decomposition
         Yields Progress; `run` gets the value.
     """
-    visibility = yield from within(see(mesh, parameters, make_caster), 0.0, 0.8)
+    visibility = yield from within(see(shape, parameters, make_caster), 0.0, 0.8)
     return (yield from within(find_parts(visibility, parameters), 0.8, 1.0))
 
 
@@ -107,29 +111,31 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
     parts = _by_size(parts, surface)
     samples = visibility.transfer.to_samples(parts)
     ranks = visibility.ranked.tally(samples, count(parts)).ranks()
+    labels = parts[visibility.form.nodes]
     return Decomposition(
-        labels=parts,
+        labels=labels,
         areas=surface.areas_of(parts) * visibility.unit_area,
-        face_counts=np.bincount(parts),
+        face_counts=np.bincount(labels, minlength=count(parts)),
         ranks=ranks,
         psi_before=psi_by_k[1],
         psi=partitioner.psi(parts),
         psi_by_k=psi_by_k,
-        notes=visibility.notes + _notes_on_count(parameters, psi_by_k),
+        notes=visibility.form.notes + _notes_on_count(parameters, psi_by_k),
+        normals=visibility.form.normals,
     )
 
 
 def measure(
-    mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
+    shape: Shape, parameters: Parameters, make_caster: MakeCaster
 ) -> Steps[Measurement]:
-    """Estimate the convexity rank of `mesh` (eq. 1).
+    """Estimate the convexity rank of `shape` (eq. 1).
 
     Parameters and errors are those of `decompose`; only what concerns samples and
     lines of sight matters.
     """
-    sight = yield from look(mesh, parameters, make_caster)
+    sight = yield from look(shape, parameters, make_caster)
     rank, standard_error = sight.pairs.rank_of_all()
-    return Measurement(rank, standard_error, len(sight.samples), sight.notes)
+    return Measurement(rank, standard_error, len(sight.samples), sight.form.notes)
 
 
 def _by_size(parts: NDArray[np.int64], surface: Surface) -> NDArray[np.int64]:

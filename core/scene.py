@@ -9,7 +9,7 @@ that no closed shell is around, as in the paper, and is passed by the others.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Protocol
 
 import numpy as np
@@ -24,6 +24,8 @@ PASS = 1e-6
 _MOST_CROSSINGS = 64
 # Surfaces behind the first one that are looked for along a ray, at most.
 _MOST_BEHIND = 8
+# What a ray meets so near its ends is the grain of the surface there, in grains.
+_GRAINS_AT_ENDS = 2.0
 
 
 class RayCaster(Protocol):
@@ -56,6 +58,9 @@ class RayCaster(Protocol):
         ...
 
 
+MakeCaster = Callable[[TriangleMesh], RayCaster]
+
+
 class Scene:
     """A mesh with its ray caster: whatever rays need to know of a shape.
 
@@ -65,15 +70,20 @@ class Scene:
         Its normals point out of the inside.
     caster : RayCaster
         Finds triangles of `mesh`.
+    grain : float, optional
+        Size of the splats that `mesh` consists of, 0 for a surface proper.
     """
 
-    def __init__(self, mesh: TriangleMesh, caster: RayCaster) -> None:
+    def __init__(
+        self, mesh: TriangleMesh, caster: RayCaster, grain: float = 0.0
+    ) -> None:
         self.normals = mesh.normals
         shells = find_shells(mesh)
         self.closed = shells.closed[shells.of_triangle]
         self.area = float(mesh.areas.sum())
         self.diagonal = mesh.diagonal
         self.caster = caster
+        self.grain = grain
 
     def march(
         self,
@@ -104,7 +114,9 @@ class Scene:
         """
         n_rays = len(origins)
         exits, distances = np.full(n_rays, -1), np.full(n_rays, np.inf)
-        travelled, depths = np.zeros(n_rays), depths.copy()
+        skipped = np.minimum(_GRAINS_AT_ENDS * self.grain, reach / 3)
+        reach = reach - skipped
+        travelled, depths = skipped, depths.copy()
         going = np.arange(n_rays)
         for _ in range(_MOST_CROSSINGS):
             starts = origins[going] + travelled[going, None] * directions[going]
@@ -180,6 +192,8 @@ class Scene:
         counts : (M,) int
             Negative where a ray comes in through a hole.
         """
+        if not self.closed.any():
+            return np.zeros(len(origins), dtype=np.int64)
         far = np.full(len(origins), 2 * self.diagonal)
         # Started so deep that no ray ends before the last crossing.
         bottom = np.full(len(origins), _MOST_CROSSINGS + 1)

@@ -15,9 +15,10 @@ from .scene import PASS, Scene
 RAYS_PER_STEP = 4096
 # Pairs whose facing is looked up at a time.
 _PAIRS_PER_BLOCK = 65536
-# Samples look from this far under the surface, in diagonals of the bounding box, or
-# from this share of the thickness where the shape is thinner.
+# Samples look from this far under the surface, in diagonals of the bounding box or in
+# grains of splats, or from this share of the thickness where the shape is thinner.
 _OFFSET = 1e-3
+_OFFSET_OF_GRAIN = 0.5
 _OFFSET_OF_THICKNESS = 0.1
 
 
@@ -51,7 +52,8 @@ def viewpoints(scene: Scene, samples: Samples) -> Viewpoints:
         np.full(len(samples), 2 * scene.diagonal),
         own,
     )
-    offsets = np.minimum(_OFFSET * scene.diagonal, _OFFSET_OF_THICKNESS * thickness)
+    deepest = max(_OFFSET * scene.diagonal, _OFFSET_OF_GRAIN * scene.grain)
+    offsets = np.minimum(deepest, _OFFSET_OF_THICKNESS * thickness)
     offsets = np.maximum(offsets, nudge)
     positions = samples.positions + offsets[:, None] * inwards
     outside = samples.positions + nudge * samples.normals

@@ -8,8 +8,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from .sampling import Samples
-from .shapes import TriangleMesh
-from .surface import Surface, surface_of
+from .surface import Surface
 
 # Nearest samples that speak for a polygon, and how far apart two samples of opposite
 # normals count, in mean distances of samples.
@@ -27,8 +26,10 @@ class Transfer:
     Parameters
     ----------
     samples : Samples
-    mesh : TriangleMesh
-        That the samples lie on.
+    polygon_of : (N,) int
+        Polygon that each sample lies on.
+    surface : Surface
+        Of these polygons, or of the points of a cloud in their place.
 
     Attributes
     ----------
@@ -40,9 +41,10 @@ class Transfer:
         With links between shells that touch.
     """
 
-    def __init__(self, samples: Samples, mesh: TriangleMesh) -> None:
-        surface = surface_of(mesh)
-        self.polygon_of = mesh.polygons[samples.triangles]
+    def __init__(
+        self, samples: Samples, polygon_of: NDArray[np.int64], surface: Surface
+    ) -> None:
+        self.polygon_of = polygon_of
         spacing = float(np.sqrt(surface.areas.sum() / len(samples)))
         weight = _NORMAL_WEIGHT * spacing
         tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,21 +11,17 @@ from .cone import see_cones, see_uniform_pairs
 from .containers import Grid, find_enclosed, see_through
 from .convexity import KnownPairs
 from .errors import DecompositionError
-from .orientation import oriented
+from .form import Form, Shape, form_of
 from .parameters import Parameters
 from .progress import Progress, Steps, within
 from .sampling import Samples, sample_faces, sample_surface
-from .scene import RayCaster, Scene
-from .shapes import TriangleMesh
-from .shells import set_apart
+from .scene import MakeCaster, Scene
 from .sight import see_all_pairs, viewpoints
 from .spectral import embed
 from .transfer import Transfer
 
 # Samples of which a matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
-
-MakeCaster = Callable[[TriangleMesh], RayCaster]
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,13 +30,11 @@ class Sight:
 
     Attributes
     ----------
-    mesh : TriangleMesh
-        Oriented, centered and of diagonal 1.
-    notes : tuple of str
-        Sentences to the user about what was turned.
+    form : Form
+        The shape, ready for it.
     samples : Samples
     scene : Scene
-        What rays are cast at: `mesh` with its shells set apart.
+        What rays are cast at.
     along_rays : KnownPairs
         Whose visible pairs are the affinity: the LoS matrix (eq. 3), or what is known
         of it from rays in cones.
@@ -49,8 +42,7 @@ class Sight:
         For convexity ranks and psi.
     """
 
-    mesh: TriangleMesh
-    notes: tuple[str, ...]
+    form: Form
     samples: Samples
     scene: Scene
     along_rays: KnownPairs
@@ -71,11 +63,11 @@ class Visibility:
     embedding : (N, n) float
         Coordinates of the samples.
     transfer : Transfer
-        Between the samples and the polygons.
+        Between the samples and the nodes of the surface.
+    form : Form
+        Of the shape.
     unit_area : float
-        Area that 1 stands for, in the units of the mesh squared.
-    notes : tuple of str
-        Sentences to the user about the shape.
+        Area that 1 stands for, in the units of the shape squared.
     """
 
     samples: Samples
@@ -83,23 +75,21 @@ class Visibility:
     pairs: KnownPairs
     embedding: NDArray[np.float64]
     transfer: Transfer
+    form: Form
     unit_area: float
-    notes: tuple[str, ...]
 
 
-def look(
-    mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
-) -> Steps[Sight]:
-    """Sample the surface of `mesh` and find the lines of sight between samples.
+def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps[Sight]:
+    """Sample the surface of `shape` and find the lines of sight between samples.
 
     Parameters
     ----------
-    mesh : TriangleMesh
+    shape : TriangleMesh or PointCloud
         In any units; nothing asks for a closed or connected surface.
     parameters : Parameters
     make_caster : callable
-        Returns a RayCaster for the mesh it is given: `mesh` centered, scaled and
-        oriented, with its shells set apart.
+        Returns a RayCaster for the mesh it is given: `shape` centered, scaled and
+        oriented, with its shells set apart, or the splats of its points.
 
     Returns
     -------
@@ -111,22 +101,21 @@ def look(
         If the surface has no area, or more faces than all pairs of can be looked up,
         where faces are the samples.
     """
-    mesh, notes = oriented(mesh.normalized())
-    apart = set_apart(mesh)
-    yield Progress("Samples", 0.0)
+    form = yield from within(form_of(shape, make_caster), 0.0, 0.01)
+    yield Progress("Samples", 0.01)
     rng = np.random.default_rng(parameters.seed)
     if parameters.sampling == "FACES":
-        samples = sample_faces(apart)
+        samples = sample_faces(form.targets)
         _check_number(samples, parameters)
     else:
-        samples = sample_surface(apart, parameters.samples, rng)
+        samples = sample_surface(form.targets, parameters.samples, rng)
     yield Progress("Ray tree", 0.01)
-    scene = Scene(apart, make_caster(apart))
+    scene = Scene(form.targets, make_caster(form.targets), form.grain)
     views = viewpoints(scene, samples)
     if parameters.sight == "ALL_PAIRS":
         los = yield from within(see_all_pairs(scene, samples, views), 0.02, 1.0)
         pairs = KnownPairs(los.astype(np.float32), None)
-        return Sight(mesh, notes, samples, scene, pairs, pairs)
+        return Sight(form, samples, scene, pairs, pairs)
     positive, negative = yield from within(
         see_cones(scene, samples, views, parameters.rays, parameters.cone_angle),
         0.02,
@@ -137,19 +126,20 @@ def look(
         pairs = yield from within(
             see_uniform_pairs(scene, samples, views, rng), 0.8, 1.0
         )
-    return Sight(mesh, notes, samples, scene, along_rays, pairs)
+    return Sight(form, samples, scene, along_rays, pairs)
 
 
 def see(
-    mesh: TriangleMesh, parameters: Parameters, make_caster: MakeCaster
+    shape: Shape, parameters: Parameters, make_caster: MakeCaster
 ) -> Steps[Visibility]:
-    """Return the visibility of `mesh`; parameters and errors are those of `look`."""
-    sight = yield from within(look(mesh, parameters, make_caster), 0.0, 0.8)
+    """Return the visibility of `shape`; parameters and errors are those of `look`."""
+    sight = yield from within(look(shape, parameters, make_caster), 0.0, 0.8)
     ranked = sight.pairs
     if parameters.containers == "FILLED":
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
     yield Progress("Embedding", 0.9)
-    transfer = Transfer(sight.samples, sight.mesh)
+    node_of_sample = sight.form.targets.polygons[sight.samples.triangles]
+    transfer = Transfer(sight.samples, node_of_sample, sight.form.surface())
     yield Progress("Embedding", 0.95)
     embedding = embed(
         sight.along_rays.visible,
@@ -162,8 +152,8 @@ def see(
         sight.pairs,
         embedding,
         transfer,
-        mesh.diagonal**2,
-        sight.notes,
+        sight.form,
+        shape.diagonal**2,
     )
 
 
@@ -178,7 +168,7 @@ def _check_number(samples: Samples, parameters: Parameters) -> None:
 
 def _through_containers(sight: Sight) -> Steps[Sight]:
     """Return the sight with the enclosed outside seen through."""
-    grid = yield from within(find_enclosed(sight.scene, sight.mesh), 0.0, 0.6)
+    grid = yield from within(find_enclosed(sight.scene, sight.form.targets), 0.0, 0.6)
     if not grid.encloses:
         return sight
     along_rays = yield from within(_revealed(sight, sight.along_rays, grid), 0.6, 0.9)

@@ -2,12 +2,14 @@ import numpy as np
 import pytest
 import shapes
 from weak_convex_decomposition.core.sampling import sample_surface
+from weak_convex_decomposition.core.surface import surface_of
 from weak_convex_decomposition.core.transfer import Transfer
 
 
 def carry(mesh, n_samples=300, seed=0):
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
-    return samples, Transfer(samples, mesh)
+    polygons = mesh.polygons[samples.triangles]
+    return samples, Transfer(samples, polygons, surface_of(mesh))
 
 
 def test_the_says_of_samples_sum_to_one():

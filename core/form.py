@@ -1,0 +1,97 @@
+"""Shapes made ready to be sampled, looked through and labeled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .clouds import PointCloud
+from .normals import estimate_normals, face_inwards
+from .orientation import oriented
+from .points_surface import surface_of_points
+from .progress import Progress, Steps, within
+from .scene import MakeCaster
+from .shapes import TriangleMesh
+from .shells import set_apart
+from .splats import areas_of_points, nearest_points, smoothed, splats, thinned
+from .surface import Surface, surface_of
+
+Shape = TriangleMesh | PointCloud
+
+
+@dataclass(frozen=True, eq=False)
+class Form:
+    """What a mesh and a point cloud have in common, in the unit of their diagonal.
+
+    Attributes
+    ----------
+    targets : TriangleMesh
+        What rays are cast at and samples lie on. Its polygons are the nodes of
+        `surface`.
+    surface : callable
+        Returns the graph that labels move along.
+    nodes : (F,) int
+        Node of each polygon of the mesh, or point of the cloud.
+    grain : float
+        Size of the splats among `targets`, 0 for a mesh.
+    notes : tuple of str
+        Sentences to the user about what was changed for the computation.
+    normals : (F, 3) float or None
+        Outward normals of the points of a cloud whose own were missing or wrong.
+    """
+
+    targets: TriangleMesh
+    surface: Callable[[], Surface]
+    nodes: NDArray[np.int64]
+    grain: float = 0.0
+    notes: tuple[str, ...] = ()
+    normals: NDArray[np.float64] | None = None
+
+
+def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:
+    """Return the form of a shape: centered, of diagonal 1, facing outwards."""
+    yield Progress("Surface", 0.0)
+    if isinstance(shape, PointCloud):
+        return (yield from _form_of_cloud(shape.normalized(), make_caster))
+    mesh, notes = oriented(shape.normalized())
+    nodes = np.arange(mesh.n_polygons)
+    return Form(set_apart(mesh), lambda: surface_of(mesh), nodes, notes=notes)
+
+
+def _form_of_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[Form]:
+    """Return the form of a cloud: its splats, of not more points than needed."""
+    points, normals = cloud.points, cloud.normals
+    notes: tuple[str, ...] = ()
+    if normals is None:
+        normals = yield from within(estimate_normals(points, make_caster), 0.0, 0.6)
+        notes = ("The points have no normals; they were estimated.",)
+    elif face_inwards(points, normals):
+        normals = -normals
+        notes = (
+            "The normals of the points face inwards; they were turned for this"
+            " computation only.",
+        )
+    found = normals if notes else None
+    yield Progress("Splats", 0.6)
+    points = smoothed(points, normals)
+    areas = areas_of_points(points, normals)
+    targets = splats(points, normals, areas)
+    yield Progress("Splats", 0.8)
+    kept, nodes = thinned(targets), np.arange(len(points))
+    if len(kept) < len(points):
+        everything = points, normals
+        points, normals = points[kept], normals[kept]
+        nodes = nearest_points(points, normals, everything, 1)[:, 0]
+        areas = areas_of_points(points, normals)
+        targets = splats(points, normals, areas)
+    return Form(
+        targets,
+        lambda: surface_of_points(points, normals, areas),
+        nodes,
+        float(np.sqrt(areas.mean())),
+        notes,
+        found,
+    )
