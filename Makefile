@@ -3,8 +3,8 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint zip bench bench-coacd bench-hulls bench-ablation bench-speed contact-sheet \
-  clean psb venv development
+.PHONY: help demo test lint zip bench bench-coacd bench-hulls bench-ablation bench-clouds \
+  bench-speed contact-sheet clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -64,6 +64,9 @@ bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
 
 bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=directory
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)
+
+bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=directory
+	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/speed.py

@@ -70,8 +70,8 @@ def _check_points(points: NDArray[np.float64]) -> None:
     """Raise unless points can be those of a surface."""
     if len(points) < _FEWEST:
         raise DecompositionError(
-            f"The point cloud has too few points, {len(points)}; it needs at least"
-            f" {_FEWEST}, and a thousand to show parts."
+            f"There are no faces, and too few points for a point cloud, {len(points)};"
+            f" add faces, or choose an object of at least {_FEWEST} points."
         )
     if not np.isfinite(points).all():
         raise DecompositionError(

@@ -16,7 +16,7 @@ from .progress import Progress, Steps, within
 from .scene import MakeCaster
 from .shapes import TriangleMesh
 from .shells import set_apart
-from .splats import areas_of_points, nearest_points, smoothed, splats, thinned
+from .splats import nearest_points, smoothed, thinned_splats
 from .surface import Surface, surface_of
 
 Shape = TriangleMesh | PointCloud
@@ -77,16 +77,12 @@ def _form_of_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[Form]:
     found = normals if notes else None
     yield Progress("Splats", 0.6)
     points = smoothed(points, normals)
-    areas = areas_of_points(points, normals)
-    targets = splats(points, normals, areas)
+    kept, areas, targets = thinned_splats(points, normals)
     yield Progress("Splats", 0.8)
-    kept, nodes = thinned(targets), np.arange(len(points))
+    nodes, everything = np.arange(len(points)), (points, normals)
     if len(kept) < len(points):
-        everything = points, normals
         points, normals = points[kept], normals[kept]
         nodes = nearest_points(points, normals, everything, 1)[:, 0]
-        areas = areas_of_points(points, normals)
-        targets = splats(points, normals, areas)
     return Form(
         targets,
         lambda: surface_of_points(points, normals, areas),

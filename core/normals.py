@@ -12,7 +12,7 @@ from .cone import cone_directions
 from .progress import Progress, Steps, within
 from .scene import MakeCaster, RayCaster
 from .sight import RAYS_PER_STEP
-from .splats import areas_of_points, splats, thinned
+from .splats import areas_of_points, thinned_splats
 
 # Points that a plane is fitted to: more average noise, fewer see thin walls.
 _NEIGHBORS = 10
@@ -30,7 +30,7 @@ _FAR = 2.0
 _AGREEMENT = 3.0
 _SHARPNESS = 4
 # A flux through the surface below this share of the greatest one is an inward one.
-_CLEARLY_INWARDS = 0.05
+_CLEARLY_INWARDS = 0.1
 
 
 def estimate_normals(
@@ -46,16 +46,13 @@ def estimate_normals(
         Returns a RayCaster for splats of these points.
     """
     axes = yield from within(fit_planes(points), 0.0, 0.5)
-    # With signs unknown, normals do not tell the sides of a wall apart.
-    unknown = np.zeros_like(axes)
-    kept = thinned(splats(points, axes, areas_of_points(points, unknown)))
+    kept, areas, targets = thinned_splats(points, axes)
     few, few_axes = points[kept], axes[kept]
-    areas = areas_of_points(few, unknown[kept])
     signs = yield from within(
         outward_signs(
             few,
             few_axes,
-            make_caster(splats(few, few_axes, areas)),
+            make_caster(targets),
             float(np.sqrt(areas.mean())),
         ),
         0.5,
@@ -82,7 +79,8 @@ def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> b
 def fit_planes(points: NDArray[np.float64]) -> Steps[NDArray[np.float64]]:
     """Return the normals of planes through the points around each, (N, 3).
 
-    Principal components of the nearest points; which way a normal points is left open.
+    Principal components of the nearest points. Which way a normal points is open: its
+    largest component is made positive, so that most neighbors agree.
     """
     axes, tree = np.empty_like(points), cKDTree(points)
     for start in range(0, len(points), _FITS_PER_STEP):
@@ -92,7 +90,8 @@ def fit_planes(points: NDArray[np.float64]) -> Steps[NDArray[np.float64]]:
         spread = near - near.mean(axis=1, keepdims=True)
         covariances = np.einsum("nki,nkj->nij", spread, spread)
         axes[rows] = np.linalg.eigh(covariances)[1][:, :, 0]
-    return axes
+    largest = np.abs(axes).argmax(axis=1)[:, None]
+    return axes * np.sign(np.take_along_axis(axes, largest, axis=1))
 
 
 def outward_signs(

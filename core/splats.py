@@ -117,18 +117,33 @@ def splats(
     )
 
 
-def thinned(targets: TriangleMesh) -> NDArray[np.int64]:
-    """Return the points whose splats are kept, spread evenly by area, in order.
+def thinned_splats(
+    points: NDArray[np.float64], normals: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], TriangleMesh]:
+    """Return the points that are kept, the areas they stand for, and their splats.
+
+    What is kept is spread evenly over the surface, however uneven the density.
 
     Parameters
     ----------
+    points, normals : (N, 3) float
+
+    Returns
+    -------
+    kept : (M,) int
+        Ascending; all points if there are not too many.
+    areas : (M,) float
     targets : TriangleMesh
-        Splats of all points.
     """
-    if targets.n_polygons <= _MOST_SPLATS:
-        return np.arange(targets.n_polygons)
-    rng = np.random.default_rng(0)
-    return np.unique(sample_surface(targets, _MOST_SPLATS, rng).triangles)
+    kept = np.arange(len(points))
+    areas = areas_of_points(points, normals)
+    targets = splats(points, normals, areas)
+    if len(points) > _MOST_SPLATS:
+        rng = np.random.default_rng(0)
+        kept = np.unique(sample_surface(targets, _MOST_SPLATS, rng).triangles)
+        areas = areas_of_points(points[kept], normals[kept])
+        targets = splats(points[kept], normals[kept], areas)
+    return kept, areas, targets
 
 
 def _areas_around(

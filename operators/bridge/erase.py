@@ -18,6 +18,15 @@ from .record import (
 
 PART_LAYER = "wcd_part"
 MATERIAL_LAYER = "wcd_material_index"
+# Of points alone: their colors by part, and normals where theirs were not to be used.
+COLOR_LAYER = "wcd_color"
+NORMAL_LAYER = "wcd_normal"
+LAYERS = {
+    PART_LAYER: "INT",
+    MATERIAL_LAYER: "INT",
+    COLOR_LAYER: "FLOAT_COLOR",
+    NORMAL_LAYER: "FLOAT_VECTOR",
+}
 
 
 def clear(obj: bpy.types.Object) -> None:
@@ -48,8 +57,8 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     indices = _indices_without_ours(mesh, restore, layers)
     materials = _erase_slots(obj, restore)
     layers.set_material_indices(indices)
-    layers.remove_faces(PART_LAYER)
-    layers.remove_faces(MATERIAL_LAYER)
+    for name in LAYERS:
+        layers.remove_faces(name)
     layers.finish()
     write_restore(mesh, None)
     for sharer in sharers(mesh):
@@ -75,6 +84,8 @@ def _indices_without_ours(
     mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
 ) -> IntArray | None:
     """Return the material index of each face for when our slots are gone."""
+    if not getattr(mesh, "polygons", None):  # points
+        return None
     now = layers.material_indices()
     if now is None:
         now = np.zeros(len(mesh.polygons), dtype=np.int32)

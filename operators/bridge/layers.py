@@ -11,11 +11,15 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .points import is_cloud
+
 IntArray = NDArray[np.int32]
 
 
 class ObjectModeLayers:
     """Access to the layers of an object whose mesh is not being edited."""
+
+    _domain = "FACE"
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self._obj = obj
@@ -37,7 +41,7 @@ class ObjectModeLayers:
         attribute = self._mesh.attributes.get(name)
         if attribute is None:
             return None
-        values = np.empty(len(self._mesh.polygons), dtype=np.int32)
+        values = np.empty(len(attribute.data), dtype=np.int32)
         attribute.data.foreach_get("value", values)
         return values
 
@@ -45,7 +49,7 @@ class ObjectModeLayers:
         """Write an attribute of the faces."""
         attribute = self._mesh.attributes.get(name)
         if attribute is None:
-            attribute = self._mesh.attributes.new(name, "INT", "FACE")
+            attribute = self._mesh.attributes.new(name, "INT", self._domain)
         # Anything but int32 is converted value by value, 20 times slower.
         attribute.data.foreach_set("value", values.astype(np.int32))
 
@@ -62,6 +66,25 @@ class ObjectModeLayers:
     def finish(self) -> None:
         """Tell Blender that the mesh has changed."""
         self._mesh.update()
+
+
+class PointLayers(ObjectModeLayers):
+    """The same access to a point cloud: its points stand for faces.
+
+    All points have one material, which shows their colors.
+    """
+
+    _domain = "POINT"
+
+    def material_indices(self) -> None:
+        """Return None: there are none."""
+
+    def set_material_indices(self, values: IntArray | None) -> None:
+        """Write nothing."""
+
+    def finish(self) -> None:
+        """Tell Blender that the points have changed."""
+        self._obj.data.update_tag()
 
 
 class EditModeLayers:
@@ -119,4 +142,6 @@ class EditModeLayers:
 
 def layers_of(obj: bpy.types.Object) -> ObjectModeLayers | EditModeLayers:
     """Return access to the layers of an object's mesh in the mode it is in."""
+    if is_cloud(obj):
+        return PointLayers(obj)
     return EditModeLayers(obj) if obj.data.is_editmode else ObjectModeLayers(obj)

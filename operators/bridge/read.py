@@ -6,21 +6,25 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.clouds import PointCloud
 from ...core.errors import DecompositionError
 from ...core.shapes import TriangleMesh
+from .points import is_cloud, normals_of, positions_of
 
 # Scales that differ by less are the same scale in Blender's single precision.
 _SAME_SCALE = 1e-5
 
 
-def read_shape(obj: bpy.types.Object) -> TriangleMesh:
-    """Return an object's own mesh, without modifiers, in triangles.
+def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
+    """Return an object's own mesh, without modifiers, in triangles, or its points.
 
     Coordinates are those of object space; if the scale of the object stretches the
     mesh, they are stretched likewise, because samples are spread over the shape that
     the user sees. Mirroring changes no line of sight and is left out, so that
     triangles keep their winding.
     """
+    if is_cloud(obj):
+        return _read_cloud(obj)
     mesh = obj.data
     if mesh.is_editmode:
         obj.update_from_editmode()
@@ -38,6 +42,15 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh:
     )
 
 
+def _read_cloud(obj: bpy.types.Object) -> PointCloud:
+    """Return the points of a cloud, with their normals if it has any."""
+    stretch, normals = _stretch(obj), normals_of(obj)
+    points = positions_of(obj).astype(np.float64) * stretch
+    if normals is not None:  # normals stretch the other way
+        normals = normals.astype(np.float64) / stretch
+    return PointCloud(points, normals)
+
+
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     """Return what the user should know about what was read of an object."""
     notes = []
@@ -47,7 +60,8 @@ def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
             "The mesh was read without its modifiers"
             f" ({', '.join(modifiers)}); apply them first to include them."
         )
-    if obj.data.shape_keys and any(k.value for k in obj.data.shape_keys.key_blocks):
+    keys = getattr(obj.data, "shape_keys", None)  # point clouds know none
+    if keys and any(key.value for key in keys.key_blocks):
         notes.append("The mesh was read in its Basis shape, without shape keys.")
     sharers = sum(other.data == obj.data for other in bpy.data.objects)
     if sharers > 1:

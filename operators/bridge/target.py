@@ -7,14 +7,24 @@ from dataclasses import dataclass
 import bpy
 
 from ...core.errors import DecompositionError
+from .points import count_points, is_cloud
+
+_WORKED_ON = {"MESH", "POINTCLOUD"}
+# Objects that Blender makes meshes of.
+_CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
 
 
 def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | None:
     """Return why an object cannot be worked on, None if it can."""
     if obj is None:
         return "There is no active object; select a mesh"
-    if obj.type != "MESH":
-        return f"{obj.name} is not a mesh; select a mesh"
+    if obj.type in _CONVERTIBLE:
+        return (
+            f"{obj.name} is not a mesh; convert it to one first (Object > Convert >"
+            " Mesh)"
+        )
+    if obj.type not in _WORKED_ON:
+        return f"{obj.name} is not a mesh; select a mesh or a point cloud"
     if not obj.is_editable or (writes_mesh and not obj.data.is_editable):
         return (
             f"{obj.name} is linked from a library and cannot be changed; make it local"
@@ -22,6 +32,8 @@ def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | Non
         )
     if obj.mode not in {"OBJECT", "EDIT"}:
         return "Parts are made in Object or Edit Mode; switch the mode"
+    if obj.mode == "EDIT" and is_cloud(obj):
+        return "Parts of points are made in Object Mode; leave Edit Mode"
     return None
 
 
@@ -34,27 +46,27 @@ class Target:
 
     object_uid: int
     mesh_uid: int
-    n_vertices: int
+    n_points: int
     n_polygons: int
 
     @classmethod
     def of(cls, obj: bpy.types.Object) -> Target:
         """Return the target that an object is now."""
         mesh = obj.data
-        if mesh.is_editmode:
+        if obj.mode == "EDIT":
             obj.update_from_editmode()
         return cls(
             obj.session_uid,
             mesh.session_uid,
-            len(mesh.vertices),
-            len(mesh.polygons),
+            count_points(obj),
+            0 if is_cloud(obj) else len(mesh.polygons),
         )
 
     def find(self) -> bpy.types.Object:
         """Return the object, or raise if it is gone or has changed."""
         for obj in bpy.data.objects:
             if obj.session_uid == self.object_uid:
-                if obj.type == "MESH" and Target.of(obj) == self:
+                if obj.type in _WORKED_ON and Target.of(obj) == self:
                     return obj
                 break
         raise DecompositionError(

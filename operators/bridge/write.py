@@ -9,9 +9,18 @@ import numpy as np
 
 from ...core.errors import DecompositionError
 from ...core.parameters import Parameters
-from .erase import MATERIAL_LAYER, PART_LAYER, erase_parts
-from .layers import EditModeLayers, IntArray, ObjectModeLayers, layers_of
-from .materials import discard_unused, part_materials, part_name
+from .erase import (
+    COLOR_LAYER,
+    LAYERS,
+    MATERIAL_LAYER,
+    NORMAL_LAYER,
+    PART_LAYER,
+    erase_parts,
+)
+from .layers import IntArray, layers_of
+from .materials import discard_unused, part_materials, part_name, points_material
+from .palette import part_color
+from .points import count_points, is_cloud, set_points
 from .record import Restore, check_records, read_restore, write_restore, write_result
 from .target import refusal
 
@@ -33,15 +42,22 @@ def write_parts(
         that are needed.
     """
     check_writable(obj)
-    if len(decomposition.labels) != len(obj.data.polygons):
+    n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
+    if len(decomposition.labels) != n_elements:
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
     former = erase_parts(obj)
     restore = _write_mesh(obj, decomposition)
-    materials = [m.name for m in obj.data.materials[-decomposition.n_parts :]]
+    if is_cloud(obj):
+        _write_points(obj, decomposition)
     write_restore(obj.data, restore)
-    write_result(obj, decomposition, parameters, restore.groups, materials)
+    n_parts = decomposition.n_parts
+    names = restore.groups or [part_name(part) for part in range(n_parts)]
+    materials = [material.name for material in obj.data.materials[-n_parts:]]
+    if is_cloud(obj):
+        materials = materials[-1:] * n_parts
+    write_result(obj, decomposition, parameters, names, materials)
     discard_unused(former)
 
 
@@ -50,14 +66,14 @@ def check_writable(obj: bpy.types.Object) -> None:
     reason = refusal(obj)
     if reason:
         raise DecompositionError(f"{reason}.")
-    if obj.data.is_editmode:
+    if obj.mode == "EDIT":
         obj.update_from_editmode()
     check_records(obj)
     written = read_restore(obj.data) is not None
-    for name in (PART_LAYER, MATERIAL_LAYER):
+    for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
-        kind = attribute and (attribute.data_type, attribute.domain)
-        allowed = (None, ("INT", "FACE")) if written else (None,)
+        allowed = (None, data_type) if written else (None,)
+        kind = attribute and attribute.data_type
         if kind not in allowed or name in obj.vertex_groups:
             raise DecompositionError(
                 f"The mesh has an attribute or vertex group {name} that does not come"
@@ -74,8 +90,10 @@ def _write_mesh(obj: bpy.types.Object, decomposition: Decomposition) -> Restore:
     slots = [material.name if material else "" for material in mesh.materials]
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
     active_slot = obj.active_material_index
-    groups = _add_groups(obj, decomposition.n_parts, active_group)
-    for material in part_materials(decomposition.n_parts, slots):
+    groups = []
+    if obj.type == "MESH":  # Blender gives point cloud objects no groups
+        groups = _add_groups(obj, decomposition.n_parts, active_group)
+    for material in _materials(obj, decomposition.n_parts, slots):
         mesh.materials.append(material)
     obj.active_material_index = active_slot
     layers = layers_of(obj)
@@ -84,7 +102,9 @@ def _write_mesh(obj: bpy.types.Object, decomposition: Decomposition) -> Restore:
         layers.set_faces(MATERIAL_LAYER, before)
     layers.set_faces(PART_LAYER, labels)
     layers.set_material_indices(labels + len(slots))
-    _fill_groups(obj, groups, labels, layers)
+    for part, name in enumerate(groups):
+        vertices = _vertices_of(obj, labels, part)
+        layers.fill_group(obj.vertex_groups[name], vertices)
     layers.finish()
     return Restore(
         groups=groups,
@@ -104,19 +124,30 @@ def _add_groups(obj: bpy.types.Object, n_parts: int, active: str) -> list[str]:
     return names
 
 
-def _fill_groups(
-    obj: bpy.types.Object,
-    names: list[str],
-    labels: IntArray,
-    layers: ObjectModeLayers | EditModeLayers,
-) -> None:
-    """Put the vertices of each part's faces into its group."""
+def _materials(
+    obj: bpy.types.Object, n_parts: int, slots: list[str]
+) -> list[bpy.types.Material]:
+    """Return what shows the parts: a material for each, or one for all points."""
+    if is_cloud(obj):
+        return [points_material(COLOR_LAYER, slots)]
+    return part_materials(n_parts, slots)
+
+
+def _write_points(obj: bpy.types.Object, decomposition: Decomposition) -> None:
+    """Write what is on points alone: colors, and normals that were found."""
+    palette = np.array([part_color(part) for part in range(decomposition.n_parts)])
+    set_points(obj, COLOR_LAYER, "FLOAT_COLOR", palette[decomposition.labels])
+    if decomposition.normals is not None:
+        set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
+
+
+def _vertices_of(obj: bpy.types.Object, labels: IntArray, part: int) -> IntArray:
+    """Return the vertices of a part: points, or those of its faces."""
+    if is_cloud(obj):
+        return np.flatnonzero(labels == part).astype(np.int32)
     mesh = obj.data
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     sizes = np.empty(len(mesh.polygons), dtype=np.int32)
     mesh.polygons.foreach_get("loop_total", sizes)
-    part_of_corner = np.repeat(labels, sizes)
-    for part, name in enumerate(names):
-        vertices = np.unique(corners[part_of_corner == part])
-        layers.fill_group(obj.vertex_groups[name], vertices)
+    return np.unique(corners[np.repeat(labels == part, sizes)])

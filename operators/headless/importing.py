@@ -11,9 +11,11 @@ import addon_utils
 import bpy
 
 from ...core.errors import DecompositionError
+from ..bridge.points import is_cloud, set_points
 from .file_checks import check_file
 from .finite_checks import check_finite
 from .off_reader import read_off
+from .points_reader import read_points
 from .quiet import quiet_blender
 
 # Formats whose files do not say which axis points up, with the axis that it is
@@ -55,10 +57,10 @@ def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
         raise DecompositionError(_sentence(path, "the importer gave up"))
     objects = mesh_objects()
     if not objects:
-        raise DecompositionError(f"{path.name} has no mesh objects.")
-    if not any(len(obj.data.polygons) for obj in objects):
+        raise DecompositionError(f"{path.name} has no meshes or point clouds.")
+    if not any(is_cloud(obj) or obj.data.polygons for obj in objects):
         raise DecompositionError(
-            f"{path.name} has no faces; point clouds and wires cannot be decomposed."
+            f"{path.name} has edges but no faces; wires cannot be decomposed."
         )
     return objects
 
@@ -70,13 +72,13 @@ def _clean_scene() -> None:
 
 
 def mesh_objects() -> list[bpy.types.Object]:
-    """Return the mesh objects that some view layer of the file shows."""
+    """Return the meshes and point clouds that some view layer of the file shows."""
     found = {
         obj
         for scene in bpy.data.scenes
         for layer in scene.view_layers
         for obj in layer.objects
-        if obj.type == "MESH"
+        if obj.type in {"MESH", "POINTCLOUD"}
     }
     return sorted(found, key=lambda obj: obj.name_full)
 
@@ -119,11 +121,27 @@ def _off(path: Path, up: str) -> set[str]:
     mesh = bpy.data.meshes.new(path.stem)
     mesh.from_pydata(vertices, [], [row for row in polygons if len(row) > 2])
     mesh.validate()
-    obj = bpy.data.objects.new(path.stem, mesh)
+    _placed(mesh, up)
+    return {"FINISHED"}
+
+
+def _points(path: Path, up: str) -> set[str]:
+    points, normals = read_points(path)
+    mesh = bpy.data.meshes.new(path.stem)
+    mesh.from_pydata(points, [], [])
+    obj = _placed(mesh, up)
+    if normals is not None:
+        set_points(obj, "normal", "FLOAT_VECTOR", normals)
+    return {"FINISHED"}
+
+
+def _placed(mesh: bpy.types.Mesh, up: str) -> bpy.types.Object:
+    """Return a new object of the scene with a mesh, turned upright."""
+    obj = bpy.data.objects.new(mesh.name, mesh)
     obj.rotation_euler.x = pi / 2 if up == "Y" else 0.0
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.update()
-    return {"FINISHED"}
+    return obj
 
 
 def _gltf(path: Path, _up: str) -> set[str]:
@@ -150,6 +168,9 @@ _IMPORTERS: dict[str, Callable[[Path, str], set[str]]] = {
     ".ply": _ply,
     ".stl": _stl,
     ".off": _off,
+    ".xyz": _points,
+    ".pwn": _points,
+    ".pts": _points,
     ".glb": _gltf,
     ".gltf": _gltf,
     ".fbx": _fbx,

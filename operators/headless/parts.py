@@ -14,6 +14,7 @@ from ...core.errors import DecompositionError
 from ...core.parameters import Parameters
 from ...core.progress import Progress, mapped, run
 from ..bridge.computing import decompose_object, summary
+from ..bridge.points import is_cloud
 from ..bridge.write import write_parts
 from .screen import Screen
 
@@ -53,10 +54,10 @@ def decompose_objects(
     screen: Screen,
 ) -> tuple[ObjectResult, ...]:
     """Decompose each object, and say on the screen what came of it."""
-    done: dict[bpy.types.Mesh, str] = {}
+    done: dict[bpy.types.ID, str] = {}
     results = []
     for obj in objects:
-        if not obj.data.polygons:
+        if not (is_cloud(obj) or obj.data.polygons):
             note = "It has no faces and was left as it is."
             result = ObjectResult(obj.name_full, notes=(note,))
         elif obj.data in done:

@@ -14,9 +14,12 @@ from mathutils import Euler, Matrix, Vector
 from numpy.typing import NDArray
 
 from ...core.errors import DecompositionError
+from ..bridge.materials import discard_unused, our_materials
+from ..bridge.points import is_cloud
 from .exporting import replacing
 from .quiet import quiet_blender
 from .render_engine import RenderEngine
+from .splat_mesh import splat_mesh
 
 _ELEVATION = radians(22.0)
 # Turns about the vertical axis: three quarters from the front, and from behind.
@@ -56,7 +59,7 @@ def _render(
     with _temporary_scene(objects) as scene, tempfile.TemporaryDirectory() as folder:
         _set_up(scene, engine)
         scene.render.resolution_x = scene.render.resolution_y = size
-        coordinates = _coordinates(objects)
+        coordinates = _coordinates([o for o in scene.objects if o.type == "MESH"])
         scene.render.filepath = str(Path(folder, "view.png"))
         views = []
         for turn in _VIEWS:
@@ -75,11 +78,15 @@ def _temporary_scene(
     camera = bpy.data.cameras.new("Picture")
     lamp = bpy.data.lights.new("Picture", "SUN")
     world = bpy.data.worlds.new("Picture")
-    stand_ins = []
+    stand_ins, made = [], []
     for obj in objects:
         # Not the object itself: it may be hidden, and has modifiers that the parts
         # do not know of.
-        stand_in = bpy.data.objects.new(obj.name, obj.data)
+        mesh = obj.data
+        if is_cloud(obj):
+            mesh = splat_mesh(obj)
+            made.append(mesh)
+        stand_in = bpy.data.objects.new(obj.name, mesh)
         stand_in.matrix_world = obj.matrix_world
         stand_ins.append(stand_in)
     scene.camera = bpy.data.objects.new("Picture", camera)
@@ -90,7 +97,9 @@ def _temporary_scene(
     try:
         yield scene
     finally:
-        bpy.data.batch_remove([*stand_ins, scene.camera, sun, camera, lamp, world])
+        ours = [*stand_ins, *made, scene.camera, sun, camera, lamp, world]
+        bpy.data.batch_remove(ours)
+        discard_unused(our_materials())
         bpy.data.scenes.remove(scene)
 
 

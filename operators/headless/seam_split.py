@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..bridge.erase import PART_LAYER
+from ..bridge.palette import part_color
+from ..bridge.points import count_points, is_cloud, positions_of
 from .importing import mesh_objects
 
 _NUMBER = "part"
@@ -23,7 +25,9 @@ _UNPAINTED = (0.8, 0.8, 0.8, 1.0)
 @contextmanager
 def split_at_seams() -> Iterator[None]:
     """Select copies of all mesh objects, split and painted, for an exporter."""
-    copies = [_copy(obj) for obj in mesh_objects()]
+    copies = [
+        _copy_of_points(obj) if is_cloud(obj) else _copy(obj) for obj in mesh_objects()
+    ]
     collection = bpy.context.scene.collection
     for obj in bpy.context.view_layer.objects:
         obj.select_set(False)
@@ -35,6 +39,26 @@ def split_at_seams() -> Iterator[None]:
     finally:
         for copy in copies:
             bpy.data.meshes.remove(copy.data)  # and with it the object
+
+
+def _copy_of_points(obj: bpy.types.Object) -> bpy.types.Object:
+    """Return a new object of the points of a cloud, painted."""
+    mesh = bpy.data.meshes.new(obj.name)
+    mesh.from_pydata(positions_of(obj), [], [])
+    copy = bpy.data.objects.new(obj.name, mesh)
+    copy.matrix_world = obj.matrix_world
+    parts = np.full(count_points(obj), -1, dtype=np.int32)
+    source = obj.data.attributes.get(PART_LAYER)
+    if source is not None:
+        source.data.foreach_get("value", parts)
+    colors = np.array([part_color(part) for part in range(parts.max() + 1)])
+    colors = np.concatenate([colors.reshape(-1, 4), [_UNPAINTED]])  # at -1
+    paint = mesh.color_attributes.new("Color", "FLOAT_COLOR", "POINT")
+    paint.data.foreach_set("color", colors[parts].astype(np.float32).ravel())
+    mesh.color_attributes.active_color = paint
+    number = mesh.attributes.new(_NUMBER, "INT", "POINT")
+    number.data.foreach_set("value", parts)
+    return copy
 
 
 def _copy(obj: bpy.types.Object) -> bpy.types.Object:

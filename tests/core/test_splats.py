@@ -10,7 +10,7 @@ from weak_convex_decomposition.core.splats import (
     smoothed,
     spacing_of,
     splats,
-    thinned,
+    thinned_splats,
 )
 
 
@@ -79,9 +79,10 @@ def test_thinning_keeps_all_of_few_and_an_even_share_of_many(monkeypatch):
     points, normals = clouds.drawn(shapes.box(divisions=8), 4000)
     sparse = (points[:, 0] > 0.5) & (np.arange(4000) % 4 != 0)
     points, normals = points[~sparse], normals[~sparse]
-    targets = splats(points, normals, areas_of_points(points, normals))
-    assert (thinned(targets) == np.arange(len(points))).all()
+    kept, _, _ = thinned_splats(points, normals)
+    assert (kept == np.arange(len(points))).all()
     monkeypatch.setattr(splats_module, "_MOST_SPLATS", 500)
-    kept = thinned(targets)
-    assert 400 < len(kept) <= 500
+    kept, areas, targets = thinned_splats(points, normals)
+    assert 400 < len(kept) == len(areas) == targets.n_polygons <= 500
+    assert areas.sum() == pytest.approx(6, rel=0.5)  # edges count twice
     assert (points[kept, 0] < 0.5).mean() == pytest.approx(0.5, abs=0.08)
