@@ -14,6 +14,7 @@ from ...core.hull_names import hull_names
 from ...core.hull_parameters import HullParameters
 from .erase import PART_LAYER
 from .materials import part_materials
+from .points import is_cloud
 from .read import stretch
 from .record import read_restore, write_hull_record
 from .target import refusal
@@ -29,6 +30,8 @@ _TAG = "wcd_hull"
 def hull_refusal(obj: bpy.types.Object | None) -> str | None:
     """Return why hulls cannot be made for an object, None if they can."""
     reason = refusal(obj, writes_mesh=False)
+    if reason is None and is_cloud(obj):
+        return f"Hulls need faces, and {obj.name} has none; give it a surface first"
     if reason is None and obj.mode != "OBJECT":
         return "Hulls are objects: made in Object Mode alone; switch the mode"
     return reason

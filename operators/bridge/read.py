@@ -44,10 +44,10 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
 
 def _read_cloud(obj: bpy.types.Object) -> PointCloud:
     """Return the points of a cloud, with their normals if it has any."""
-    stretch, normals = _stretch(obj), normals_of(obj)
-    points = positions_of(obj).astype(np.float64) * stretch
+    factors, normals = stretch(obj), normals_of(obj)
+    points = positions_of(obj).astype(np.float64) * factors
     if normals is not None:  # normals stretch the other way
-        normals = normals.astype(np.float64) / stretch
+        normals = normals.astype(np.float64) / factors
     return PointCloud(points, normals)
 
 

@@ -174,7 +174,7 @@ def test_edit_mode_is_refused(suzanne):
 def test_a_mesh_without_faces_is_refused():
     obj = mesh_object("wire", [(0, 0, 0), (1, 0, 0)], [])
     bpy.context.view_layer.objects.active = obj
-    with pytest.raises(RuntimeError, match="no faces"):
+    with pytest.raises(RuntimeError, match="need faces"):
         build()
 
 

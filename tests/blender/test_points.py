@@ -201,3 +201,10 @@ def test_what_can_be_converted_says_so(add):
     add()
     with pytest.raises(RuntimeError, match="convert it to one first"):
         bpy.ops.wcd.decompose(**FAST)
+
+
+@pytest.mark.parametrize("make", [points_object, cloud_object])
+def test_hulls_of_points_are_refused(make):
+    activate(make())
+    with pytest.raises(RuntimeError, match="Hulls need faces"):
+        bpy.ops.wcd.build_hulls()
