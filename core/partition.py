@@ -38,6 +38,7 @@ class Partitioner:
         self.surface = visibility.transfer.surface
         self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
+        self._labels: dict[int, NDArray[np.int64]] = {}
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Return the pairs of samples counted by the parts of the polygons."""
@@ -50,17 +51,22 @@ class Partitioner:
 
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
-        parts = np.zeros(self.surface.n_polygons, dtype=np.int64)
-        if n_parts == 1:
-            return parts
-        if self.by_psi:
-            n_clusters, labels = self._clusters(n_parts)
-            raised = raise_psi(
-                self.visibility.pairs, labels, n_clusters, self.parameters.alpha
-            )
-            parts = self._tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
+        plain = self._plain(n_parts)
+        if n_parts == 1 or not self.by_psi:
+            return plain
+        n_clusters, labels = self._clusters(n_parts)
+        raised = raise_psi(
+            self.visibility.pairs, labels, n_clusters, self.parameters.alpha
+        )
+        parts = self._tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
         # Psi may be better with fewer parts: they are split where it loses least.
-        return self._split(parts, n_parts)
+        moved = self._split(parts, n_parts)
+        return max(moved, plain, key=lambda parts: (count(parts), self.psi(parts)))
+
+    def _plain(self, n_parts: int) -> NDArray[np.int64]:
+        """Return the parts that k-means' clusters are, as they are."""
+        whole = np.zeros(self.surface.n_polygons, dtype=np.int64)
+        return self._split(whole, n_parts)
 
     def _split(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return parts split along k-means' clusters into `n_parts` connected ones."""
@@ -78,6 +84,8 @@ class Partitioner:
     def _clusters(self, n_clusters: int) -> tuple[int, NDArray[np.int64]]:
         """Return the number of clusters of the samples, and their labels, (N,) int."""
         n_clusters = min(n_clusters, len(self.visibility.samples))
+        if n_clusters in self._labels:
+            return n_clusters, self._labels[n_clusters]
         # Samples that see the same, as in a convex shape, are told apart by place.
         coordinates = np.hstack(
             [
@@ -85,7 +93,10 @@ class Partitioner:
                 _PLACE_WEIGHT * self.visibility.samples.positions,
             ]
         )
-        return n_clusters, cluster(coordinates, n_clusters, self.parameters.seed)
+        self._labels[n_clusters] = cluster(
+            coordinates, n_clusters, self.parameters.seed
+        )
+        return n_clusters, self._labels[n_clusters]
 
     def seamed(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
         """Return the same number of parts with their seams cut anew (eq. 4).
@@ -97,8 +108,7 @@ class Partitioner:
             return parts
         enough = -np.inf
         if self.by_psi:
-            plain = self._split(np.zeros_like(parts), n_parts)
-            enough = min(self.psi(plain), self.psi(parts))
+            enough = min(self.psi(self._plain(n_parts)), self.psi(parts))
         labels = self.transfer.to_samples(parts)
         costs = self.transfer.shares @ self._dislikes(labels, n_parts)
         for share in _SOFTER:
