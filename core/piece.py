@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from .cutting import cross_section, cut_triangles
 from .hull import Hull, convex_hull
+from .sampling import points_on
 from .solid import Solid
 
 # Weight k of the volume term in CoACD's concavity.
@@ -77,7 +78,9 @@ class Piece:
         few = self.boundary[:: -(-n_heights // _MOST_HEIGHTS)]
         depth = -self.hull.heights(few).min()
         tree = cKDTree(np.concatenate([self.boundary, self.hull.vertices]))
-        away = tree.query(_spread(self.hull.corners))[0].max()
+        rng = np.random.default_rng(0)
+        _, spread = points_on(self.hull.corners, _HULL_SAMPLES, rng)
+        away = tree.query(spread)[0].max()
         return max(self.volume_error, depth, away - _SLACK * self.spacing)
 
 
@@ -213,17 +216,3 @@ def _heights(
     """Return how far points (M, 3) are above planes (P, 4), (M, P)."""
     heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
     return heights
-
-
-def _spread(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return points spread over triangles (F, 3, 3), the same every time."""
-    rng = np.random.default_rng(0)
-    a, b, c = np.moveaxis(corners, 1, 0)
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1).cumsum()
-    draws = (np.arange(_HULL_SAMPLES) + rng.random(_HULL_SAMPLES)) / _HULL_SAMPLES
-    rows = np.minimum(np.searchsorted(areas, draws * areas[-1]), len(areas) - 1)
-    root, split = np.sqrt(rng.random((2, _HULL_SAMPLES)))
-    split = split**2
-    shares = np.stack([1 - root, root * (1 - split), root * split], axis=1)
-    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", shares, corners[rows])
-    return points

@@ -61,21 +61,37 @@ def sample_surface(
     -------
     Samples
     """
-    n_candidates = n_samples * _CANDIDATES
-    cumulative = np.cumsum(mesh.areas)
-    # Systematic draws: one per equal slice of the cumulative area.
-    draws = (np.arange(n_candidates) + rng.random(n_candidates)) / n_candidates
-    triangles = np.searchsorted(cumulative, draws * cumulative[-1], side="right")
-    triangles = np.minimum(triangles, len(cumulative) - 1)
-    corners = mesh.vertices[mesh.triangles[triangles]]
-    root, split = np.sqrt(rng.random(n_candidates)), rng.random(n_candidates)
-    weights = np.stack([1 - root, root * (1 - split), root * split], axis=1)
-    candidates = np.einsum("nc,ncd->nd", weights, corners)
+    triangles, candidates = points_on(
+        mesh.vertices[mesh.triangles], n_samples * _CANDIDATES, rng
+    )
     runs = np.argsort(_morton_codes(candidates), kind="stable")
     runs = runs.reshape(n_samples, _CANDIDATES)
     chosen = runs[np.arange(n_samples), rng.integers(_CANDIDATES, size=n_samples)]
     picked = triangles[chosen]
     return Samples(candidates[chosen], mesh.normals[picked], picked)
+
+
+def points_on(
+    corners: NDArray[np.float64], n_points: int, rng: np.random.Generator
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Draw points on triangles (T, 3, 3), uniformly by area.
+
+    Returns
+    -------
+    triangles : (N,) int
+        That each point lies on, ascending.
+    points : (N, 3) float
+    """
+    a, b, c = np.moveaxis(corners, 1, 0)
+    cumulative = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+    # Systematic draws: one per equal slice of the cumulative area.
+    draws = (np.arange(n_points) + rng.random(n_points)) / n_points
+    triangles = np.searchsorted(cumulative, draws * cumulative[-1], side="right")
+    triangles = np.minimum(triangles, len(cumulative) - 1)
+    root, split = np.sqrt(rng.random(n_points)), rng.random(n_points)
+    weights = np.stack([1 - root, root * (1 - split), root * split], axis=1)
+    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", weights, corners[triangles])
+    return triangles, points
 
 
 def sample_faces(mesh: TriangleMesh) -> Samples:
