@@ -155,6 +155,6 @@ def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str
     if parameters.pieces == "PARTS" or errors.max() <= parameters.max_error:
         return ()
     return (
-        f"The error is {errors.max():.3f}, above Largest Error: {parameters.max_hulls}"
-        " hulls are too few for this shape; raise Most Hulls.",
+        f"The error is {errors.max():.3f}, above Largest Error, after as many cuts as"
+        f" Most Hulls = {parameters.max_hulls} allows; raise Most Hulls for more.",
     )

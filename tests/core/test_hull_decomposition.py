@@ -55,8 +55,8 @@ def test_the_error_is_concavity():
     assert found.errors[0] == pytest.approx(hausdorff, abs=0.03)
     assert found.volume_ratio == pytest.approx(1 + gap / solid, rel=0.03)
     assert found.notes == (
-        f"The error is {found.errors[0]:.3f}, above Largest Error: 1 hulls are too few"
-        " for this shape; raise Most Hulls.",
+        f"The error is {found.errors[0]:.3f}, above Largest Error, after as many cuts"
+        " as Most Hulls = 1 allows; raise Most Hulls for more.",
     )
 
 
