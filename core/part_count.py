@@ -63,7 +63,7 @@ def _partitions(
     """Return the parts and psi of one part, and of every k that the shape allows."""
     parts_by_k = {1: partitioner.partition(1)}
     for n_parts in range(low, high + 1):
-        yield Progress("Number of parts", (n_parts - low) / (high + 1 - low))
+        yield Progress("Number of parts", 0.8 * (n_parts - low) / (high + 1 - low))
         parts = partitioner.partition(n_parts)
         parts_by_k.setdefault(count(parts), parts)
         if count(parts) < n_parts:
@@ -71,7 +71,10 @@ def _partitions(
     psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
     if partitioner.by_psi:
         # What k-means misses with few clusters it may find with more.
-        for n_parts in range(max(parts_by_k) - 1, low - 1, -1):
+        most = max(parts_by_k)
+        for n_parts in range(most - 1, low - 1, -1):
+            done = (most - n_parts) / (most + 1 - low)
+            yield Progress("Number of parts", 0.8 + 0.2 * done)
             merged = partitioner.merged(parts_by_k[n_parts + 1], n_parts)
             psi = partitioner.psi(merged)
             if psi > psi_by_k[n_parts]:
