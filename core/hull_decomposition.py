@@ -98,16 +98,18 @@ def build_hulls(
     # Rounded: those of one size stay in the order in which they were cut.
     pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
     center = (high + low) / 2
-    shapes = tuple(
-        enclose(piece.hull, parameters, size).moved(size, center) for piece in pieces
-    )
+    shapes, main_parts = [], []
+    for piece in pieces:
+        yield Progress("Shapes", 1.0)
+        shapes.append(enclose(piece.hull, parameters, size).moved(size, center))
+        main_parts.append(_main_part(solid, parts, piece))
     errors = np.array([piece.error for piece in pieces])
     volume = float(solid.volumes.sum()) * size**3
     total = sum(shape.volume for shape in shapes)
     return HullDecomposition(
-        shapes,
+        tuple(shapes),
         errors,
-        np.array([_main_part(solid, parts, piece) for piece in pieces]),
+        np.array(main_parts),
         total / volume if volume > 0 else np.inf,
         (*notes, *_notes(errors, parameters)),
     )

@@ -8,7 +8,7 @@ from itertools import count
 
 from .hull_cost import cost_of_joint, least_cost
 from .piece import Piece, join
-from .progress import Progress, Steps
+from .progress import Progress, Steps, within
 
 # Pieces whose bounding boxes are this near may touch; the longest side is 2.
 _NEAR = 0.03
@@ -54,11 +54,12 @@ def _join(
     solid_volume = sum(piece.volume for piece in pieces)
     for piece in pieces:
         _add(piece, len(alive), alive, queue, may, solid_volume)
+        yield Progress("Joining", 0.0)
     for number in count(len(pieces)):
-        found = _next_joint(alive, queue, max_error, max_pieces, solid_volume)
+        steps = _next_joint(alive, queue, max_error, max_pieces, solid_volume)
+        found = yield from within(steps, 1 - len(alive) / (len(pieces) + 1), 1.0)
         if found is None:
             break
-        yield Progress("Joining", 1 - len(alive) / (len(pieces) + 1))
         one, other, joint = found
         del alive[one], alive[other]
         _add(joint, number, alive, queue, may, solid_volume)
@@ -87,13 +88,14 @@ def _next_joint(
     max_error: float,
     max_pieces: int,
     solid_volume: float,
-) -> tuple[int, int, Piece] | None:
+) -> Steps[tuple[int, int, Piece] | None]:
     """Return the two pieces to be joined next, and what they are as one."""
     while queue:
         _, one, other, joint = heapq.heappop(queue)
         if one not in alive or other not in alive:
             continue
         if joint is None:
+            yield Progress("Joining", 0.0)
             joint = join(alive[one], alive[other])
             cost = cost_of_joint(joint, solid_volume)
             heapq.heappush(queue, (cost, one, other, joint))

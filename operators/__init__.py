@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import command_line
+from . import command_line, modal
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
@@ -14,6 +14,7 @@ CLASSES = (
     WCD_OT_measure,
     WCD_OT_build_hulls,
     WCD_OT_clear,
+    modal.WCD_OT_cancel,
     WCD_OT_use_preset,
 )
 
@@ -26,7 +27,8 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`."""
+    """Undo `register`; a computation that is running ends."""
+    modal.stop()
     command_line.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

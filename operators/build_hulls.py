@@ -17,7 +17,6 @@ from ..ui.properties import (
 )
 from .bridge.computing import build_hulls_of, hull_summary
 from .bridge.hulls import hull_refusal, write_hulls
-from .bridge.target import Target
 from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -35,13 +34,9 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the active object can have hulls."""
-        reason = hull_refusal(context.active_object)
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return hull_refusal(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
@@ -49,13 +44,11 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> Steps[HullDecomposition]:
         self._parameters = hull_parameters_from(self)
-        self._target = Target.of(context.active_object)
-        self._started = time.perf_counter()
         parameters = parameters_from(context.scene.wcd)
         return build_hulls_of(context.active_object, parameters, self._parameters)
 
-    def _commit(self, value: HullDecomposition) -> None:
-        write_hulls(self._target.find(), value, self._parameters)
+    def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> None:
+        write_hulls(obj, value, self._parameters)
         self._warn(value.notes)
         seconds = time.perf_counter() - self._started
         self.report({"INFO"}, f"{hull_summary(value)}, {seconds:.1f} s")

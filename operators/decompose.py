@@ -10,7 +10,7 @@ import bpy
 from ..core.progress import Steps
 from ..ui.properties import ADVANCED, FRONT, annotations, draw, parameters_from
 from .bridge.computing import decompose_object, summary
-from .bridge.target import Target, refusal
+from .bridge.target import refusal
 from .bridge.write import write_parts
 from .computation import Computation
 
@@ -28,13 +28,9 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the active object can be decomposed."""
-        reason = refusal(context.active_object)
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return refusal(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings, those of the sidebar's front first."""
@@ -44,12 +40,10 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> Steps[Decomposition]:
         self._parameters = parameters_from(self)
-        self._target = Target.of(context.active_object)
-        self._started = time.perf_counter()
         return decompose_object(context.active_object, self._parameters)
 
-    def _commit(self, value: Decomposition) -> None:
-        write_parts(self._target.find(), value, self._parameters)
+    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
+        write_parts(obj, value, self._parameters)
         self._warn(value.notes)
         seconds = time.perf_counter() - self._started
         self.report({"INFO"}, f"{summary(value)}, {seconds:.1f} s")

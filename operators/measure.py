@@ -11,7 +11,7 @@ from ..core.progress import Steps
 from ..ui.properties import MEASURE, annotations, draw, parameters_from
 from .bridge.computing import measure_object
 from .bridge.record import write_measurement
-from .bridge.target import Target, refusal
+from .bridge.target import refusal
 from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -26,13 +26,9 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
     bl_description = "Measure the share of pairs of surface points that see each other"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the active object can be measured."""
-        reason = refusal(context.active_object, writes_mesh=False)
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return refusal(obj, writes_mesh=False)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
@@ -40,13 +36,12 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
 
     def _begin(self, context: bpy.types.Context) -> Steps[Measurement]:
         self._parameters = parameters_from(self, MEASURE)
-        self._target = Target.of(context.active_object)
         return measure_object(context.active_object, self._parameters)
 
-    def _commit(self, value: Measurement) -> None:
+    def _commit(self, obj: bpy.types.Object, value: Measurement) -> None:
         values = asdict(self._parameters)
         used = {name: values[name] for name in MEASURE}
-        write_measurement(self._target.find(), value, used)
+        write_measurement(obj, value, used)
         self._warn(value.notes)
         error = value.standard_error
         self.report(

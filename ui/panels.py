@@ -8,7 +8,9 @@ from typing import Any, ClassVar
 
 import bpy
 
+from . import running
 from .properties import ADVANCED, ALL, FRONT, HULLS, MEASURE, draw
+from .running import Running
 
 # Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
 _MARGINS = 80
@@ -59,10 +61,13 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, FRONT)
-        column = layout.column()
-        column.scale_y = 1.4
-        button = column.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
-        _hand_over(settings, button, ALL)
+        row = layout.row()
+        row.scale_y = 1.4
+        if running.current:
+            _progress(row, running.current)
+        else:
+            button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
+            _hand_over(settings, button, ALL)
         row = layout.row(align=True)
         _hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
         row.operator("wcd.clear", text="Clear")
@@ -164,6 +169,14 @@ def _columns(
         cell = numbers.row()
         cell.alignment = "RIGHT"
         cell.label(text=text)
+
+
+def _progress(row: bpy.types.UILayout, run: Running) -> None:
+    """Draw how far a computation is, and the button that stops it."""
+    progress = run.job.progress
+    split = row.split(factor=0.7)
+    split.progress(factor=progress.fraction, text=progress.stage)
+    split.operator("wcd.cancel", text="Cancel")
 
 
 def _paragraph(

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from dataclasses import replace
+from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
@@ -11,7 +13,7 @@ import bpy
 from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
-from ...core.progress import Steps, within
+from ...core.progress import Progress, Steps, within
 from .hulls import hull_refusal, part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes
@@ -24,6 +26,17 @@ if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
 
     Result = TypeVar("Result", Decomposition, Measurement, HullDecomposition)
 
+# In the order in which they load each other.
+_LIBRARIES = (
+    "scipy.linalg",
+    "scipy.spatial",
+    "scipy.optimize",
+    "scipy.stats",
+    "sklearn.utils",
+    "sklearn.neighbors",
+    "sklearn.cluster",
+)
+
 
 def decompose_object(
     obj: bpy.types.Object, parameters: Parameters
@@ -35,12 +48,16 @@ def decompose_object(
     DecompositionError
         At once, if the object cannot be read or written to.
     """
-    # Loads SciPy and scikit-learn: seconds that enabling the add-on must not take.
-    from ...core.decomposition import decompose
-
     check_writable(obj)
-    steps = decompose(read_shape(obj), parameters, BvhRayCaster)
-    return _with_notes(reading_notes(obj), steps)
+    mesh = read_shape(obj)
+
+    def work() -> Steps[Decomposition]:
+        yield from _load_libraries()
+        from ...core.decomposition import decompose
+
+        return (yield from decompose(mesh, parameters, BvhRayCaster))
+
+    return _with_notes(reading_notes(obj), work())
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -48,12 +65,16 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
 
     Errors are those of `decompose_object`.
     """
-    # As above.
-    from ...core.decomposition import measure
-
     check_records(obj)
-    steps = measure(read_shape(obj), parameters, BvhRayCaster)
-    return _with_notes(reading_notes(obj), steps)
+    mesh = read_shape(obj)
+
+    def work() -> Steps[Measurement]:
+        yield from _load_libraries()
+        from ...core.decomposition import measure
+
+        return (yield from measure(mesh, parameters, BvhRayCaster))
+
+    return _with_notes(reading_notes(obj), work())
 
 
 def build_hulls_of(
@@ -64,10 +85,6 @@ def build_hulls_of(
     An object without parts is decomposed, but they are not written to it. Errors are
     those of `decompose_object`.
     """
-    # As above.
-    from ...core.decomposition import decompose
-    from ...core.hull_decomposition import build_hulls
-
     reason = hull_refusal(obj)
     if reason:
         raise DecompositionError(f"{reason}.")
@@ -75,6 +92,10 @@ def build_hulls_of(
     mesh, labels = read_shape(obj), part_labels(obj)
 
     def work() -> Steps[HullDecomposition]:
+        yield from _load_libraries()
+        from ...core.decomposition import decompose
+        from ...core.hull_decomposition import build_hulls
+
         found = labels
         if found is None:
             parts = yield from within(decompose(mesh, parameters, BvhRayCaster), 0, 0.4)
@@ -83,6 +104,17 @@ def build_hulls_of(
         return (yield from within(steps, 0.0 if labels is not None else 0.4, 1.0))
 
     return _with_notes(reading_notes(obj), work())
+
+
+def _load_libraries() -> Steps[None]:
+    """Load what the core needs: a second that enabling the add-on must not take.
+
+    Once in a session, and one library after the other, so that a window stays alive.
+    """
+    for name in _LIBRARIES:
+        if name not in sys.modules:
+            yield Progress("Libraries", 0.0)
+            import_module(name)
 
 
 def hull_summary(found: HullDecomposition) -> str:
