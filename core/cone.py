@@ -48,12 +48,45 @@ def cone_directions(
     )
 
 
+def fan_directions(
+    normals: NDArray[np.float64],
+    n_rays: int,
+    opening: float,
+    plane: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return rays spread evenly around each inward normal in a plane.
+
+    Parameters
+    ----------
+    normals : (N, 3) float
+        Outward unit vectors in the plane.
+    n_rays : int
+        Rays r of each fan.
+    opening : float
+        Full angle of the fan in radians.
+    plane : (3,) float
+        Normal of the plane, a unit vector.
+
+    Returns
+    -------
+    directions : (N, r, 3) float
+        Unit vectors.
+    """
+    angles = ((np.arange(n_rays) + 0.5) / n_rays - 0.5) * opening
+    sideways = np.cross(plane, normals)
+    return (
+        -normals[:, None] * np.cos(angles)[:, None]
+        + sideways[:, None] * np.sin(angles)[:, None]
+    )
+
+
 def see_cones(
     scene: Scene,
     samples: Samples,
     views: Viewpoints,
     n_rays: int,
     opening: float,
+    plane: NDArray[np.float64] | None = None,
 ) -> Steps[tuple[sparse.csr_array, sparse.csr_array]]:
     """Return the positive and the negative LoS matrix of cones of rays.
 
@@ -70,6 +103,8 @@ def see_cones(
         Rays r a sample.
     opening : float
         Full angle of the cone in radians.
+    plane : (3,) float, optional
+        Normal of the plane that rays stay in, those of a flat shape.
 
     Returns
     -------
@@ -77,7 +112,11 @@ def see_cones(
         Symmetric. A sample sees itself; no pair is in both.
     """
     n_samples = len(samples)
-    directions = cone_directions(samples.normals, n_rays, opening).reshape(-1, 3)
+    if plane is None:
+        directions = cone_directions(samples.normals, n_rays, opening)
+    else:
+        directions = fan_directions(samples.normals, n_rays, opening, plane)
+    directions = directions.reshape(-1, 3)
     sources = np.repeat(np.arange(n_samples), n_rays)
     # Two sides of a thin wall are near in space, but face away from each other.
     scale = float(np.sqrt(scene.area / n_samples))

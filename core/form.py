@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .clouds import PointCloud
 from .normals import estimate_normals, face_inwards
 from .orientation import oriented
+from .outline import flat_mesh
 from .points_surface import surface_of_points
 from .progress import Progress, Steps, within
 from .scene import MakeCaster
@@ -24,13 +25,14 @@ Shape = TriangleMesh | PointCloud
 
 @dataclass(frozen=True, eq=False)
 class Form:
-    """What a mesh and a point cloud have in common, in the unit of their diagonal.
+    """What a mesh, a flat mesh and a point cloud have in common.
+
+    Lengths are in the unit of their diagonal.
 
     Attributes
     ----------
     targets : TriangleMesh
-        What rays are cast at and samples lie on. Its polygons are the nodes of
-        `surface`.
+        What rays are cast at and samples lie on. Its polygons are nodes of `surface`.
     surface : callable
         Returns the graph that labels move along.
     nodes : (F,) int
@@ -41,6 +43,8 @@ class Form:
         Sentences to the user about what was changed for the computation.
     normals : (F, 3) float or None
         Outward normals of the points of a cloud whose own were missing or wrong.
+    plane : (3,) float or None
+        Normal of the plane of a flat mesh, a unit vector.
     """
 
     targets: TriangleMesh
@@ -49,6 +53,7 @@ class Form:
     grain: float = 0.0
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
+    plane: NDArray[np.float64] | None = None
 
 
 def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:
@@ -56,8 +61,13 @@ def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
         return (yield from _form_of_cloud(shape.normalized(), make_caster))
-    mesh, notes = oriented(shape.normalized())
+    mesh = shape.normalized()
     nodes = np.arange(mesh.n_polygons)
+    if flat := flat_mesh(mesh):
+        return Form(
+            flat.walls, flat.surface, nodes, notes=flat.notes, plane=flat.normal
+        )
+    mesh, notes = oriented(mesh)
     return Form(set_apart(mesh), lambda: surface_of(mesh), nodes, notes=notes)
 
 

@@ -65,7 +65,8 @@ def cut_seams(
     """Move the seams so that they are short, in creases, and true to the samples.
 
     Minimizes eq. 4, E(l) = sum of areas times `costs` + lambda times the length of the
-    seams, where an edge in a concave crease counts less (the smoothness term).
+    seams, where an edge in a concave crease counts less (the smoothness term). In a
+    flat mesh, lengths of outline take the place of areas: seams cross it straight.
 
     Parameters
     ----------
@@ -73,7 +74,7 @@ def cut_seams(
     labels : (P,) int
         Where to start, in 0…K − 1.
     costs : (P, K) float
-        Data term per unit of area.
+        Data term per unit of area, or of outline.
     smoothness : float
         lambda.
 
@@ -81,9 +82,9 @@ def cut_seams(
     -------
     labels : (P,) int
     """
-    total = surface.areas.sum()
-    data = costs * (surface.areas / total)[:, None]
-    seams = smoothness * _SEAM_UNIT * surface.lengths / np.sqrt(total)
+    data = costs * surface.weights[:, None]
+    unit = _SEAM_UNIT / np.sqrt(surface.areas.sum())
+    seams = smoothness * unit * surface.lengths
     seams = seams * np.exp(-_CREASE * np.maximum(surface.bends, 0.0))
     cutter = _Expansion(surface.neighbors, data, seams)
     labels = labels.copy()

@@ -30,6 +30,8 @@ class Surface:
         concave (a crease seen from outside), negative where it is convex.
     links : (L, 2) int
         Polygons of different shells that touch.
+    outline : (P,) float or None
+        Length of the outline at each polygon of a flat mesh.
     """
 
     areas: NDArray[np.float64]
@@ -39,11 +41,18 @@ class Surface:
     lengths: NDArray[np.float64]
     bends: NDArray[np.float64]
     links: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    outline: NDArray[np.float64] | None = None
 
     @property
     def n_polygons(self) -> int:
         """Number of polygons P."""
         return len(self.areas)
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """Share of the samples that each polygon can expect, (P,)."""
+        sampled = self.areas if self.outline is None else self.outline
+        return sampled / sampled.sum()
 
     def areas_of(self, labels: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the area under each label 0…K − 1, (K,)."""

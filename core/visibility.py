@@ -117,7 +117,9 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
         pairs = KnownPairs(los.astype(np.float32), None)
         return Sight(form, samples, scene, pairs, pairs)
     positive, negative = yield from within(
-        see_cones(scene, samples, views, parameters.rays, parameters.cone_angle),
+        see_cones(
+            scene, samples, views, parameters.rays, parameters.cone_angle, form.plane
+        ),
         0.02,
         0.8,
     )
@@ -135,7 +137,7 @@ def see(
     """Return the visibility of `shape`; parameters and errors are those of `look`."""
     sight = yield from within(look(shape, parameters, make_caster), 0.0, 0.8)
     ranked = sight.pairs
-    if parameters.containers == "FILLED":
+    if parameters.containers == "FILLED" and sight.form.plane is None:
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
     yield Progress("Embedding", 0.9)
     node_of_sample = sight.form.targets.polygons[sight.samples.triangles]

@@ -12,6 +12,11 @@ from .points import count_points, is_cloud
 _WORKED_ON = {"MESH", "POINTCLOUD"}
 # Objects that Blender makes meshes of.
 _CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
+# What gives an outline the faces that carry parts.
+_FILLING = (
+    "; an outline is filled with faces by 2D and Fill Mode Both (Object Data > Shape),"
+    " chosen before"
+)
 
 
 def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | None:
@@ -22,7 +27,7 @@ def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | Non
         return (
             f"{obj.name} is not a mesh; convert it to one first (Object > Convert >"
             " Mesh)"
-        )
+        ) + (_FILLING if obj.type == "CURVE" else "")
     if obj.type not in _WORKED_ON:
         return f"{obj.name} is not a mesh; select a mesh or a point cloud"
     if not obj.is_editable or (writes_mesh and not obj.data.is_editable):
