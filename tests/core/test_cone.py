@@ -4,6 +4,7 @@ import shapes
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.cone import (
     cone_directions,
+    fan_directions,
     see_cones,
     see_uniform_pairs,
 )
@@ -88,6 +89,18 @@ def test_a_convex_shape_hides_nothing():
     positive, negative = run(see_cones(*look_at(shapes.box(), 100), 10, np.pi / 2))
     assert negative.nnz == 0
     assert positive.sum() > 300
+
+
+def test_a_fan_is_even_and_stays_in_its_plane():
+    plane = np.array([0.0, 0.6, 0.8])
+    normals = np.array([[1.0, 0.0, 0.0], [0.0, 0.8, -0.6]])
+    rays = fan_directions(normals, 6, np.radians(120), plane)
+    assert abs(rays @ plane).max() < 1e-12
+    assert np.linalg.norm(rays, axis=2) == pytest.approx(1)
+    angles = np.degrees(np.arccos(-np.einsum("nrd,nd->nr", rays, normals)))
+    assert angles == pytest.approx(np.tile([50, 30, 10, 10, 30, 50], (2, 1)))
+    between = np.einsum("nrd,nrd->nr", rays[:, 1:], rays[:, :-1])
+    assert between == pytest.approx(np.cos(np.radians(20)))
 
 
 def test_separate_solids_behind_each_other_are_known_to_be_hidden():

@@ -12,6 +12,7 @@ from weak_convex_decomposition.core.outline import flat_mesh
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.surface import surface_of
+from weak_convex_decomposition.core.visibility import look
 
 L = flats.filled(flats.L, spacing=0.25)
 COMB = flats.filled(flats.comb(4), spacing=0.5)
@@ -130,6 +131,15 @@ def test_a_hand_has_a_palm_and_five_fingers(values):
         assert counts.max() > 0.9 * within.sum()
         assert counts.max() > 0.9 * (found.labels == counts.argmax()).sum()
     assert found.ranks.min() > 0.9
+
+
+def test_cones_lie_flat_in_any_plane():
+    turned = shapes.moved(HAND, rotation=UPRIGHT)
+    for mesh in (HAND, turned):
+        parameters = Parameters(samples=200, rays=10, sight="CONE")
+        seen = run(look(mesh, parameters, BruteCaster)).along_rays.visible
+        # Each sample, most of its ten rays, and theirs in turn.
+        assert seen.nnz > 200 * (1 + 12)
 
 
 @pytest.mark.parametrize("n_teeth", [4, 5, 6])
