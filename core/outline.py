@@ -12,8 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
 
 from .shapes import TriangleMesh
+from .sight import frames
 from .surface import Surface, surface_of
 
 # Faces are in one plane when no vertex is farther from another along its normal; those
@@ -22,6 +24,8 @@ _FLAT = 1e-4
 _LYING = 0.5
 # Faces of less area are wound like most: rounding decides which way they seem to face.
 _TINY = 1e-8
+# Share of its hull that a convex face fills.
+_CONVEX = 0.999
 # Height of the walls, in diagonals: less than the distance between samples.
 _HEIGHT = 1e-3
 
@@ -55,6 +59,10 @@ class FlatMesh:
     def notes(self) -> tuple[str, ...]:
         """What the user should know."""
         if self.faces.n_polygons > 1:
+            return ()
+        axes = np.concatenate(frames(self.normal[None]))
+        hull = ConvexHull(self.walls.vertices @ axes.T)
+        if self.faces.areas.sum() >= _CONVEX * hull.volume:  # its area, in a plane
             return ()
         return (
             "The mesh is a single flat face, and faces are never cut; give it more to"
