@@ -75,9 +75,14 @@ def _obj(file: Path, _: Path, hulls: Sequence[bpy.types.Object], up: str) -> Non
 
 def _stl(file: Path, _: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
     _select(hulls)
+    # Hulls are not rendered, and since Blender 5.2 only what is rendered is written.
+    known = bpy.ops.wm.stl_export.get_rna_type().properties
+    mode = (
+        {"evaluation_mode": "DAG_EVAL_VIEWPORT"} if "evaluation_mode" in known else {}
+    )
     with quiet_blender():
         bpy.ops.wm.stl_export(
-            filepath=str(file), export_selected_objects=True, **axes(up)
+            filepath=str(file), export_selected_objects=True, **axes(up), **mode
         )
 
 
