@@ -206,7 +206,9 @@ def _meeting_points(
     one, other = np.triu_indices(len(planes), 1)
     triples = np.stack([planes[one], planes[other], plane + 0 * planes[one]], axis=1)
     firm = np.abs(np.linalg.det(triples[:, :, :3])) > _PARALLEL
-    points = np.linalg.solve(triples[firm, :, :3], -triples[firm, :, 3:])[..., 0]
+    points: NDArray[np.float64] = np.linalg.solve(
+        triples[firm, :, :3], -triples[firm, :, 3:]
+    )[..., 0].astype(np.float64)
     return points[(_heights(points, planes) <= _ON_PLANE).all(axis=1)]
 
 
