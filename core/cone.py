@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+from .axes import frames
 from .convexity import KnownPairs, pair_counts
 from .progress import Progress, Steps
 from .sampling import Samples
 from .scene import Scene
-from .sight import RAYS_PER_STEP, Viewpoints, frames, see_pairs
+from .sight import RAYS_PER_STEP, Viewpoints, see_pairs
 
 # Random pairs for an unbiased psi: its standard error is about 0.002.
 _UNIFORM_PAIRS = 60_000

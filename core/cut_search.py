@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from .axes import principal_axes
 from .hull import directions, hull_volume
 from .hull_cost import cost_of_sides
 from .piece import Cell, cut
@@ -115,8 +116,7 @@ def _directions(cell: Cell) -> NDArray[np.float64]:
 
     Across the seams between its parts, the axes of space, and those of the piece.
     """
-    spread = cell.boundary - cell.boundary.mean(axis=0)
-    own = np.linalg.eigh(spread.T @ spread)[1].T
+    own = principal_axes(cell.boundary)
     found: list[NDArray[np.float64]] = []
     for direction in (*_across_seams(cell), *np.eye(3), *own):
         if all(abs(direction @ other) < _SAME for other in found):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .axes import frames
 from .solid import Solid
 
 # Distance of points in a cross-section; the longest side of a shape is 2.
@@ -94,10 +95,7 @@ class Section:
 
 def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
     """Return where a plane (4,) cuts the inside of a solid."""
-    normal = plane[:3]
-    across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-    across /= np.linalg.norm(across)
-    axes = np.stack([across, np.cross(normal, across)])
+    axes = np.concatenate(frames(plane[None, :3]))
     return Section(plane, axes, cut_triangles(solid.corners, plane)[2] @ axes.T)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from .axes import frames, principal_axes
 from .enclosure import Enclosure
 from .hull import Hull, offset, simplified
 from .hull_parameters import HullParameters
@@ -109,9 +110,7 @@ def _capsule(hull: Hull, axis: NDArray[np.float64]) -> Enclosure:
 
 def _axes(hull: Hull) -> NDArray[np.float64]:
     """Return the axes that are tried, (6, 3)."""
-    spread = hull.vertices - hull.vertices.mean(axis=0)
-    inertial = np.linalg.eigh(spread.T @ spread)[1].T
-    return np.concatenate([box_around(hull).axes, inertial])
+    return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
 
 
 def _normals(hull: Hull) -> NDArray[np.float64]:
@@ -145,9 +144,7 @@ def _rectangle_axes(
 
 def _frame(axis: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return right-handed axes of which the last one is `axis`, (3, 3)."""
-    first = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
-    first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(axis, first), axis])
+    return np.concatenate([*frames(axis[None]), axis[None]])
 
 
 def _smallest_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:

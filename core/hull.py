@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-# Thickness that flat points get, in the longest side of their shape.
-THIN = 1e-3
+from .axes import principal_axes
+
 # Vertices that a simplified hull gets in each round.
 _VERTICES_A_ROUND = 6
 
@@ -149,19 +149,12 @@ def _hull(points: NDArray[np.float64]) -> Hull:
 def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
     """Return points with copies on both sides wherever they are thinner than `thin`."""
     center = points.mean(axis=0)
-    for axis in _axes(points):
+    for axis in principal_axes(points):
         heights = (points - center) @ axis
         if np.ptp(heights) < thin:
             flat = points - heights[:, None] * axis
             points = np.concatenate([flat + thin / 2 * axis, flat - thin / 2 * axis])
     return points
-
-
-def _axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the principal axes of points as rows, (3, 3)."""
-    spread = points - points.mean(axis=0)
-    axes: NDArray[np.float64] = np.linalg.eigh(spread.T @ spread)[1].T
-    return axes
 
 
 def _tetrahedron(points: NDArray[np.float64]) -> list[int]:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from .axes import frames
 from .shapes import TriangleMesh
-from .sight import frames
 from .surface import Surface, surface_of
 
 # Faces are in one plane when no vertex is farther from another along its normal; those

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .axes import frames
 from .progress import Progress, Steps, within
 from .sampling import Samples
 from .scene import PASS, Scene
@@ -190,13 +191,3 @@ def _outward_directions(
         + 0.5 * (axes[0] * np.cos(turn) + axes[1] * np.sin(turn))
         for turn in turns
     ]
-
-
-def frames(
-    normals: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return two unit vectors that complete each normal to a frame."""
-    helpers = np.eye(3)[np.argmin(np.abs(normals), axis=1)]
-    tangents = np.asarray(np.cross(normals, helpers), dtype=np.float64)
-    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
-    return tangents, np.asarray(np.cross(normals, tangents), dtype=np.float64)

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from .axes import frames
 from .sampling import sample_surface
 from .shapes import TriangleMesh
-from .sight import frames
 
 # Neighbors that the density around a point is told from.
 _NEIGHBORS = 8
