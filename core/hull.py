@@ -39,8 +39,7 @@ class Hull:
 
         Outside it is the distance to the farthest plane: at most the distance.
         """
-        heights = points @ self.planes[:, :3].T + self.planes[:, 3]
-        highest: NDArray[np.float64] = heights.max(axis=1)
+        highest: NDArray[np.float64] = heights_above(self.planes, points).max(axis=1)
         return highest
 
     @cached_property
@@ -64,6 +63,14 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
         return _hull(points)
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
         return _hull(_thickened(points, thin))
+
+
+def heights_above(
+    planes: NDArray[np.float64], points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return how far points (M, 3) are above planes n · x + d = 0 (P, 4), (M, P)."""
+    heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
+    return heights
 
 
 def hull_volume(points: NDArray[np.float64]) -> float:
@@ -91,7 +98,7 @@ def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
     chosen = _tetrahedron(hull.vertices)
     coarse = _hull(hull.vertices[chosen])
     while True:
-        heights = hull.vertices @ coarse.planes[:, :3].T + coarse.planes[:, 3]
+        heights = heights_above(coarse.planes, hull.vertices)
         facets = np.argsort(-heights.max(axis=0), kind="stable")
         facets = facets[heights.max(axis=0)[facets] > tolerance]
         # Several facets may have the same vertex farthest out of them.
@@ -112,7 +119,7 @@ def offset(hull: Hull, margin: float) -> Hull:
         return hull
     planes = hull.planes - [0, 0, 0, margin]
     inside = hull.vertices.mean(axis=0)
-    if (planes[:, :3] @ inside + planes[:, 3]).max() >= 0:
+    if heights_above(planes, inside[None]).max() >= 0:
         return hull
     try:
         return _hull(HalfspaceIntersection(planes, inside).intersections)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .cutting import cross_section, cut_triangles
-from .hull import Hull, convex_hull
+from .hull import Hull, convex_hull, heights_above
 from .sampling import points_on
 from .solid import Solid
 
@@ -144,7 +144,7 @@ def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cel
     below, above, segments = cut_triangles(cell.corners, plane)
     section = cross_section(solid, plane)
     face = section.spread(cell.points)
-    face = face[(_heights(face, cell.planes) <= 0).all(axis=1)]
+    face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
     tips = _meeting_points(cell.planes, plane)
     rim = np.concatenate([segments.reshape(-1, 3), tips[section.holds(tips)]])
     return (
@@ -175,7 +175,7 @@ def _side(
 ) -> Cell:
     """Return what of a cell lies below a plane, given the surface there."""
     points, boundary, chords = (
-        _heights(places, plane[None])[:, 0] <= 0
+        heights_above(plane[None], places)[:, 0] <= 0
         for places in (cell.points, cell.boundary, cell.chords)
     )
     return Cell(
@@ -209,12 +209,4 @@ def _meeting_points(
     points: NDArray[np.float64] = np.linalg.solve(
         triples[firm, :, :3], -triples[firm, :, 3:]
     )[..., 0].astype(np.float64)
-    return points[(_heights(points, planes) <= _ON_PLANE).all(axis=1)]
-
-
-def _heights(
-    points: NDArray[np.float64], planes: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return how far points (M, 3) are above planes (P, 4), (M, P)."""
-    heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
-    return heights
+    return points[(heights_above(planes, points) <= _ON_PLANE).all(axis=1)]
