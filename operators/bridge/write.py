@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -102,8 +103,8 @@ def _write_mesh(obj: bpy.types.Object, decomposition: Decomposition) -> Restore:
         layers.set_faces(MATERIAL_LAYER, before)
     layers.set_faces(PART_LAYER, labels)
     layers.set_material_indices(labels + len(slots))
-    for part, name in enumerate(groups):
-        vertices = _vertices_of(obj, labels, part)
+    members = _vertices_by_part(obj, labels, len(groups))
+    for name, vertices in zip(groups, members, strict=True):
         layers.fill_group(obj.vertex_groups[name], vertices)
     layers.finish()
     return Restore(
@@ -141,13 +142,18 @@ def _write_points(obj: bpy.types.Object, decomposition: Decomposition) -> None:
         set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
 
 
-def _vertices_of(obj: bpy.types.Object, labels: IntArray, part: int) -> IntArray:
-    """Return the vertices of a part: points, or those of its faces."""
+def _vertices_by_part(
+    obj: bpy.types.Object, labels: IntArray, n_parts: int
+) -> Iterator[IntArray]:
+    """Yield the vertices of each part in turn: points, or those of its faces."""
     if is_cloud(obj):
-        return np.flatnonzero(labels == part).astype(np.int32)
-    mesh = obj.data
-    corners = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return np.unique(corners[np.repeat(labels == part, sizes)])
+        vertices, parts = np.arange(len(labels), dtype=np.int32), labels
+    else:
+        mesh = obj.data
+        vertices = np.empty(len(mesh.loops), dtype=np.int32)
+        mesh.loops.foreach_get("vertex_index", vertices)
+        sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygons.foreach_get("loop_total", sizes)
+        parts = np.repeat(labels, sizes)
+    for part in range(n_parts):
+        yield np.unique(vertices[parts == part])
