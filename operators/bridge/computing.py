@@ -52,12 +52,11 @@ def decompose_object(
     mesh = read_shape(obj)
 
     def work() -> Steps[Decomposition]:
-        yield from _load_libraries()
         from ...core.decomposition import decompose
 
         return (yield from decompose(mesh, parameters, BvhRayCaster))
 
-    return _with_notes(reading_notes(obj), work())
+    return _prepared(reading_notes(obj), work())
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -69,12 +68,11 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
     mesh = read_shape(obj)
 
     def work() -> Steps[Measurement]:
-        yield from _load_libraries()
         from ...core.decomposition import measure
 
         return (yield from measure(mesh, parameters, BvhRayCaster))
 
-    return _with_notes(reading_notes(obj), work())
+    return _prepared(reading_notes(obj), work())
 
 
 def build_hulls_of(
@@ -92,7 +90,6 @@ def build_hulls_of(
     mesh, labels = read_shape(obj), part_labels(obj)
 
     def work() -> Steps[HullDecomposition]:
-        yield from _load_libraries()
         from ...core.decomposition import decompose
         from ...core.hull_decomposition import build_hulls
 
@@ -103,7 +100,7 @@ def build_hulls_of(
         steps = build_hulls(mesh, found, hull_parameters, parameters.seed)
         return (yield from within(steps, 0.0 if labels is not None else 0.4, 1.0))
 
-    return _with_notes(reading_notes(obj), work())
+    return _prepared(reading_notes(obj), work())
 
 
 def _load_libraries() -> Steps[None]:
@@ -126,8 +123,9 @@ def hull_summary(found: HullDecomposition) -> str:
     )
 
 
-def _with_notes(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
-    """Run `steps` and put `notes` before those of their value."""
+def _prepared(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
+    """Load what `steps` need, run them and put `notes` before those of their value."""
+    yield from _load_libraries()
     value = yield from steps
     return replace(value, notes=(*notes, *value.notes))
 
