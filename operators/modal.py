@@ -40,17 +40,15 @@ def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
 
 def advance(run: Running) -> bool:
     """Compute for a moment; return whether all is done."""
-    done = False
+    over = True  # an error is an end, too
     try:
-        done = run.job.advance(_SLICE)
-    except BaseException:
-        stop()
-        raise
-    if done:
-        stop()
-    else:
+        over = run.job.advance(_SLICE)
+    finally:
+        if over:
+            stop()
+    if not over:
         _show(run)
-    return done
+    return over
 
 
 def stop() -> None:
