@@ -32,15 +32,21 @@ def save(path: Path, up: str | None) -> None:
         Axis that points up in formats that do not say so, None for the usual one.
     """
     ending = path.suffix.lower()
+    with told(path, "written"), replacing(path) as unfinished:
+        with quiet_blender():
+            _EXPORTERS[ending](unfinished, up or _USUAL_UP.get(ending, "Z"))
+        if ending == ".obj":
+            _move_materials(unfinished, path)
+
+
+@contextmanager
+def told(path: Path, done: str) -> Iterator[None]:
+    """Raise what goes wrong as a sentence: that `path` cannot be `done`, and why."""
     try:
-        with replacing(path) as unfinished:
-            with quiet_blender():
-                _EXPORTERS[ending](unfinished, up or _USUAL_UP.get(ending, "Z"))
-            if ending == ".obj":
-                _move_materials(unfinished, path)
+        yield
     except (RuntimeError, OSError) as error:
         reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
-        raise DecompositionError(f"{path} cannot be written ({reason}).") from error
+        raise DecompositionError(f"{path} cannot be {done} ({reason}).") from error
 
 
 @contextmanager

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from ...core.errors import DecompositionError
-from .exporting import replacing
+from .exporting import replacing, told
 from .importing import axes
 from .quiet import quiet_blender
 
@@ -28,12 +27,8 @@ def save_hulls(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
         Axis that points up in .obj and .stl.
     """
     bpy.context.view_layer.update()
-    try:
-        with replacing(path) as unfinished:
-            _EXPORTERS[path.suffix.lower()](unfinished, path, hulls, up)
-    except (RuntimeError, OSError) as error:
-        reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
-        raise DecompositionError(f"{path} cannot be written ({reason}).") from error
+    with told(path, "written"), replacing(path) as unfinished:
+        _EXPORTERS[path.suffix.lower()](unfinished, path, hulls, up)
 
 
 def folder_of(path: Path) -> Path:

@@ -13,10 +13,9 @@ import numpy as np
 from mathutils import Euler, Matrix, Vector
 from numpy.typing import NDArray
 
-from ...core.errors import DecompositionError
 from ..bridge.materials import discard_unused, our_materials
 from ..bridge.points import is_cloud
-from .exporting import replacing
+from .exporting import replacing, told
 from .quiet import quiet_blender
 from .render_engine import RenderEngine
 from .splat_mesh import splat_mesh
@@ -41,15 +40,13 @@ def save_picture(
     A scene of its own is rendered and removed again: cameras, lights and settings of
     the file play no role. Each view is a square of `size` pixels.
     """
-    try:
-        with replacing(path) as unfinished, quiet_blender():
-            views = _render(objects, engine, size)
-            _write_png(unfinished, np.concatenate(views, axis=1))
-    except (RuntimeError, OSError) as error:
-        reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
-        raise DecompositionError(
-            f"{path} cannot be rendered or written ({reason})."
-        ) from error
+    with (
+        told(path, "rendered or written"),
+        replacing(path) as unfinished,
+        quiet_blender(),
+    ):
+        views = _render(objects, engine, size)
+        _write_png(unfinished, np.concatenate(views, axis=1))
 
 
 def _render(
