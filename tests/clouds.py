@@ -13,6 +13,13 @@ def drawn(mesh, n_points=800, noise=0.0, seed=0):
     return samples.positions + jitter, samples.normals
 
 
+def changed(array, row, values):
+    """Return a copy with other values in a row."""
+    array = array.copy()
+    array[row] = values
+    return array
+
+
 def cloud_of(mesh, n_points=800, noise=0.0, seed=0):
     """Return the oriented cloud of such points."""
     return PointCloud(*drawn(mesh, n_points, noise, seed))

@@ -90,7 +90,7 @@ def outcomes(directory: Path, model: int, parameters: Parameters) -> list[Outcom
             settings = replace(parameters, **changes)
             given_settings = replace(settings, parts=n_humans)
             with patched(PATCHES.get(line, ())):
-                # With that many eigenvectors, where they are as many as parts.
+                # With as many eigenvectors as parts are asked for.
                 seen = run(visibility.see(mesh, given_settings, BvhRayCaster))
                 auto = run(find_parts(seen, settings))
                 given = run(find_parts(seen, given_settings))

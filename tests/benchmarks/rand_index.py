@@ -42,7 +42,7 @@ def score(
     n_humans = median_count(humans)
     given_parameters = replace(parameters, parts=n_humans)
     started, processor_started = time.perf_counter(), time.process_time()
-    # With that many eigenvectors, where they are as many as parts.
+    # With as many eigenvectors as parts are asked for.
     visibility = run(see(mesh, given_parameters, BvhRayCaster))
     auto = run(find_parts(visibility, parameters))
     seconds = time.perf_counter() - started

@@ -140,18 +140,12 @@ def test_measuring_points_leaves_only_the_record():
     assert "wcd_part" not in obj.data.attributes
 
 
-def _with(array, row, value):
-    array = array.copy()
-    array[row] = value
-    return array
-
-
 BAD = {
     "empty": (np.zeros((0, 3)), None, "too few points"),
     "one point": (POINTS[:1], None, "too few points"),
     "coincident": (np.ones((50, 3)), None, "at one place"),
     "collinear": (POINTS * (1, 0, 0), None, "in a line"),
-    "NaN": (_with(POINTS, 5, np.nan), None, "not finite"),
+    "NaN": (clouds.changed(POINTS, 5, np.nan), None, "not finite"),
     "zero normals": (POINTS, 0 * NORMALS, "zero or not finite"),
 }
 

@@ -8,21 +8,15 @@ from weak_convex_decomposition.core.errors import DecompositionError
 POINTS, NORMALS = clouds.drawn(shapes.sphere(), 50)
 
 
-def changed(array, row, values):
-    array = array.copy()
-    array[row] = values
-    return array
-
-
 BAD = {
     "empty": (np.zeros((0, 3)), None, "too few points .*, 0"),
     "one point": (POINTS[:1], None, "too few points .*, 1"),
     "coincident": (np.ones((50, 3)), None, "at one place"),
     "collinear": (POINTS * (1, 0, 0), None, "in a line"),
-    "NaN": (changed(POINTS, 3, np.nan), None, "not finite"),
-    "infinite": (changed(POINTS, 3, np.inf), None, "not finite"),
-    "zero normal": (POINTS, changed(NORMALS, 3, 0.0), "zero or not finite"),
-    "NaN normal": (POINTS, changed(NORMALS, 3, np.nan), "zero or not finite"),
+    "NaN": (clouds.changed(POINTS, 3, np.nan), None, "not finite"),
+    "infinite": (clouds.changed(POINTS, 3, np.inf), None, "not finite"),
+    "zero normal": (POINTS, clouds.changed(NORMALS, 3, 0.0), "zero or not finite"),
+    "NaN normal": (POINTS, clouds.changed(NORMALS, 3, np.nan), "zero or not finite"),
     "normals of others": (POINTS, NORMALS[:-1], "50 points but 49 normals"),
 }
 
