@@ -106,8 +106,7 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
         search = search_part_count(
             partitioner, parameters.min_parts, parameters.max_parts
         )
-    parts, psi_by_k = yield from within(search, 0.0, 0.7)
-    parts = yield from within(partitioner.seamed(parts), 0.7, 1.0)
+    parts, psi_by_k = yield from search
     parts = _by_size(parts, surface)
     samples = visibility.transfer.to_samples(parts)
     ranks = visibility.ranked.tally(samples, count(parts)).ranks()

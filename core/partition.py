@@ -49,6 +49,11 @@ class Partitioner:
         """Return psi (eq. 5) of parts of the polygons."""
         return self.tally(parts).psi(self.parameters.alpha)
 
+    def psi_of_clusters(self, n_clusters: int) -> float:
+        """Return psi of k-means' clusters, which may lie in several pieces."""
+        n_clusters, labels = self._clusters(n_clusters)
+        return self.psi(self.transfer.to_polygons(labels, n_clusters))
+
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
         plain = self._plain(n_parts)

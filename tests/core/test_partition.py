@@ -110,7 +110,28 @@ def test_the_search_returns_the_parts_of_largest_psi(seen, make):
     # Fewer parts may be preferred where psi hardly differs.
     best = max(psi_by_k.values())
     assert psi_by_k[count(parts)] == pytest.approx(best, abs=0.01)
-    assert partitioner.psi(parts) == pytest.approx(psi_by_k[count(parts)])
+    # Cutting seams costs a little.
+    assert partitioner.psi(parts) == pytest.approx(psi_by_k[count(parts)], abs=0.01)
+
+
+def shaft():
+    """Return a shaft along x through a disc: its ends see each other through it."""
+    return shapes.blocks((9, 6, 6), ((0, 9), (2, 4), (2, 4)), ((4, 5), (0, 6), (0, 6)))
+
+
+def test_the_search_takes_no_k_for_which_loose_clusters_are_better(seen):
+    partitioner = Partitioner(seen(shaft), PARAMETERS)
+    parts, psi_by_k = run(search_part_count(partitioner, 2, 6))
+    # Three parts would do, had both ends of the shaft not been one of three clusters.
+    assert psi_by_k[3] == max(psi_by_k.values())
+    assert partitioner.psi_of_clusters(3) > psi_by_k[3] + 0.01
+    assert count(parts) > 3
+    assert partitioner.psi(parts) > partitioner.psi_of_clusters(count(parts))
+
+
+def test_psi_of_clusters_is_that_of_any_labels(seen):
+    partitioner = Partitioner(seen(shaft), PARAMETERS)
+    assert partitioner.psi_of_clusters(1) == partitioner.psi(partitioner.partition(1))
 
 
 def test_the_search_keeps_to_its_range(seen):
