@@ -46,6 +46,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "no psi in moves and seams": {"refinement": "EMBEDDING"},
     "no graph cut": {"smoothness": 0.0},
     "no tolerance in the search for k": {},
+    "no comparison with loose clusters": {},
 }
 # What lines replace in the code, where no parameter does: module, name, replacement.
 PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
@@ -58,6 +59,9 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
     "no tolerance in the search for k": [
         (part_count, "_PSI_TOLERANCE", 0.0),
         (part_count, "_GAIN_TOLERANCE", 0.0),
+    ],
+    "no comparison with loose clusters": [
+        (partition.Partitioner, "psi_of_clusters", lambda *_: -np.inf)
     ],
 }
 # What comes after lines of sight: lines that differ in these alone share them.
