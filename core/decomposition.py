@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from .form import Shape
 from .parameters import Parameters
-from .part_count import given_part_count, search_part_count
+from .part_count import best_part_count, given_part_count, search_part_count
 from .partition import Partitioner, count
-from .progress import Progress, Steps, within
+from .progress import Steps, within
 from .scene import MakeCaster
 from .surface import Surface
 from .visibility import Visibility, look, see
@@ -37,6 +37,8 @@ class Decomposition:
         Quality of the parts (eq. 5).
     psi_by_k : dict of int to float
         Psi for every number of parts that was tried, before seams were cut.
+    best_k : int
+        The number among them that a search chooses.
     notes : tuple of str
         Sentences to the user about what is worth knowing.
     normals : (P, 3) float or None
@@ -50,6 +52,7 @@ class Decomposition:
     psi_before: float
     psi: float
     psi_by_k: dict[int, float]
+    best_k: int
     notes: tuple[str, ...]
     normals: NDArray[np.float64] | None = None
 
@@ -99,15 +102,16 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
     computed with.
     """
     surface = visibility.transfer.surface
-    yield Progress("Embedding", 0.0)
     partitioner = Partitioner(visibility, parameters)
     if parameters.parts:
-        search = given_part_count(partitioner, parameters.parts, parameters.max_parts)
+        search = given_part_count(
+            partitioner, parameters.parts, parameters.min_parts, parameters.max_parts
+        )
     else:
         search = search_part_count(
             partitioner, parameters.min_parts, parameters.max_parts
         )
-    parts, psi_by_k = yield from within(search, 0.1, 0.7)
+    parts, psi_by_k = yield from within(search, 0.0, 0.7)
     parts = yield from within(partitioner.seamed(parts), 0.7, 1.0)
     parts = _by_size(parts, surface)
     samples = visibility.transfer.to_samples(parts)
@@ -121,6 +125,7 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
         psi_before=psi_by_k[1],
         psi=partitioner.psi(parts),
         psi_by_k=psi_by_k,
+        best_k=best_part_count(psi_by_k, len(samples)),
         notes=visibility.form.notes + _notes_on_count(parameters, psi_by_k),
         normals=visibility.form.normals,
     )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .partition import Partitioner, count
-from .progress import Progress, Steps
+from .progress import Progress, Steps, within
 
 # Psi of two sets of samples of one shape differs by about this much, over the square
 # root of their number: a gain below it is no reason for one more part, ...
@@ -34,49 +34,57 @@ def search_part_count(
     psi_by_k : dict of int to float
         For one part, and for every k that the shape allows.
     """
-    parts_by_k, psi_by_k = yield from _partitions(partitioner, low, high)
-    most = max(psi_by_k.values())
-    noise = _PSI_TOLERANCE / np.sqrt(len(partitioner.visibility.samples))
-    enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
-    best = min(k for k, psi in psi_by_k.items() if psi >= enough)
+    parts_by_k, psi_by_k = yield from _tried(partitioner, low, high)
+    best = best_part_count(psi_by_k, len(partitioner.visibility.samples))
     return parts_by_k[best], psi_by_k
 
 
+def best_part_count(psi_by_k: dict[int, float], n_samples: int) -> int:
+    """Return the smallest k whose psi is as good as the largest of those tried."""
+    most = max(psi_by_k.values())
+    noise = _PSI_TOLERANCE / np.sqrt(n_samples)
+    enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
+    return min(k for k, psi in psi_by_k.items() if psi >= enough)
+
+
 def given_part_count(
-    partitioner: Partitioner, n_parts: int, high: int
+    partitioner: Partitioner, n_parts: int, low: int, high: int
 ) -> Steps[Partitions]:
-    """Return the parts that a search up to `high` would find for k = `n_parts`.
+    """Return the parts that a search from `low` to `high` would find for `n_parts`.
 
     As many as can be where these are fewer; otherwise like `search_part_count`.
     """
-    if not partitioner.by_psi:
-        high = n_parts
-    parts_by_k, psi_by_k = yield from _partitions(
-        partitioner, n_parts, max(n_parts, high)
-    )
-    return parts_by_k[min(n_parts, max(parts_by_k))], psi_by_k
+    most = max(n_parts, high) if partitioner.by_psi else n_parts
+    tried = _tried(partitioner, n_parts, most)
+    parts_by_k, psi_by_k = yield from within(tried, 0.0, 0.8)
+    most = max(parts_by_k)
+    parts = parts_by_k[min(n_parts, most)]
+    # Fewer than asked for are of interest, too, where a search would try them.
+    top = most if most <= high else high
+    for fewer in range(min(n_parts - 1, top), low - 1, -1):
+        yield Progress("Number of parts", 0.9)
+        found = partitioner.better(fewer, top)
+        psi_by_k.setdefault(count(found.parts), found.psi)
+    return parts, dict(sorted(psi_by_k.items()))
 
 
-def _partitions(
+def _tried(
     partitioner: Partitioner, low: int, high: int
 ) -> Steps[tuple[dict[int, NDArray[np.int64]], dict[int, float]]]:
     """Return the parts and psi of one part, and of every k that the shape allows."""
-    parts_by_k = {1: partitioner.partition(1)}
+    tried = {1: partitioner.candidate(1)}
     for n_parts in range(low, high + 1):
         yield Progress("Number of parts", 0.8 * (n_parts - low) / (high + 1 - low))
-        parts = partitioner.partition(n_parts)
-        parts_by_k.setdefault(count(parts), parts)
-        if count(parts) < n_parts:
+        candidate = partitioner.candidate(n_parts)
+        tried.setdefault(count(candidate.parts), candidate)
+        if count(candidate.parts) < n_parts:
             break
-    psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
-    if partitioner.by_psi:
-        # What k-means misses with few clusters it may find with more.
-        most = max(parts_by_k)
-        for n_parts in range(most - 1, low - 1, -1):
-            done = (most - n_parts) / (most + 1 - low)
-            yield Progress("Number of parts", 0.8 + 0.2 * done)
-            merged = partitioner.merged(parts_by_k[n_parts + 1], n_parts)
-            psi = partitioner.psi(merged)
-            if psi > psi_by_k[n_parts]:
-                parts_by_k[n_parts], psi_by_k[n_parts] = merged, psi
-    return parts_by_k, psi_by_k
+    most = max(tried)
+    for n_parts in range(most - 1, low - 1, -1):
+        done = (most - n_parts) / (most + 1 - low)
+        yield Progress("Number of parts", 0.8 + 0.2 * done)
+        tried[n_parts] = partitioner.better(n_parts, most)
+    return (
+        {k: candidate.parts for k, candidate in tried.items()},
+        {k: candidate.psi for k, candidate in tried.items()},
+    )

@@ -16,6 +16,7 @@ from .convexity import KnownPairs, Matrix
 from .errors import DecompositionError
 from .form import Form, Shape, form_of
 from .knobs import knob_of
+from .memory import Memory
 from .parameters import Parameters
 from .progress import Progress, Steps, within
 from .sampling import Samples, sample_faces, sample_surface
@@ -26,6 +27,11 @@ from .transfer import Transfer
 
 # Samples of which a matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
+# Eigenvectors are looked for by this many: a baker's dozen, as many as a search of
+# default settings tries.
+_COORDINATES = 13
+# What is remembered: two embeddings, their clusters, tallies, the parts of three cuts.
+_KEPT = 7
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +78,8 @@ class Visibility:
         Of the shape.
     unit_area : float
         Area that 1 stands for, in the units of the shape squared.
+    memory : Memory
+        What was found from it.
     """
 
     samples: Samples
@@ -81,20 +89,19 @@ class Visibility:
     transfer: Transfer
     form: Form
     unit_area: float
-    _embeddings: dict[Hashable, NDArray[np.float64]] = field(default_factory=dict)
+    memory: Memory = field(default_factory=lambda: Memory(_KEPT))
 
-    def embedding(self, parameters: Parameters) -> NDArray[np.float64]:
-        """Return coordinates of the samples, (N, n) float.
+    def embedding(self, n_parts: int, stochastic: bool) -> NDArray[np.float64]:
+        """Return coordinates of the samples for some number of parts, (N, n) float.
 
-        As many as parts may be asked for: eigenvectors differ a little by how many of
-        them are looked for, and so would parts.
+        Eigenvectors differ a little by how many of them are looked for: they come by
+        the dozen, so that parts do not depend on how many more are tried.
         """
-        n_coordinates = max(parameters.parts, parameters.max_parts)
-        stochastic = parameters.normalization == "STOCHASTIC"
-        key = n_coordinates, stochastic
-        if key not in self._embeddings:
-            self._embeddings[key] = embed(self.affinity, *key)
-        return self._embeddings[key]
+        n_coordinates = _COORDINATES * -(-n_parts // _COORDINATES)
+        return self.memory.recall(
+            ("embedding", n_coordinates, stochastic),
+            lambda: embed(self.affinity, n_coordinates, stochastic),
+        )
 
 
 def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps[Sight]:

@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import command_line, modal
+from . import command_line, modal, recut
 from .bridge import visibility_cache
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
@@ -17,6 +17,8 @@ CLASSES = (
     WCD_OT_clear,
     modal.WCD_OT_cancel,
     WCD_OT_use_preset,
+    recut.WCD_OT_recut,
+    recut.WCD_OT_choose_part_count,
 )
 
 
@@ -30,6 +32,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
+    recut.stop()
     modal.stop()
     visibility_cache.unregister()
     command_line.unregister()

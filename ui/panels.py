@@ -61,13 +61,14 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, FRONT)
-        row = layout.row()
+        row = layout.row(align=True)
         row.scale_y = 1.4
         if running.current:
             _progress(row, running.current)
         else:
             button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
             _hand_over(settings, button, ALL)
+        row.prop(settings, "live", toggle=True)
         row = layout.row(align=True)
         _hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
         row.operator("wcd.clear", text="Clear")

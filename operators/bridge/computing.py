@@ -18,7 +18,7 @@ from .hulls import hull_refusal, part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes
 from .record import check_records
-from .visibility_cache import see_once
+from .visibility_cache import is_seen, see_once
 from .write import check_writable
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -54,6 +54,15 @@ def decompose_object(
     mesh = read_shape(obj)
 
     return _prepared(reading_notes(obj), _decompose(mesh, parameters))
+
+
+def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
+    """Return whether `decompose_object` needs no new lines of sight.
+
+    Errors are those of `decompose_object`.
+    """
+    check_writable(obj)
+    return is_seen(read_shape(obj), parameters)
 
 
 def _decompose(shape: Shape, parameters: Parameters) -> Steps[Decomposition]:

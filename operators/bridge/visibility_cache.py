@@ -35,6 +35,15 @@ def see_once(shape: Shape, parameters: Parameters) -> Steps[Visibility]:
     return _latest[key]
 
 
+def is_seen(shape: Shape, parameters: Parameters) -> bool:
+    """Return whether the latest visibility is that of a shape."""
+    if not _latest:  # nor are the libraries loaded
+        return False
+    from ...core.visibility import visibility_key
+
+    return visibility_key(shape, parameters) in _latest
+
+
 @bpy.app.handlers.persistent
 def forget(*_: object) -> None:
     """Free the memory."""
