@@ -32,6 +32,8 @@ class Knob:
         Title Case name, and a sentence without a final full stop.
     low, high : float, optional
         Inclusive bounds of a number.
+    usual : float, optional
+        How far sliders go; more can be typed.
     choices : tuple of Choice
         Values of an enumeration; empty for numbers.
     subtype : str
@@ -47,6 +49,7 @@ class Knob:
     help: str
     low: float = -math.inf
     high: float = math.inf
+    usual: float = math.inf
     choices: tuple[Choice, ...] = ()
     subtype: str = "NONE"
     advanced: bool = True

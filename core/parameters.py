@@ -26,6 +26,7 @@ class Parameters:
             "Number of parts k; 0 searches for the k of largest psi",
             low=0,
             high=256,
+            usual=24,
             advanced=False,
             recut=True,
         ),
@@ -174,6 +175,7 @@ class Parameters:
             "Where the search for k begins",
             low=2,
             high=256,
+            usual=24,
             recut=True,
         ),
     )
@@ -184,6 +186,7 @@ class Parameters:
             "Where the search for k ends",
             low=2,
             high=256,
+            usual=24,
             recut=True,
         ),
     )
@@ -214,6 +217,7 @@ class Parameters:
             "Weight lambda of short seams in concave creases; 0 leaves seams ragged",
             low=0.0,
             high=100.0,
+            usual=10.0,
             recut=True,
         ),
     )

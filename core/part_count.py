@@ -62,7 +62,9 @@ def given_part_count(
     # Fewer than asked for are of interest, too, where a search would try them.
     top = most if most <= high else high
     for fewer in range(min(n_parts - 1, top), low - 1, -1):
-        yield Progress("Number of parts", 0.9)
+        yield Progress("Number of parts", 0.8)
+        partitioner.plain(fewer)
+        yield Progress("Number of parts", 0.8)
         found = partitioner.better(fewer, top)
         psi_by_k.setdefault(count(found.parts), found.psi)
     return parts, dict(sorted(psi_by_k.items()))
@@ -74,7 +76,10 @@ def _tried(
     """Return the parts and psi of one part, and of every k that the shape allows."""
     tried = {1: partitioner.candidate(1)}
     for n_parts in range(low, high + 1):
-        yield Progress("Number of parts", 0.8 * (n_parts - low) / (high + 1 - low))
+        done = (n_parts - low) / (high + 1 - low)
+        yield Progress("Number of parts", 0.8 * done)
+        partitioner.plain(n_parts)  # remembered: half of the work, a step of its own
+        yield Progress("Number of parts", 0.8 * done)
         candidate = partitioner.candidate(n_parts)
         tried.setdefault(count(candidate.parts), candidate)
         if count(candidate.parts) < n_parts:

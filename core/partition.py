@@ -98,7 +98,7 @@ class Partitioner:
 
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
-        plain = self._plain(n_parts)
+        plain = self.plain(n_parts)
         if n_parts == 1 or not self.by_psi:
             return plain
         n_clusters, labels = self._clusters(n_parts, n_parts)
@@ -110,8 +110,8 @@ class Partitioner:
         moved = self._split(parts, n_parts)
         return max(moved, plain, key=lambda parts: (count(parts), self.psi(parts)))
 
-    def _plain(self, n_parts: int) -> NDArray[np.int64]:
-        """Return the parts that k-means' clusters are, as they are."""
+    def plain(self, n_parts: int) -> NDArray[np.int64]:
+        """Return the parts that k-means' clusters are, as they are, (P,) int."""
         whole = np.zeros(self.surface.n_polygons, dtype=np.int64)
         key = "plain", n_parts
         return self._of_parts.recall(key, lambda: self._split(whole, n_parts))
@@ -158,7 +158,7 @@ class Partitioner:
             return parts
         enough = -np.inf
         if self.by_psi:
-            enough = min(self.psi(self._plain(n_parts)), self.psi(parts))
+            enough = min(self.psi(self.plain(n_parts)), self.psi(parts))
         labels = self.transfer.to_samples(parts)
         costs = self.transfer.shares @ self._dislikes(labels, n_parts)
         for share in _SOFTER:

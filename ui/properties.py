@@ -101,7 +101,7 @@ def _property(field: Field[Any], **more: Any) -> Any:
 
 
 def _bounds(knob: Knob, number: type) -> dict[str, Any]:
-    bounds = {"min": knob.low, "max": knob.high}
+    bounds = {"min": knob.low, "max": knob.high, "soft_max": knob.usual}
     return {name: number(v) for name, v in bounds.items() if math.isfinite(v)}
 
 

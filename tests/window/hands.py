@@ -2,15 +2,17 @@
 
 import os
 import subprocess
+from itertools import product
 from pathlib import Path
 
 import bpy
 
 PICTURES = Path("build/window")
 CATEGORY = "Convex Parts"
-# Points between two places where a button is looked for, and the pause there.
+# Points between two places where a button is looked for, and the pause there: longer
+# if it was not found, on a machine that does other things.
 _STRIDE = 7
-_LOOK = 0.04
+_LOOKS = (0.04, 0.2)
 
 
 class Hands:
@@ -18,9 +20,12 @@ class Hands:
 
     def __init__(self, subject):
         self.subject = subject
-        self.manager = bpy.context.window_manager
 
-    # What there is.
+    # What there is; another file brings other windows.
+
+    @property
+    def manager(self):
+        return bpy.context.window_manager
 
     @property
     def window(self):
@@ -112,13 +117,13 @@ class Hands:
         `wanted` is what Blender copies of it: a call, or a path of data.
         """
         region = self.region()
-        for y in range(region.y + region.height - 8, region.y, -_STRIDE):
-            for share in (0.75, 0.12, 0.95):
-                place = int(region.x + share * (region.width - 20)), y
-                self.move(*place)
-                yield _LOOK
-                if wanted in self.under_cursor():
-                    return place
+        heights = range(region.y + region.height - 8, region.y, -_STRIDE)
+        for pause, y, share in product(_LOOKS, heights, (0.75, 0.12, 0.5, 0.95)):
+            place = int(region.x + share * (region.width - 20)), y
+            self.move(*place)
+            yield pause
+            if wanted in self.under_cursor():
+                return place
         raise AssertionError(f"{wanted} is nowhere in the sidebar")
 
     def under_cursor(self):

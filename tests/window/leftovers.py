@@ -19,7 +19,7 @@ def handlers():
     """Return the names of our functions among Blender's handlers, each time it is."""
     return [
         function.__name__
-        for functions in vars(bpy.app.handlers).values()
+        for functions in map(bpy.app.handlers.__getattribute__, dir(bpy.app.handlers))
         if isinstance(functions, list)
         for function in functions
         if "weak_convex" in function.__module__

@@ -17,8 +17,9 @@ def steps(hands):
     hands.suzanne(2)
     settings = bpy.context.scene.wcd
     settings.parts = 4
+    settings.samples = 600
     with hands.context():
-        bpy.ops.wcd.decompose(parts=4)
+        bpy.ops.wcd.decompose(parts=4, samples=600)
         bpy.ops.ed.undo_push(message="Parts")
     assert n_parts() == 4
     place = yield from hands.find("wcd.live")
@@ -50,7 +51,6 @@ def steps(hands):
 
     # A changed mesh is noticed, and seen anew while the window stays alive.
     bpy.context.active_object.data.vertices[0].co.x += 0.05
-    bpy.context.scene.wcd.samples = 300
     bpy.context.scene.wcd.parts = 6
     yield lambda: running.current is not None
     yield lambda: running.current is None
