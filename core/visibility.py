@@ -165,8 +165,10 @@ def see(
     if parameters.containers == "FILLED" and sight.form.plane is None:
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
     yield Progress("Surface", 0.9)
+    surface = sight.form.surface()
+    yield Progress("Surface", 0.95)
     node_of_sample = sight.form.targets.polygons[sight.samples.triangles]
-    transfer = Transfer(sight.samples, node_of_sample, sight.form.surface())
+    transfer = Transfer(sight.samples, node_of_sample, surface)
     return Visibility(
         sight.samples,
         ranked,

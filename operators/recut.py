@@ -61,29 +61,38 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     bl_description = "Replace the parts by those of the settings in the sidebar"
     bl_options: ClassVar[set[str]] = {"UNDO", "INTERNAL"}
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the active object has parts; a run that goes on is awaited."""
+        return cls._refusal(context.active_object) is None
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Cut at once where that takes a moment, and let a modal run do the rest.
 
         The setting's own undo step then holds the parts, too. Without a window nobody
         waits for it.
         """
-        moment = math.inf if bpy.app.background else _MOMENT
-        obj = context.active_object
         try:
-            parameters = self._wanted(context)
-            if noted_parameters(obj) == asdict(parameters):
-                return {"CANCELLED"}
-            if bpy.app.background or is_quick(obj, parameters):
-                job = Job(decompose_object(obj, parameters))
-                if job.advance(moment):
-                    write_parts(obj, job.result(), parameters)
-                    return {"FINISHED"}
-                job.cancel()
+            if modal.busy() is None and self._cut(context):
+                return {"FINISHED"}
         except DecompositionError:
             pass  # the modal run tells it
         if not bpy.app.background and not bpy.app.timers.is_registered(_invoke):
             bpy.app.timers.register(_invoke)
         return {"CANCELLED"}
+
+    def _cut(self, context: bpy.types.Context) -> bool:
+        """Cut if need be; return False if that would take longer than a moment."""
+        obj, parameters = context.active_object, self._wanted(context)
+        if noted_parameters(obj) == asdict(parameters):
+            return True
+        if not (bpy.app.background or is_quick(obj, parameters)):
+            return False
+        job = Job(decompose_object(obj, parameters))
+        if job.advance(math.inf if bpy.app.background else _MOMENT):
+            write_parts(obj, job.result(), parameters)
+        job.cancel()
+        return job.done
 
 
 def _invoke() -> float | None:

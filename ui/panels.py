@@ -68,6 +68,7 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
         if running.current:
             _progress(row, running.current)
         else:
+            row = row.split(factor=0.7, align=True)
             button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
             _hand_over(settings, button, ALL)
             row.prop(settings, "live", toggle=True)

@@ -12,7 +12,7 @@ CATEGORY = "Convex Parts"
 # Points between two places where a button is looked for, and the pause there: longer
 # if it was not found, on a machine that does other things.
 _STRIDE = 7
-_LOOKS = (0.04, 0.2)
+_LOOKS = (0.05, 0.4)
 
 
 class Hands:
@@ -139,8 +139,8 @@ class Hands:
                     break
         return self.manager.clipboard
 
-    def picture(self, name, crop=None):
-        """Save what the screen shows, or a region of it."""
+    def picture(self, name, crop=None, height=None):
+        """Save what the screen shows, or a region of it, or the top of that."""
         with self.context():
             bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
         PICTURES.mkdir(parents=True, exist_ok=True)
@@ -148,7 +148,7 @@ class Hands:
         area = []
         if crop is not None:
             top = self.window.height - crop.y - crop.height
-            area = ["-crop", f"{crop.width}x{crop.height}+{crop.x}+{top}"]
+            area = ["-crop", f"{crop.width}x{height or crop.height}+{crop.x}+{top}"]
         command = ["import", "-window", "root", *area, "+repage", str(path)]
         subprocess.run(command, check=True, env={**os.environ, "HOME": "/tmp"})
         shown = subprocess.run(

@@ -29,7 +29,7 @@ def steps(hands):
     hands.suzanne(2)
     bpy.context.scene.wcd.samples = 600
     yield 0.5
-    hands.picture("before", hands.region())
+    hands.picture("before", hands.region(), height=270)
     with hands.context():
         bpy.ops.wcd.decompose(samples=600)
     hands.move(300, 300)
