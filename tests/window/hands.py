@@ -9,10 +9,27 @@ import bpy
 
 PICTURES = Path("build/window")
 CATEGORY = "Convex Parts"
-# Points between two places where a button is looked for, and the pause there: longer
-# if it was not found, on a machine that does other things.
+# Points between two places where a button is looked for.
 _STRIDE = 7
-_LOOKS = (0.05, 0.4)
+
+
+class TEST_OT_watch(bpy.types.Operator):
+    """Know where Blender has seen the cursor last: X and Blender take their time."""
+
+    bl_idname = "test.watch"
+    bl_label = "Watch the Cursor"
+    place = None
+
+    def invoke(self, context, event):
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        TEST_OT_watch.place = event.mouse_x, event.mouse_y
+        return {"PASS_THROUGH"}
+
+
+bpy.utils.register_class(TEST_OT_watch)
 
 
 class Hands:
@@ -50,6 +67,8 @@ class Hands:
         yield 0.3
         self.region().active_panel_category = CATEGORY
         self.region().tag_redraw()
+        with self.context():
+            bpy.ops.test.watch("INVOKE_DEFAULT")
         yield 0.3
 
     def suzanne(self, subdivisions):
@@ -76,9 +95,10 @@ class Hands:
     def move(self, x, y):
         """Move the cursor to a place of Blender's, counted from the lower left."""
         self._do("mousemove", x, self.window.height - 1 - y)
+        yield lambda: TEST_OT_watch.place == (x, y)
 
     def click(self, place):
-        self.move(*place)
+        yield from self.move(*place)
         yield 0.1
         self._do("mousedown", 1)
         yield 0.1
@@ -92,19 +112,19 @@ class Hands:
     def undo(self):
         """Press Ctrl+Z over the 3D view."""
         area = self.area
-        self.move(area.x + area.width // 4, area.y + area.height // 2)
-        yield 0.2
+        yield from self.move(area.x + area.width // 4, area.y + area.height // 2)
+        yield 0.1
         yield from self.press("ctrl+z")
 
     def drag(self, place, offsets):
         """Drag from a place to others beside it, and say where it is each time."""
         x, y = place
-        self.move(x, y)
+        yield from self.move(x, y)
         yield 0.1
         self._do("mousedown", 1)
         yield 0.1
         for offset in offsets:
-            self.move(x + offset, y)
+            yield from self.move(x + offset, y)
             yield 0.1
         self._do("mouseup", 1)
         yield 0.2
@@ -118,10 +138,9 @@ class Hands:
         """
         region = self.region()
         heights = range(region.y + region.height - 8, region.y, -_STRIDE)
-        for pause, y, share in product(_LOOKS, heights, (0.75, 0.12, 0.5, 0.95)):
+        for y, share in product(heights, (0.75, 0.12, 0.5, 0.95)):
             place = int(region.x + share * (region.width - 20)), y
-            self.move(*place)
-            yield pause
+            yield from self.move(*place)
             if wanted in self.under_cursor():
                 return place
         raise AssertionError(f"{wanted} is nowhere in the sidebar")

@@ -26,7 +26,7 @@ def steps(hands):
     yield 0.5
 
     yield from start(hands)
-    hands.move(400, 500)
+    yield from hands.move(400, 500)
     began = time.monotonic()
     yield from hands.press("Escape")
     yield lambda: running.current is None

@@ -32,7 +32,7 @@ def steps(hands):
     hands.picture("before", hands.region(), height=270)
     with hands.context():
         bpy.ops.wcd.decompose(samples=600)
-    hands.move(300, 300)
+    yield from hands.move(300, 300)
     yield 0.5
     hands.picture("after", hands.area)
     for theme, file in THEMES.items():
