@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint zip bench bench-coacd bench-hulls bench-ablation bench-clouds \
+.PHONY: help demo test test-window pictures lint zip bench bench-coacd bench-hulls bench-ablation bench-clouds \
   bench-speed contact-sheet clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
@@ -35,6 +35,15 @@ demo: venv ## Decompose Blender's monkey; results in build/demo/
 test: development ## Run all tests, but those that need a window
 	@echo "Testing with $$($(VENV)/bin/python -V) and $$($(VENV)/bin/pip list 2>/dev/null | awk '/^(bpy|numpy|scipy) / {printf "%s %s  ", $$1, $$2}')"
 	@WCD_REQUIRE_BLENDER=1 $(PYTHON_HERE) -m pytest $(PYTEST)
+
+test-window: development ## Drive a Blender that has a window: BLENDER=command that starts it
+	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
+	@BLENDER="$(BLENDER)" $(PYTHON_HERE) -m pytest tests/window $(PYTEST)
+
+pictures: ## Take the README's pictures of the window anew: BLENDER=command
+	@$(BLENDER) --python tests/window/drive.py -- looks
+	@cp build/window/looks-before.png .pictures/sidebar.png
+	@cp build/window/looks-after.png .pictures/parts.png
 
 lint: development ## Check the format, the rules of the code and the types of core
 	$(VENV)/bin/ruff format --check .

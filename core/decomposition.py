@@ -37,6 +37,8 @@ class Decomposition:
         Quality of the parts (eq. 5).
     psi_by_k : dict of int to float
         Psi for every number of parts that was tried, before seams were cut.
+    best_k : int
+        The number among them that a search chooses.
     notes : tuple of str
         Sentences to the user about what is worth knowing.
     normals : (P, 3) float or None
@@ -50,6 +52,7 @@ class Decomposition:
     psi_before: float
     psi: float
     psi_by_k: dict[int, float]
+    best_k: int
     notes: tuple[str, ...]
     normals: NDArray[np.float64] | None = None
 
@@ -95,18 +98,20 @@ def decompose(
 def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decomposition]:
     """Return the parts for `parameters` from a visibility computed before.
 
-    Everything but the samples, their lines of sight, the embedding and the seed may
-    differ from the parameters that `visibility` was computed with.
+    Every `recut` among the parameters may differ from those that `visibility` was
+    computed with.
     """
     surface = visibility.transfer.surface
     partitioner = Partitioner(visibility, parameters)
     if parameters.parts:
-        search = given_part_count(partitioner, parameters.parts, parameters.max_parts)
+        search = given_part_count(
+            partitioner, parameters.parts, parameters.min_parts, parameters.max_parts
+        )
     else:
         search = search_part_count(
             partitioner, parameters.min_parts, parameters.max_parts
         )
-    parts, psi_by_k = yield from search
+    parts, psi_by_k, best_k = yield from search
     parts = _by_size(parts, surface)
     samples = visibility.transfer.to_samples(parts)
     ranks = visibility.ranked.tally(samples, count(parts)).ranks()
@@ -119,6 +124,7 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
         psi_before=psi_by_k[1],
         psi=partitioner.psi(parts),
         psi_by_k=psi_by_k,
+        best_k=best_k,
         notes=visibility.form.notes + _notes_on_count(parameters, psi_by_k),
         normals=visibility.form.normals,
     )

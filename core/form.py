@@ -63,11 +63,14 @@ def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:
         return (yield from _form_of_cloud(shape.normalized(), make_caster))
     mesh = shape.normalized()
     nodes = np.arange(mesh.n_polygons)
+    yield Progress("Surface", 0.3)
     if flat := flat_mesh(mesh):
         return Form(
             flat.walls, flat.surface, nodes, notes=flat.notes, plane=flat.normal
         )
+    yield Progress("Surface", 0.4)
     mesh, notes = oriented(mesh)
+    yield Progress("Surface", 0.8)
     return Form(set_apart(mesh), lambda: surface_of(mesh), nodes, notes=notes)
 
 

@@ -90,15 +90,19 @@ def cut_seams(
     labels = labels.copy()
     n_labels = costs.shape[1]
     settled = np.zeros(n_labels, dtype=bool)
+    # Labels that gained nothing, and near which nothing has changed since.
+    idle = np.zeros(n_labels, dtype=bool)
     for sweep in range(_SWEEPS):
         for label in range(n_labels):
             yield Progress("Seams", (sweep + label / n_labels) / _SWEEPS)
-            if settled[label]:
-                continue
-            moved = cutter.expand(labels, label)
-            if moved.any():
-                settled[:] = False
-                labels[moved] = label
+            if not (settled[label] or idle[label]):
+                moved = cutter.expand(labels, label)
+                idle[label] = True
+                if moved.any():
+                    settled[:] = False
+                    idle[labels[moved]] = False
+                    labels[moved] = label
+                    idle[labels[cutter.near(moved)]] = False
             settled[label] = True
         if settled.all():
             break
@@ -153,16 +157,24 @@ class _Expansion:
         moved[nodes[_minimum_cut(gain, tails, heads, capacities)]] = True
         return moved
 
+    def near(self, region: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Return the nodes whose label's expansion a change of `region` may change."""
+        return self._within(region, _BAND + 1)
+
     def _band(self, region: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Return the nodes within `_BAND` steps outside `region`."""
+        return self._within(region, _BAND) & ~region
+
+    def _within(self, region: NDArray[np.bool_], steps: int) -> NDArray[np.bool_]:
+        """Return `region` and the nodes within a number of steps of it."""
         reached = region.copy()
         one, other = self.neighbors.T
-        for _ in range(_BAND):
+        for _ in range(steps):
             front = reached.copy()
             front[one[reached[other]]] = True
             front[other[reached[one]]] = True
             reached = front
-        return reached & ~region
+        return reached
 
 
 def _minimum_cut(

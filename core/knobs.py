@@ -32,21 +32,28 @@ class Knob:
         Title Case name, and a sentence without a final full stop.
     low, high : float, optional
         Inclusive bounds of a number.
+    usual : float, optional
+        How far sliders go; more can be typed.
     choices : tuple of Choice
         Values of an enumeration; empty for numbers.
     subtype : str
         'ANGLE' (radians), 'FACTOR' or 'NONE', in Blender's vocabulary.
     advanced : bool
         Whether it belongs with the settings few users touch.
+    recut : bool
+        Whether a new value cuts anew what was seen before: no samples, lines of sight
+        or containers depend on it.
     """
 
     label: str
     help: str
     low: float = -math.inf
     high: float = math.inf
+    usual: float = math.inf
     choices: tuple[Choice, ...] = ()
     subtype: str = "NONE"
     advanced: bool = True
+    recut: bool = False
 
 
 def parameter(default: Any, knob: Knob) -> Any:

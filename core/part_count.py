@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .partition import Partitioner, count
+from .partition import Candidate, Partitioner, count
 from .progress import Progress, Steps, within
 
 # Psi of two sets of samples of one shape differs by about this much, over the square
@@ -17,28 +17,35 @@ _PSI_TOLERANCE = 0.2
 _GAIN_TOLERANCE = 0.035
 
 
-Partitions: TypeAlias = tuple[NDArray[np.int64], dict[int, float]]
+class Search(NamedTuple):
+    """What came of trying several numbers of parts k.
+
+    Attributes
+    ----------
+    parts : (P,) int
+        The parts asked for, with their seams cut.
+    psi_by_k : dict of int to float
+        For one part, and for every k that was tried and that the shape allows; before
+        seams are cut.
+    best_k : int
+        The k that a search chooses.
+    """
+
+    parts: NDArray[np.int64]
+    psi_by_k: dict[int, float]
+    best_k: int
 
 
-def search_part_count(
-    partitioner: Partitioner, low: int, high: int
-) -> Steps[Partitions]:
+def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Search]:
     """Return the parts of nearly the largest psi, over every k from `low` to `high`.
 
     Of several k that gain as much over one part, but for a small share of it and the
     sampling error of psi, the smallest whose parts are as good as k-means' clusters;
     one part where no more of them gain anything. Parts are connected and clusters need
     not be: where these are better, they lie in pieces that want to be parts.
-
-    Returns
-    -------
-    parts : (P,) int
-        With their seams cut.
-    psi_by_k : dict of int to float
-        For one part, and for every k that the shape allows; before seams are cut.
     """
-    tried = _partitions(partitioner, low, high)
-    parts_by_k, psi_by_k = yield from within(tried, 0.0, 0.7)
+    tried = yield from within(_tried(partitioner, low, high), 0.0, 0.7)
+    psi_by_k = {k: candidate.psi for k, candidate in tried.items()}
     most = max(psi_by_k.values())
     noise = _PSI_TOLERANCE / np.sqrt(len(partitioner.visibility.samples))
     enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
@@ -46,51 +53,51 @@ def search_part_count(
     for number, k in enumerate(good):
         # Seldom more than one: each reports half of the progress that is left.
         begin, end = (1.0 - 0.3 * 0.5**n for n in (number, number + 1))
-        seamed = partitioner.seamed(parts_by_k[k])
-        parts = yield from within(seamed, begin, end)
-        if k == good[0]:
-            fewest = parts
-        shortfall = partitioner.psi_of_clusters(k) - partitioner.psi(parts)
+        seamed = partitioner.seamed(tried[k].parts)
+        found = Search((yield from within(seamed, begin, end)), psi_by_k, k)
+        if number == 0:
+            fewest = found
+        shortfall = partitioner.psi_of_clusters(k) - partitioner.psi(found.parts)
         if not partitioner.by_psi or shortfall <= noise / 2:
-            return parts, psi_by_k
-    return fewest, psi_by_k
+            return found
+    return fewest
 
 
 def given_part_count(
-    partitioner: Partitioner, n_parts: int, high: int
-) -> Steps[Partitions]:
-    """Return the parts that a search up to `high` would find for k = `n_parts`.
+    partitioner: Partitioner, n_parts: int, low: int, high: int
+) -> Steps[Search]:
+    """Return the parts that a search from `low` to `high` would find for `n_parts`.
 
-    As many as can be where these are fewer; otherwise like `search_part_count`.
+    As many as can be where these are fewer. The search is made, too: it tells what
+    other numbers would give.
     """
-    if not partitioner.by_psi:
-        high = n_parts
-    tried = _partitions(partitioner, n_parts, max(n_parts, high))
-    parts_by_k, psi_by_k = yield from within(tried, 0.0, 0.7)
-    parts = parts_by_k[min(n_parts, max(parts_by_k))]
-    return (yield from within(partitioner.seamed(parts), 0.7, 1.0)), psi_by_k
+    searched = yield from within(search_part_count(partitioner, low, high), 0.0, 0.6)
+    most = max(n_parts, high) if partitioner.by_psi else n_parts
+    tried = yield from within(_tried(partitioner, n_parts, most), 0.6, 0.8)
+    seamed = partitioner.seamed(tried[min(n_parts, max(tried))].parts)
+    parts = yield from within(seamed, 0.8, 1.0)
+    own = {k: candidate.psi for k, candidate in tried.items()}
+    psi_by_k = dict(sorted((own | searched.psi_by_k).items()))
+    return Search(parts, psi_by_k, searched.best_k)
 
 
-def _partitions(
+def _tried(
     partitioner: Partitioner, low: int, high: int
-) -> Steps[tuple[dict[int, NDArray[np.int64]], dict[int, float]]]:
-    """Return the parts and psi of one part, and of every k that the shape allows."""
-    parts_by_k = {1: partitioner.partition(1)}
+) -> Steps[dict[int, Candidate]]:
+    """Return the candidates for one part, and for every k that the shape allows."""
+    tried = {1: partitioner.candidate(1)}
     for n_parts in range(low, high + 1):
-        yield Progress("Number of parts", 0.8 * (n_parts - low) / (high + 1 - low))
-        parts = partitioner.partition(n_parts)
-        parts_by_k.setdefault(count(parts), parts)
-        if count(parts) < n_parts:
+        done = (n_parts - low) / (high + 1 - low)
+        yield Progress("Number of parts", 0.8 * done)
+        partitioner.plain(n_parts)  # remembered: half of the work, a step of its own
+        yield Progress("Number of parts", 0.8 * done)
+        candidate = partitioner.candidate(n_parts)
+        tried.setdefault(count(candidate.parts), candidate)
+        if count(candidate.parts) < n_parts:
             break
-    psi_by_k = {k: partitioner.psi(parts) for k, parts in parts_by_k.items()}
-    if partitioner.by_psi:
-        # What k-means misses with few clusters it may find with more.
-        most = max(parts_by_k)
-        for n_parts in range(most - 1, low - 1, -1):
-            done = (most - n_parts) / (most + 1 - low)
-            yield Progress("Number of parts", 0.8 + 0.2 * done)
-            merged = partitioner.merged(parts_by_k[n_parts + 1], n_parts)
-            psi = partitioner.psi(merged)
-            if psi > psi_by_k[n_parts]:
-                parts_by_k[n_parts], psi_by_k[n_parts] = merged, psi
-    return parts_by_k, psi_by_k
+    most = max(tried)
+    for n_parts in range(most - 1, low - 1, -1):
+        done = (most - n_parts) / (most + 1 - low)
+        yield Progress("Number of parts", 0.8 + 0.2 * done)
+        tried[n_parts] = partitioner.better(n_parts, most)
+    return tried

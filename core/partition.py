@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .clustering import cluster
 from .convexity import PairTally, members_of
 from .graph_cut import cut_seams, distances_to_parts
+from .memory import Memory
 from .moves import raise_psi
 from .parameters import Parameters
 from .progress import Steps
@@ -20,10 +23,23 @@ _PLACE_WEIGHT = 1e-3
 _MORE_CLUSTERS = (0, 1, 2, 4, 8)
 # Seams that would cost too much are cut again with these shares of lambda.
 _SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
+# Tallies that are remembered: candidates of one k after the other differ little.
+_TALLIES = 64
+# Seams that are remembered: those of the best k are asked for with every other.
+_SEAMS = 32
+
+
+class Candidate(NamedTuple):
+    """Parts (P,) int before their seams are cut, and their psi."""
+
+    parts: NDArray[np.int64]
+    psi: float
 
 
 class Partitioner:
     """Makes parts of a shape from its visibility, for one k after the other.
+
+    What it finds is remembered by the visibility, for another with these parameters.
 
     Parameters
     ----------
@@ -38,12 +54,46 @@ class Partitioner:
         self.surface = visibility.transfer.surface
         self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
-        self._labels: dict[int, NDArray[np.int64]] = {}
+        clusters = parameters.normalization, parameters.seed
+        parts = parameters.refinement, parameters.alpha, parameters.smallest_part
+        self._tallies = visibility.memory.recall("tallies", lambda: Memory(_TALLIES))
+        self._of_clusters = visibility.memory.recall(("clusters", clusters), Memory)
+        self._of_parts = visibility.memory.recall(("parts", clusters, parts), Memory)
+        self._of_seams = self._of_parts.recall("seams", lambda: Memory(_SEAMS))
+
+    def candidate(self, n_parts: int) -> Candidate:
+        """Return `n_parts` parts, or as many as can be, and their psi."""
+
+        def make() -> Candidate:
+            parts = self.partition(n_parts)
+            return Candidate(parts, self.psi(parts))
+
+        return self._of_parts.recall(n_parts, make)
+
+    def better(self, n_parts: int, most: int) -> Candidate:
+        """Return the candidate, or what comes of merging one of up to `most` parts.
+
+        What k-means misses with few clusters it may find with more.
+        """
+        own = self.candidate(n_parts)
+        if n_parts >= most or not self.by_psi:
+            return own
+
+        def make() -> Candidate:
+            merged = self.merged(self.better(n_parts + 1, most).parts, n_parts)
+            found = Candidate(merged, self.psi(merged))
+            few = count(own.parts) < n_parts
+            return found if few or found.psi > own.psi else own
+
+        return self._of_parts.recall((n_parts, most), make)
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Return the pairs of samples counted by the parts of the polygons."""
-        labels = self.transfer.to_samples(parts)
-        return self.visibility.pairs.tally(labels, count(parts))
+        labels, n_parts = self.transfer.to_samples(parts), count(parts)
+        return self._tallies.recall(
+            (labels.tobytes(), n_parts),
+            lambda: self.visibility.pairs.tally(labels, n_parts),
+        )
 
     def psi(self, parts: NDArray[np.int64]) -> float:
         """Return psi (eq. 5) of parts of the polygons."""
@@ -51,15 +101,15 @@ class Partitioner:
 
     def psi_of_clusters(self, n_clusters: int) -> float:
         """Return psi of k-means' clusters, which may lie in several pieces."""
-        n_clusters, labels = self._clusters(n_clusters)
+        n_clusters, labels = self._clusters(n_clusters, n_clusters)
         return self.psi(self.transfer.to_polygons(labels, n_clusters))
 
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
-        plain = self._plain(n_parts)
+        plain = self.plain(n_parts)
         if n_parts == 1 or not self.by_psi:
             return plain
-        n_clusters, labels = self._clusters(n_parts)
+        n_clusters, labels = self._clusters(n_parts, n_parts)
         raised = raise_psi(
             self.visibility.pairs, labels, n_clusters, self.parameters.alpha
         )
@@ -68,10 +118,11 @@ class Partitioner:
         moved = self._split(parts, n_parts)
         return max(moved, plain, key=lambda parts: (count(parts), self.psi(parts)))
 
-    def _plain(self, n_parts: int) -> NDArray[np.int64]:
-        """Return the parts that k-means' clusters are, as they are."""
+    def plain(self, n_parts: int) -> NDArray[np.int64]:
+        """Return the parts that k-means' clusters are, as they are, (P,) int."""
         whole = np.zeros(self.surface.n_polygons, dtype=np.int64)
-        return self._split(whole, n_parts)
+        key = "plain", n_parts
+        return self._of_parts.recall(key, lambda: self._split(whole, n_parts))
 
     def _split(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return parts split along k-means' clusters into `n_parts` connected ones."""
@@ -79,32 +130,39 @@ class Partitioner:
         for more in _MORE_CLUSTERS:
             if count(most) >= n_parts:
                 break
-            n_clusters, labels = self._clusters(n_parts + more)
+            n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self.transfer.to_polygons(labels, n_clusters)
             split = self._tidied(parts * n_clusters + clusters, n_parts)
             if count(split) > count(most):
                 most = split
         return most
 
-    def _clusters(self, n_clusters: int) -> tuple[int, NDArray[np.int64]]:
-        """Return the number of clusters of the samples, and their labels, (N,) int."""
+    def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, NDArray[np.int64]]:
+        """Return clusters of samples to make parts of: their number, labels (N,)."""
         n_clusters = min(n_clusters, len(self.visibility.samples))
-        if n_clusters in self._labels:
-            return n_clusters, self._labels[n_clusters]
-        # Samples that see the same, as in a convex shape, are told apart by place.
-        coordinates = np.hstack(
-            [
-                self.visibility.embedding[:, :n_clusters],
-                _PLACE_WEIGHT * self.visibility.samples.positions,
-            ]
-        )
-        self._labels[n_clusters] = cluster(
-            coordinates, n_clusters, self.parameters.seed
-        )
-        return n_clusters, self._labels[n_clusters]
+        embedding = self._embedding(n_parts)[:, :n_clusters]
+
+        def make() -> NDArray[np.int64]:
+            # Samples that see the same, as in a convex shape, are told apart by place.
+            places = _PLACE_WEIGHT * self.visibility.samples.positions
+            coordinates = np.hstack([embedding, places])
+            return cluster(coordinates, n_clusters, self.parameters.seed)
+
+        key = n_clusters, embedding.shape[1]
+        return n_clusters, self._of_clusters.recall(key, make)
+
+    def _embedding(self, n_parts: int) -> NDArray[np.float64]:
+        """Return the coordinates of the samples for a number of parts."""
+        stochastic = self.parameters.normalization == "STOCHASTIC"
+        return self.visibility.embedding(n_parts, stochastic)
 
     def seamed(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Return the same number of parts with their seams cut anew (eq. 4).
+        """Return the same number of parts with their seams cut anew (eq. 4)."""
+        key = self.parameters.smoothness, parts.tobytes()
+        return self._of_seams.recall_steps(key, lambda: self._cut(parts))
+
+    def _cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+        """Cut the seams of parts anew.
 
         Smooth seams cost psi: no more of it than its moves have won over k-means.
         """
@@ -113,7 +171,7 @@ class Partitioner:
             return parts
         enough = -np.inf
         if self.by_psi:
-            enough = min(self.psi(self._plain(n_parts)), self.psi(parts))
+            enough = min(self.psi(self.plain(n_parts)), self.psi(parts))
         labels = self.transfer.to_samples(parts)
         costs = self.transfer.shares @ self._dislikes(labels, n_parts)
         for share in _SOFTER:
@@ -130,7 +188,7 @@ class Partitioner:
     ) -> NDArray[np.float64]:
         """Return the data term of eq. 4, how little samples like labels, (N, K)."""
         if not self.by_psi:
-            return distances_to_parts(self.visibility.embedding, labels, n_labels)
+            return distances_to_parts(self._embedding(n_labels), labels, n_labels)
         members = members_of(labels, n_labels)
         pulls = self.visibility.pairs.pulls(members, self.parameters.alpha)
         return pulls.max(axis=1, keepdims=True) - pulls

@@ -77,13 +77,13 @@ class TriangleMesh:
         """Number of polygons."""
         return int(self.polygons.max()) + 1
 
-    @property
+    @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest corner of the box around the triangles' vertices."""
         used = self.vertices[self.triangles.ravel()]
         return used.min(axis=0), used.max(axis=0)
 
-    @property
+    @cached_property
     def diagonal(self) -> float:
         """Length of the diagonal of the bounding box of the triangles' vertices."""
         low, high = self.bounds

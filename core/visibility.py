@@ -1,17 +1,22 @@
-"""The expensive half of a decomposition: samples, lines of sight, embedding."""
+"""The expensive half of a decomposition: samples, their lines of sight, embedding."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Hashable
+from dataclasses import dataclass, field, fields, replace
+from hashlib import blake2b
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .cone import see_cones, see_uniform_pairs
 from .containers import Grid, find_enclosed, see_through
-from .convexity import KnownPairs
+from .convexity import KnownPairs, Matrix
 from .errors import DecompositionError
 from .form import Form, Shape, form_of
+from .knobs import knob_of
+from .memory import Memory
 from .parameters import Parameters
 from .progress import Progress, Steps, within
 from .sampling import Samples, sample_faces, sample_surface
@@ -22,6 +27,11 @@ from .transfer import Transfer
 
 # Samples of which a matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
+# Eigenvectors are looked for by this many: a baker's dozen, as many as a search of
+# default settings tries.
+_COORDINATES = 13
+# What is remembered: two embeddings, their clusters, tallies, the parts of three cuts.
+_KEPT = 7
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,23 +70,38 @@ class Visibility:
         Which samples are in line of sight, for convexity ranks.
     pairs : KnownPairs
         Which samples see each other, through containers too, for psi.
-    embedding : (N, n) float
-        Coordinates of the samples.
+    affinity : (N, N) float32 or sparse
+        What the embedding comes from.
     transfer : Transfer
         Between the samples and the nodes of the surface.
     form : Form
         Of the shape.
     unit_area : float
         Area that 1 stands for, in the units of the shape squared.
+    memory : Memory
+        What was found from it.
     """
 
     samples: Samples
     ranked: KnownPairs
     pairs: KnownPairs
-    embedding: NDArray[np.float64]
+    affinity: Matrix
     transfer: Transfer
     form: Form
     unit_area: float
+    memory: Memory = field(default_factory=lambda: Memory(_KEPT))
+
+    def embedding(self, n_parts: int, stochastic: bool) -> NDArray[np.float64]:
+        """Return coordinates of the samples for some number of parts, (N, n) float.
+
+        Eigenvectors differ a little by how many of them are looked for: they come by
+        the dozen, so that parts do not depend on how many more are tried.
+        """
+        n_coordinates = _COORDINATES * -(-n_parts // _COORDINATES)
+        return self.memory.recall(
+            ("embedding", n_coordinates, stochastic),
+            lambda: embed(self.affinity, n_coordinates, stochastic),
+        )
 
 
 def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps[Sight]:
@@ -139,24 +164,39 @@ def see(
     ranked = sight.pairs
     if parameters.containers == "FILLED" and sight.form.plane is None:
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
-    yield Progress("Embedding", 0.9)
+    yield Progress("Surface", 0.9)
+    surface = sight.form.surface()
+    yield Progress("Surface", 0.95)
     node_of_sample = sight.form.targets.polygons[sight.samples.triangles]
-    transfer = Transfer(sight.samples, node_of_sample, sight.form.surface())
-    yield Progress("Embedding", 0.95)
-    embedding = embed(
-        sight.along_rays.visible,
-        max(parameters.parts, parameters.max_parts),
-        parameters.normalization == "STOCHASTIC",
-    )
+    transfer = Transfer(sight.samples, node_of_sample, surface)
     return Visibility(
         sight.samples,
         ranked,
         sight.pairs,
-        embedding,
+        sight.along_rays.visible,
         transfer,
         sight.form,
         shape.diagonal**2,
     )
+
+
+def visibility_key(shape: Shape, parameters: Parameters) -> Hashable:
+    """Return what is the same for two calls of `see` only if their values are.
+
+    Everything of `shape` counts, and every parameter that is no `recut`.
+    """
+    digest = blake2b()
+    for each in fields(shape):
+        array: NDArray[Any] | None = getattr(shape, each.name)
+        digest.update(f"{each.name} {None if array is None else array.shape}".encode())
+        if array is not None:
+            digest.update(np.ascontiguousarray(array).data)
+    values = tuple(
+        getattr(parameters, each.name)
+        for each in fields(parameters)
+        if not knob_of(each).recut
+    )
+    return type(shape), digest.digest(), values
 
 
 def _check_number(samples: Samples, parameters: Parameters) -> None:

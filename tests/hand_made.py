@@ -18,7 +18,8 @@ def decomposition_of(labels, notes=()):
         ranks=np.linspace(1.0, 0.5, len(counts)),
         psi_before=0.5,
         psi=0.75,
-        psi_by_k={2: 0.6, len(counts): 0.75},
+        psi_by_k={1: 0.5, 2: 0.6, len(counts): 0.75},
+        best_k=len(counts),
         notes=tuple(notes),
     )
 

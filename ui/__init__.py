@@ -2,6 +2,7 @@
 
 import bpy
 
+from .chart import WCD_PT_chart
 from .panels import WCD_PT_advanced, WCD_PT_hulls, WCD_PT_main, WCD_PT_parts
 from .properties import WCD_PG_settings
 
@@ -9,6 +10,7 @@ CLASSES = (
     WCD_PG_settings,
     WCD_PT_main,
     WCD_PT_parts,
+    WCD_PT_chart,
     WCD_PT_hulls,
     WCD_PT_advanced,
 )

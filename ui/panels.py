@@ -52,6 +52,7 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         """Draw the menu of presets."""
         self.layout.emboss = "NONE"
+        self.layout.ui_units_x = 1.0  # leaves no room for an arrow beside the icon
         self.layout.operator_menu_enum(
             "wcd.use_preset", "preset", text="", icon="PRESET"
         )
@@ -61,13 +62,16 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, FRONT)
-        row = layout.row()
+        row = layout.row(align=True)
+        row.use_property_split = False
         row.scale_y = 1.4
         if running.current:
             _progress(row, running.current)
         else:
+            row = row.split(factor=0.7, align=True)
             button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
             _hand_over(settings, button, ALL)
+            row.prop(settings, "live", toggle=True)
         row = layout.row(align=True)
         _hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
         row.operator("wcd.clear", text="Clear")
@@ -164,7 +168,7 @@ def _columns(
         split.label(text="")
     split = split.split(factor=0.46)
     split.label(text=name)
-    numbers = split.row()
+    numbers = split.split(factor=0.55)
     for text in (faces, rank):
         cell = numbers.row()
         cell.alignment = "RIGHT"

@@ -18,6 +18,7 @@ from ..core.presets import Preset
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not knob_of(f).advanced)
 ADVANCED = tuple(f.name for f in fields(Parameters) if knob_of(f).advanced)
+RECUT = tuple(f.name for f in fields(Parameters) if knob_of(f).recut)
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
@@ -26,6 +27,17 @@ MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
     """Return the annotations that give a Blender class these parameters."""
     return {name: _property(_FIELDS[name]) for name in names}
+
+
+def _setting(name: str) -> Any:
+    """Return the annotation of a parameter as a setting of the sidebar."""
+    return _property(_FIELDS[name], **({"update": _recut} if name in RECUT else {}))
+
+
+def _recut(settings: Any, context: bpy.types.Context) -> None:
+    """Cut the parts of the active object anew if the settings are live."""
+    if settings.live and bpy.ops.wcd.recut.poll():
+        bpy.ops.wcd.recut()
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -65,12 +77,13 @@ def draw(layout: Any, owner: Any, names: Iterable[str]) -> None:
         row.prop(owner, name)
 
 
-def _property(field: Field[Any]) -> Any:
+def _property(field: Field[Any], **more: Any) -> Any:
     knob = knob_of(field)
     described = {
         "name": knob.label,
         "description": knob.help,
         "default": field.default,
+        **more,
     }
     if knob.choices:
         items = [(c.identifier, c.label, c.help) for c in knob.choices]
@@ -88,7 +101,7 @@ def _property(field: Field[Any]) -> Any:
 
 
 def _bounds(knob: Knob, number: type) -> dict[str, Any]:
-    bounds = {"min": knob.low, "max": knob.high}
+    bounds = {"min": knob.low, "max": knob.high, "soft_max": knob.usual}
     return {name: number(v) for name, v in bounds.items() if math.isfinite(v)}
 
 
@@ -102,15 +115,26 @@ def _value(owner: Any, field: Field[Any]) -> Any:
     return float(f"{value:.7g}")
 
 
-def use_preset(owner: Any, chosen: Preset) -> None:
-    """Set all settings of `owner` to those of a preset."""
+def use_preset(settings: Any, chosen: Preset) -> None:
+    """Set all settings of a scene to those of a preset."""
     parameters = chosen.parameters()
+    live, settings.live = settings.live, False  # all at once, not one by one
     for name in ALL:
-        setattr(owner, name, getattr(parameters, name))
+        setattr(settings, name, getattr(parameters, name))
+    settings.live = live
+    _recut(settings, bpy.context)
 
 
 class WCD_PG_settings(bpy.types.PropertyGroup):
     """The settings of a scene, handed to the operators by the sidebar."""
 
 
-WCD_PG_settings.__annotations__ = annotations((*ALL, *HULLS))
+WCD_PG_settings.__annotations__ = {name: _setting(name) for name in (*ALL, *HULLS)}
+WCD_PG_settings.__annotations__["live"] = bpy.props.BoolProperty(
+    name="Live",
+    description=(
+        "Cut the active object's parts anew as soon as their number, the balance or"
+        " another setting changes that asks for no new lines of sight"
+    ),
+    update=_recut,
+)

@@ -85,6 +85,14 @@ def check_records(obj: bpy.types.Object) -> None:
     _read(obj, _RESULT)
 
 
+def noted_parameters(obj: bpy.types.Object) -> dict[str, Any] | None:
+    """Return the parameters of the parts noted on an object, None if there are none."""
+    try:
+        return _read(obj, _RESULT).get("parameters")
+    except DecompositionError:  # a property of the user's
+        return None
+
+
 def write_result(
     obj: bpy.types.Object,
     decomposition: Decomposition,
@@ -109,6 +117,7 @@ def write_result(
         "psi": float(decomposition.psi),
         "psi_before": float(decomposition.psi_before),
         "psi_by_k": {str(k): float(v) for k, v in decomposition.psi_by_k.items()},
+        "best_k": decomposition.best_k,
         "parts": [
             {
                 "name": group,

@@ -6,6 +6,7 @@ from unittest import mock
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 from weak_convex_decomposition.core import clustering
+from weak_convex_decomposition.core.memory import Memory
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.partition import Partitioner
 from weak_convex_decomposition.core.visibility import Visibility
@@ -18,7 +19,8 @@ def clusters(
     visibility: Visibility, n_clusters: int, parameters: Parameters
 ) -> np.ndarray:
     """Return the cluster of each polygon, connected or not."""
-    coordinates = visibility.embedding[:, :n_clusters]
+    stochastic = parameters.normalization == "STOCHASTIC"
+    coordinates = visibility.embedding(n_clusters, stochastic)[:, :n_clusters]
     with mock.patch.object(clustering, "_STARTS", STARTS):
         labels = clustering.cluster(coordinates, n_clusters, parameters.seed)
     return visibility.transfer.to_polygons(labels, n_clusters)
@@ -28,6 +30,7 @@ def connected_clusters(
     visibility: Visibility, n_parts: int, parameters: Parameters
 ) -> np.ndarray:
     """Return as many connected parts of clusters as ours are, and no specks."""
-    plain = Partitioner(visibility, replace(parameters, refinement="EMBEDDING"))
+    afresh = replace(visibility, memory=Memory())
+    plain = Partitioner(afresh, replace(parameters, refinement="EMBEDDING"))
     with mock.patch.object(clustering, "_STARTS", STARTS):
         return plain.partition(n_parts)

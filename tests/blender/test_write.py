@@ -46,7 +46,8 @@ def test_the_record_tells_what_was_done(suzanne):
     assert record["k"] == 3
     assert record["psi"] == 0.75
     assert record["psi_before"] == 0.5
-    assert record["psi_by_k"] == {"2": 0.6, "3": 0.75}
+    assert record["psi_by_k"] == {"1": 0.5, "2": 0.6, "3": 0.75}
+    assert record["best_k"] == 3
     counts = np.bincount(labels)
     assert [part["faces"] for part in record["parts"]] == counts.tolist()
     assert [part["area"] for part in record["parts"]] == (counts / 2).tolist()

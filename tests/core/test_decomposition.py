@@ -37,7 +37,8 @@ def test_a_given_number_of_parts_has_its_psi(seen):
     found = run(find_parts(seen(shapes.comb), Parameters(samples=150, parts=4)))
     assert found.n_parts == 4
     searched = run(find_parts(seen(shapes.comb), Parameters(samples=150)))
-    assert found.psi_by_k[4] == searched.psi_by_k[4]
+    assert found.psi_by_k == searched.psi_by_k
+    assert found.best_k == searched.best_k == searched.n_parts
     assert found.notes == ()
 
 

@@ -105,7 +105,7 @@ def test_psi_is_that_of_the_labels_of_the_samples(seen):
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 def test_the_search_returns_the_parts_of_largest_psi(seen, make):
     partitioner = Partitioner(seen(make), PARAMETERS)
-    parts, psi_by_k = run(search_part_count(partitioner, 2, 6))
+    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 6))
     assert list(psi_by_k) == [1, 2, 3, 4, 5, 6]
     # Fewer parts may be preferred where psi hardly differs.
     best = max(psi_by_k.values())
@@ -121,7 +121,7 @@ def shaft():
 
 def test_the_search_takes_no_k_for_which_loose_clusters_are_better(seen):
     partitioner = Partitioner(seen(shaft), PARAMETERS)
-    parts, psi_by_k = run(search_part_count(partitioner, 2, 6))
+    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 6))
     # Three parts would do, had both ends of the shaft not been one of three clusters.
     assert psi_by_k[3] == max(psi_by_k.values())
     assert partitioner.psi_of_clusters(3) > psi_by_k[3] + 0.01
@@ -136,22 +136,22 @@ def test_psi_of_clusters_is_that_of_any_labels(seen):
 
 def test_the_search_keeps_to_its_range(seen):
     partitioner = Partitioner(seen(shapes.comb), PARAMETERS)
-    parts, psi_by_k = run(search_part_count(partitioner, 2, 3))
+    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 3))
     assert set(psi_by_k) == {1, 2, 3}
-    parts, psi_by_k = run(search_part_count(partitioner, 7, 7))
+    parts, psi_by_k, _ = run(search_part_count(partitioner, 7, 7))
     assert set(psi_by_k) == {1, 7}
     assert count(parts) in (1, 7)
 
 
 def test_the_search_ends_where_the_shape_has_no_more_parts(seen):
     partitioner = Partitioner(seen(shapes.l_prism), PARAMETERS)
-    parts, psi_by_k = run(search_part_count(partitioner, 2, 256))
+    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 256))
     assert max(psi_by_k) <= 8
     assert count(parts) in psi_by_k
 
 
 def test_one_part_stays_when_no_more_gain_anything(seen):
     partitioner = Partitioner(seen(shapes.box), PARAMETERS)
-    parts, psi_by_k = run(search_part_count(partitioner, 2, 5))
+    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 5))
     assert count(parts) == 1
     assert psi_by_k[1] == 1.0

@@ -1,0 +1,131 @@
+"""Cut the parts of the active object anew: as the sidebar changes, or by the chart."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING, ClassVar
+
+import bpy
+
+from ..core.errors import DecompositionError
+from ..core.job import Job
+from ..core.parameters import Parameters
+from ..core.progress import Steps
+from ..ui.properties import annotations, parameters_from
+from . import modal
+from .bridge.computing import decompose_object, is_quick, summary
+from .bridge.record import noted_parameters
+from .bridge.target import refusal
+from .bridge.write import write_parts
+from .computation import Computation
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ..core.decomposition import Decomposition
+
+# Seconds that a slider may wait for parts; what takes longer goes on modally.
+_MOMENT = 0.3
+_RETRY = 0.1
+
+
+class _Recut(Computation):
+    """Half an operator that replaces parts by those of the settings in the sidebar."""
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = refusal(obj)
+        if reason is None and not noted_parameters(obj):
+            reason = f"{obj.name} has no parts to cut anew; press Decompose"
+        return reason
+
+    def _wanted(self, context: bpy.types.Context) -> Parameters:
+        return parameters_from(context.scene.wcd)
+
+    def _begin(self, context: bpy.types.Context) -> Steps[Decomposition]:
+        self._parameters = self._wanted(context)
+        if not is_quick(context.active_object, self._parameters):
+            self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
+        return decompose_object(context.active_object, self._parameters)
+
+    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
+        write_parts(obj, value, self._parameters)
+        self._warn(value.notes)
+        self.report({"INFO"}, summary(value))
+
+
+class WCD_OT_recut(_Recut, bpy.types.Operator):
+    """Replace the parts by those of the sidebar's settings."""
+
+    bl_idname = "wcd.recut"
+    bl_label = "Re-cut Convex Parts"
+    bl_description = "Replace the parts by those of the settings in the sidebar"
+    bl_options: ClassVar[set[str]] = {"UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the active object has parts; a run that goes on is awaited."""
+        return cls._refusal(context.active_object) is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Cut at once where that takes a moment, and let a modal run do the rest.
+
+        The setting's own undo step then holds the parts, too. Without a window nobody
+        waits for it.
+        """
+        try:
+            if modal.busy() is None and self._cut(context):
+                return {"FINISHED"}
+        except DecompositionError:
+            pass  # the modal run tells it
+        if not bpy.app.background and not bpy.app.timers.is_registered(_invoke):
+            bpy.app.timers.register(_invoke)
+        return {"CANCELLED"}
+
+    def _cut(self, context: bpy.types.Context) -> bool:
+        """Cut if need be; return False if that would take longer than a moment."""
+        obj, parameters = context.active_object, self._wanted(context)
+        if noted_parameters(obj) == asdict(parameters):
+            return True
+        if not (bpy.app.background or is_quick(obj, parameters)):
+            return False
+        job = Job(decompose_object(obj, parameters))
+        if job.advance(math.inf if bpy.app.background else _MOMENT):
+            write_parts(obj, job.result(), parameters)
+        job.cancel()
+        return job.done
+
+
+def _invoke() -> float | None:
+    """Start a modal run, as soon as none is running."""
+    if modal.busy():
+        return _RETRY
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window):
+        if bpy.ops.wcd.recut.poll():
+            bpy.ops.wcd.recut("INVOKE_DEFAULT")
+    return None
+
+
+def stop() -> None:
+    """Start no modal run any more."""
+    if bpy.app.timers.is_registered(_invoke):
+        bpy.app.timers.unregister(_invoke)
+
+
+class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
+    """Cut into a number of parts."""
+
+    bl_idname = "wcd.choose_part_count"
+    bl_label = "Choose Number of Parts"
+    bl_description = "Cut the object into this number of parts"
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    def _wanted(self, context: bpy.types.Context) -> Parameters:
+        return replace(super()._wanted(context), parts=self.parts)
+
+    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
+        super()._commit(obj, value)
+        bpy.context.scene.wcd.parts = self.parts
+
+
+WCD_OT_choose_part_count.__annotations__ = annotations(("parts",))

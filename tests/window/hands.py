@@ -1,0 +1,180 @@
+"""A user's hands and eyes: mouse, keys, what is under the cursor, and pictures."""
+
+import os
+import subprocess
+from itertools import product
+from pathlib import Path
+
+import bpy
+
+PICTURES = Path("build/window")
+CATEGORY = "Convex Parts"
+# Points between two places where a button is looked for.
+_STRIDE = 7
+
+
+class TEST_OT_watch(bpy.types.Operator):
+    """Know where Blender has seen the cursor last: X and Blender take their time."""
+
+    bl_idname = "test.watch"
+    bl_label = "Watch the Cursor"
+    place = None
+
+    def invoke(self, context, event):
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        TEST_OT_watch.place = event.mouse_x, event.mouse_y
+        return {"PASS_THROUGH"}
+
+
+bpy.utils.register_class(TEST_OT_watch)
+
+
+class Hands:
+    """Acts on the first window; what takes time is to be used with `yield from`."""
+
+    def __init__(self, subject):
+        self.subject = subject
+
+    # What there is; another file brings other windows.
+
+    @property
+    def manager(self):
+        return bpy.context.window_manager
+
+    @property
+    def window(self):
+        return self.manager.windows[0]
+
+    @property
+    def area(self):
+        return next(a for a in self.window.screen.areas if a.type == "VIEW_3D")
+
+    def region(self, kind="UI"):
+        return next(r for r in self.area.regions if r.type == kind)
+
+    def context(self, kind="WINDOW"):
+        """Return an override of the context, for operators."""
+        return bpy.context.temp_override(
+            window=self.window, area=self.area, region=self.region(kind)
+        )
+
+    def open_sidebar(self, width=None):
+        """Show the tab of the extension."""
+        self.area.spaces.active.show_region_ui = True
+        yield 0.3
+        self.region().active_panel_category = CATEGORY
+        self.region().tag_redraw()
+        with self.context():
+            bpy.ops.test.watch("INVOKE_DEFAULT")
+        yield 0.3
+
+    def suzanne(self, subdivisions):
+        """Put the monkey in place of what is there, as one step to undo to."""
+        with self.context():
+            for obj in list(bpy.data.objects):
+                bpy.data.objects.remove(obj)
+            bpy.ops.mesh.primitive_monkey_add()
+            obj = bpy.context.active_object
+            if subdivisions:
+                obj.modifiers.new("Subdivision", "SUBSURF").levels = subdivisions
+                bpy.ops.object.modifier_apply(modifier="Subdivision")
+            shading = self.area.spaces.active.shading
+            shading.type, shading.color_type = "SOLID", "MATERIAL"
+            bpy.ops.view3d.view_selected()
+            bpy.ops.ed.undo_push(message="Suzanne")
+        return obj
+
+    # Mouse and keys, as the X server's.
+
+    def _do(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], check=True)
+
+    def move(self, x, y):
+        """Move the cursor to a place of Blender's, counted from the lower left."""
+        self._do("mousemove", x, self.window.height - 1 - y)
+        yield lambda: TEST_OT_watch.place == (x, y)
+
+    def click(self, place):
+        yield from self.move(*place)
+        yield 0.1
+        self._do("mousedown", 1)
+        yield 0.1
+        self._do("mouseup", 1)
+        yield 0.1
+
+    def press(self, key):
+        self._do("key", key)
+        yield 0.1
+
+    def undo(self):
+        """Press Ctrl+Z over the 3D view."""
+        area = self.area
+        yield from self.move(area.x + area.width // 4, area.y + area.height // 2)
+        yield 0.1
+        yield from self.press("ctrl+z")
+
+    def drag(self, place, offsets):
+        """Drag from a place to others beside it, and say where it is each time."""
+        x, y = place
+        yield from self.move(x, y)
+        yield 0.1
+        self._do("mousedown", 1)
+        yield 0.1
+        for offset in offsets:
+            yield from self.move(x + offset, y)
+            yield 0.1
+        self._do("mouseup", 1)
+        yield 0.2
+
+    # Eyes.
+
+    def find(self, wanted):
+        """Return the place of the button of an operator or property in the sidebar.
+
+        `wanted` is what Blender copies of it: a call, or a path of data.
+        """
+        region = self.region()
+        heights = range(region.y + region.height - 8, region.y, -_STRIDE)
+        for y, share in product(heights, (0.75, 0.12, 0.5, 0.95)):
+            place = int(region.x + share * (region.width - 20)), y
+            yield from self.move(*place)
+            if wanted in self.under_cursor():
+                return place
+        raise AssertionError(f"{wanted} is nowhere in the sidebar")
+
+    def under_cursor(self):
+        """Return what Blender copies of the button under the cursor, '' for none."""
+        self.manager.clipboard = ""
+        with self.context("UI"):
+            for copy in (
+                bpy.ops.ui.copy_python_command_button,
+                bpy.ops.ui.copy_data_path_button,
+            ):
+                if copy.poll():
+                    copy()
+                    break
+        return self.manager.clipboard
+
+    def picture(self, name, crop=None, height=None):
+        """Save what the screen shows, or a region of it, or the top of that."""
+        with self.context():
+            bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        path = PICTURES / f"{self.subject}-{name}.png"
+        area = []
+        if crop is not None:
+            top = self.window.height - crop.y - crop.height
+            area = ["-crop", f"{crop.width}x{height or crop.height}+{crop.x}+{top}"]
+        command = ["import", "-window", "root", *area, "+repage", str(path)]
+        subprocess.run(command, check=True, env={**os.environ, "HOME": "/tmp"})
+        shown = subprocess.run(
+            ["identify", "-format", "%[fx:standard_deviation]", str(path)],
+            capture_output=True,
+            check=True,
+            text=True,
+        ).stdout
+        assert float(shown) > 0.01, f"{path} shows nothing"
+        return path

@@ -1,0 +1,31 @@
+"""What the extension may leave behind in a window: none of it must stay."""
+
+import bpy
+from weak_convex_decomposition.operators import recut
+from weak_convex_decomposition.operators.bridge import visibility_cache
+from weak_convex_decomposition.ui import running
+
+
+def leftovers():
+    """Return the names of what is still there of a computation."""
+    found = {
+        "computation": running.current is not None,
+        "timer": bpy.app.timers.is_registered(recut._invoke),
+    }
+    return [name for name, there in found.items() if there]
+
+
+def handlers():
+    """Return the names of our functions among Blender's handlers, each time it is."""
+    return [
+        function.__name__
+        for functions in map(bpy.app.handlers.__getattribute__, dir(bpy.app.handlers))
+        if isinstance(functions, list)
+        for function in functions
+        if "weak_convex" in function.__module__
+    ]
+
+
+def remembered():
+    """Return how many visibilities are kept."""
+    return len(visibility_cache._latest)

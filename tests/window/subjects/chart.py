@@ -1,0 +1,36 @@
+"""A click on the chart of psi chooses a number of parts; undo takes it back."""
+
+import json
+
+import bpy
+from leftovers import leftovers
+from weak_convex_decomposition.ui import running
+
+
+def record():
+    return json.loads(bpy.context.active_object["wcd"])
+
+
+def steps(hands):
+    yield from hands.open_sidebar()
+    hands.suzanne(1)
+    bpy.context.scene.wcd.samples = 300
+    with hands.context():
+        bpy.ops.wcd.decompose(samples=300)
+        bpy.ops.ed.undo_push(message="Decompose")
+    yield 0.5
+    first = record()
+    chosen = 3 if first["k"] != 3 else 4
+    place = yield from hands.find(f"wcd.choose_part_count(parts={chosen})")
+    yield from hands.click(place)
+    yield lambda: record()["k"] == chosen
+    yield lambda: running.current is None
+    assert bpy.context.scene.wcd.parts == chosen
+    assert record()["psi_by_k"] == first["psi_by_k"]
+    assert len(record()["parts"]) == chosen
+    assert leftovers() == []
+    yield 0.5
+    hands.picture("chosen")
+    yield from hands.undo()
+    yield lambda: record() == first
+    assert bpy.context.scene.wcd.parts == 0

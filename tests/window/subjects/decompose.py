@@ -1,0 +1,33 @@
+"""The button Decompose, its result, and undo."""
+
+import json
+
+import bpy
+from leftovers import leftovers
+from snapshot import snapshot
+from weak_convex_decomposition.ui import running
+
+
+def steps(hands):
+    yield from hands.open_sidebar()
+    before = snapshot(hands.suzanne(1))
+    bpy.context.scene.wcd.samples = 300
+    with hands.context():
+        bpy.ops.ed.undo_push(message="Samples")
+    yield 0.5
+    hands.picture("before")
+    place = yield from hands.find("wcd.decompose")
+    yield from hands.click(place)
+    yield lambda: running.current is not None
+    hands.picture("running")
+    yield lambda: running.current is None
+    obj = bpy.context.active_object
+    parts = json.loads(obj["wcd"])["parts"]
+    assert "wcd_part" in obj.data.attributes
+    assert len(obj.vertex_groups) == len(obj.data.materials) == len(parts) > 1
+    assert leftovers() == []
+    yield 0.5
+    hands.picture("after")
+    yield from hands.undo()
+    yield lambda: "wcd" not in bpy.context.active_object
+    assert snapshot(bpy.context.active_object) == before

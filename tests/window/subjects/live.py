@@ -1,0 +1,58 @@
+"""With Live on, a slider cuts anew as it is dragged; one undo takes all of it back."""
+
+import json
+import time
+
+import bpy
+from leftovers import leftovers
+from weak_convex_decomposition.ui import running
+
+
+def n_parts():
+    return json.loads(bpy.context.active_object["wcd"])["k"]
+
+
+def steps(hands):
+    yield from hands.open_sidebar()
+    hands.suzanne(2)
+    settings = bpy.context.scene.wcd
+    settings.parts = 4
+    settings.samples = 600
+    with hands.context():
+        bpy.ops.wcd.decompose(parts=4, samples=600)
+        bpy.ops.ed.undo_push(message="Parts")
+    assert n_parts() == 4
+    place = yield from hands.find("wcd.live")
+    yield from hands.click(place)
+    yield lambda: bpy.context.scene.wcd.live
+
+    place = yield from hands.find("wcd.parts")
+    yield from hands.drag(place, (10, 20, 30, 45, 60))
+    yield lambda: not running.current
+    chosen = bpy.context.scene.wcd.parts
+    assert chosen != 4
+    yield lambda: n_parts() == chosen
+    assert leftovers() == []
+    yield 0.5
+    hands.picture("dragged")
+    yield from hands.undo()
+    yield lambda: bpy.context.scene.wcd.parts == 4
+    assert n_parts() == 4
+
+    # Every number in its turn, and how long each takes.
+    bpy.context.scene.wcd.live = True
+    for k in range(2, 21):
+        began = time.perf_counter()
+        bpy.context.scene.wcd.parts = k
+        print(f"{k} parts: {time.perf_counter() - began:.2f} s")
+        yield lambda: not leftovers()
+        yield lambda k=k: n_parts() == k
+    hands.picture("twenty")
+
+    # A changed mesh is noticed, and seen anew while the window stays alive.
+    bpy.context.active_object.data.vertices[0].co.x += 0.05
+    bpy.context.scene.wcd.parts = 6
+    yield lambda: running.current is not None
+    yield lambda: running.current is None
+    assert n_parts() == 6
+    assert leftovers() == []
