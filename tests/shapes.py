@@ -93,6 +93,13 @@ def table():
     return blocks((5, 4, 4), ((0, 5), (0, 4), (3, 4)), *legs)
 
 
+def chair():
+    """Return a seat at 4 < z < 5 on four legs, and a back above y = 5."""
+    legs = [((x, x + 1), (y, y + 1), (0, 4)) for x in (0, 5) for y in (0, 5)]
+    seat, back = ((0, 6), (0, 6), (4, 5)), ((0, 6), (5, 6), (5, 10))
+    return blocks((6, 6, 10), seat, back, *legs)
+
+
 def comb():
     """Return a palm at y < 3 with four fingers along y, like a hand."""
     fingers = [((x, x + 1), (3, 8), (0, 1)) for x in (0, 2, 4, 6)]
