@@ -1,4 +1,4 @@
-"""Planes through a shape: triangles in two, and cross-sections."""
+"""Planes through a shape: contours and cross-sections."""
 
 from __future__ import annotations
 
@@ -8,34 +8,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .axes import frames
+from .hull import heights_above
 from .solid import Solid
 
 # Distance of points in a cross-section; the longest side of a shape is 2.
 _GRAIN = 0.04
 
 
-def cut_triangles(
+def contour(
     corners: NDArray[np.float64], plane: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Cut triangles by a plane.
+) -> NDArray[np.float64]:
+    """Return where a plane meets triangles: segments (S, 2, 3).
+
+    The inside is on the left, as seen along the normal.
 
     Parameters
     ----------
     corners : (T, 3, 3) float
     plane : (4,) float
-        n · x + d ≤ 0 below it.
-
-    Returns
-    -------
-    below, above : (B, 3, 3), (A, 3, 3) float
-        Triangles on both sides, those that the plane meets in pieces.
-    segments : (S, 2, 3) float
-        Where it meets them, the inside on the left as seen along the normal.
+        n · x + d = 0 on it.
     """
     heights = corners @ plane[:3] + plane[3]
     under = heights <= 0
     n_under = under.sum(axis=1)
-    met = (n_under > 0) & (n_under < 3)
+    met = np.flatnonzero((n_under > 0) & (n_under < 3))
     # Each is turned so that the corner alone on its side comes first.
     lone_under = n_under[met] == 1
     alone = np.where(lone_under[:, None], under[met], ~under[met])
@@ -44,13 +40,8 @@ def cut_triangles(
     over = np.take_along_axis(heights[met], turn, axis=1)[..., None]
     ab = a + over[:, 0] / (over[:, 0] - over[:, 1]) * (b - a)
     ac = a + over[:, 0] / (over[:, 0] - over[:, 2]) * (c - a)
-    tips = np.stack([a, ab, ac], axis=1)
-    rests = np.stack([np.stack([ab, b, c], 1), np.stack([ab, c, ac], 1)])
-    below = [corners[n_under == 3], tips[lone_under], *rests[:, ~lone_under]]
-    above = [corners[n_under == 0], tips[~lone_under], *rests[:, lone_under]]
     ends = np.stack([ab, ac], axis=1)
-    segments = np.where(lone_under[:, None, None], ends[:, ::-1], ends)
-    return np.concatenate(below), np.concatenate(above), segments
+    return np.where(lone_under[:, None, None], ends[:, ::-1], ends)
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,13 +53,30 @@ class Section:
     plane : (4,) float
     axes : (2, 3) float
         Of the plane.
+    rim : (S, 2, 3) float
+        Segments of the contour.
     segments : (S, 2, 2) float
-        Contour, along `axes`.
+        The same along `axes`.
     """
 
     plane: NDArray[np.float64]
     axes: NDArray[np.float64]
+    rim: NDArray[np.float64]
     segments: NDArray[np.float64]
+
+    def rim_within(self, planes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the ends of what of the rim is below all planes (P, 4), (M, 3)."""
+        starts, ends = (heights_above(planes, self.rim[:, end]).T for end in (0, 1))
+        fall = np.where(starts == ends, 1.0, starts - ends)
+        crossed = starts / fall
+        enter = np.where(starts > 0, crossed, 0.0).max(axis=0, initial=0.0)
+        leave = np.where(ends > 0, crossed, 1.0).min(axis=0, initial=1.0)
+        enter[((starts > 0) & (ends > 0)).any(axis=0)] = np.inf
+        kept = enter <= leave
+        shares = np.stack([enter, leave], axis=1)[kept, :, None]
+        one, other = self.rim[kept, :1], self.rim[kept, 1:]
+        points: NDArray[np.float64] = one + shares * (other - one)
+        return points.reshape(-1, 3)
 
     def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return points spread evenly in the box around points (P, 3), (M, 3)."""
@@ -96,7 +104,8 @@ class Section:
 def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
     """Return where a plane (4,) cuts the inside of a solid."""
     axes = np.concatenate(frames(plane[None, :3]))
-    return Section(plane, axes, cut_triangles(solid.corners, plane)[2] @ axes.T)
+    rim = contour(solid.corners, plane)
+    return Section(plane, axes, rim, rim @ axes.T)
 
 
 def _is_inside(

@@ -11,7 +11,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from .axes import principal_axes
 
-# Vertices that a simplified hull gets in each round.
+# Vertices that a simplified hull gets in each round, at least.
 _VERTICES_A_ROUND = 6
 
 
@@ -103,7 +103,8 @@ def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
         facets = facets[heights.max(axis=0)[facets] > tolerance]
         # Several facets may have the same vertex farthest out of them.
         new = list(dict.fromkeys(heights.argmax(axis=0)[facets].tolist()))
-        room = min(_VERTICES_A_ROUND, max_vertices - len(chosen))
+        fresh = max(_VERTICES_A_ROUND, len(chosen) // 3)
+        room = min(fresh, max_vertices - len(chosen))
         if room == 0 or not new:
             return coarse
         chosen += new[:room]

@@ -19,8 +19,17 @@ _USUAL = 0.05
 
 def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
     """Return what the hulls of both sides of a cut cost."""
-    added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
-    return _rounded(one.error + other.error + _price(added, solid_volume))
+    errors = one.error + other.error
+    return _rounded(errors + _price_of_sides(one, other, solid_volume))
+
+
+def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
+    """Return what both sides of a cut cost at least: as far as their volumes tell.
+
+    The other term of their errors takes as long as all the rest.
+    """
+    errors = one.volume_error + other.volume_error
+    return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 
 def cost_of_joint(joint: Piece, solid_volume: float) -> float:
@@ -37,6 +46,12 @@ def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
     points = np.concatenate([one.hull.vertices, other.hull.vertices])
     added = hull_volume(points) - one.volume - other.volume
     return _rounded(volume_error(added) ** 2 / _USUAL + _price(added, solid_volume))
+
+
+def _price_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
+    """Return what the volume added on both sides of a cut costs."""
+    added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
+    return _price(added, solid_volume)
 
 
 def _price(added: float, solid_volume: float) -> float:

@@ -88,7 +88,9 @@ def build_hulls(
     normalized, notes = oriented(mesh.normalized())
     # From a diagonal of 1 to CoACD's units: the longest side is 2.
     vertices = normalized.vertices * (mesh.diagonal / size)
-    solid = solid_of(replace(normalized, vertices=vertices), seed)
+    yield Progress("Solid", 0.0)
+    steps = solid_of(replace(normalized, vertices=vertices), seed)
+    solid = yield from within(steps, 0.0, 0.0)
     parts = labels[mesh.polygons]
     if parameters.pieces == "PARTS":
         start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
@@ -133,12 +135,12 @@ def _cut(
     cells = [whole(solid, parts)]
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
-        yield Progress("Cutting", (len(cells) + len(done)) / most)
+        share = (len(cells) + len(done)) / most
         worst = max(cells, key=lambda cell: round(cell.error, 6))
         if worst.error <= max_error:
             break
         cells.remove(worst)
-        sides = best_cut(solid, worst)
+        sides = yield from within(best_cut(solid, worst), share, share + 1 / most)
         if sides:
             cells += sides
         else:
@@ -148,8 +150,10 @@ def _cut(
 
 def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
     """Return the part that most of the surface in a piece's hull is of."""
-    inside = piece.hull.heights(solid.samples) <= 0
-    return int(np.bincount(parts[solid.triangles][inside], minlength=1).argmax())
+    low, high = piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0)
+    near = ((low <= solid.samples) & (solid.samples <= high)).all(axis=1)
+    near[near] = piece.hull.heights(solid.samples[near]) <= 0
+    return int(np.bincount(parts[solid.triangles[near]], minlength=1).argmax())
 
 
 def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str, ...]:

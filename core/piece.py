@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .cutting import cross_section, cut_triangles
+from .cutting import cross_section
 from .hull import Hull, convex_hull, heights_above
 from .sampling import points_on
 from .solid import Solid
@@ -90,8 +90,6 @@ class Cell(Piece):
 
     Attributes
     ----------
-    corners : (T, 3, 3) float
-        Triangles of the surface within.
     parts : (N,) int
         Part of each sample of `boundary`, −1 on cut faces.
     chords : (C, 3) float
@@ -102,7 +100,6 @@ class Cell(Piece):
         n · x + d ≤ 0 within.
     """
 
-    corners: NDArray[np.float64]
     parts: NDArray[np.int64]
     chords: NDArray[np.float64]
     volumes: NDArray[np.float64]
@@ -116,7 +113,6 @@ def whole(solid: Solid, parts: NDArray[np.int64]) -> Cell:
         solid.samples,
         float(solid.volumes.sum()),
         solid.spacing,
-        solid.corners,
         parts[solid.triangles],
         solid.chords,
         solid.volumes,
@@ -141,16 +137,12 @@ def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
 
 def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
     """Return what lies below and above a plane (4,); either may be empty."""
-    below, above, segments = cut_triangles(cell.corners, plane)
     section = cross_section(solid, plane)
     face = section.spread(cell.points)
     face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
     tips = _meeting_points(cell.planes, plane)
-    rim = np.concatenate([segments.reshape(-1, 3), tips[section.holds(tips)]])
-    return (
-        _side(cell, plane, below, rim, face),
-        _side(cell, -plane, above, rim, face),
-    )
+    rim = np.concatenate([section.rim_within(cell.planes), tips[section.holds(tips)]])
+    return _side(cell, plane, rim, face), _side(cell, -plane, rim, face)
 
 
 def join(one: Piece, other: Piece) -> Piece:
@@ -169,11 +161,10 @@ def join(one: Piece, other: Piece) -> Piece:
 def _side(
     cell: Cell,
     plane: NDArray[np.float64],
-    corners: NDArray[np.float64],
     rim: NDArray[np.float64],
     face: NDArray[np.float64],
 ) -> Cell:
-    """Return what of a cell lies below a plane, given the surface there."""
+    """Return what of a cell lies below a plane, given its face there."""
     points, boundary, chords = (
         heights_above(plane[None], places)[:, 0] <= 0
         for places in (cell.points, cell.boundary, cell.chords)
@@ -183,7 +174,6 @@ def _side(
         np.concatenate([cell.boundary[boundary], face]),
         float(cell.volumes[chords].sum()),
         cell.spacing,
-        corners,
         np.concatenate([cell.parts[boundary], np.full(len(face), -1)]),
         cell.chords[chords],
         cell.volumes[chords],

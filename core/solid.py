@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chords import chords_along
+from .progress import Progress, Steps
 from .sampling import sample_surface
 from .shapes import TriangleMesh
 
@@ -46,7 +47,7 @@ class Solid:
     spacing: float
 
 
-def solid_of(mesh: TriangleMesh, seed: int) -> Solid:
+def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
     """Return the inside of `mesh`.
 
     The volume is measured along lines parallel to each axis, which unlike cells of a
@@ -58,12 +59,21 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Solid:
     mesh : TriangleMesh
         Oriented.
     seed : int
+
+    Returns
+    -------
+    Steps of Solid
+        Yields Progress; `run` gets the value.
     """
     samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]
-    chords, volumes = zip(
-        *(chords_along(corners, axis) for axis in range(3)), strict=True
-    )
+    chords, volumes = [], []
+    for axis in range(3):
+        yield Progress("Solid", axis / 3)
+        centers, shares = chords_along(corners, axis)
+        chords.append(centers)
+        volumes.append(shares)
+    yield Progress("Solid", 1.0)
     return Solid(
         corners,
         np.unique(corners.reshape(-1, 3), axis=0),

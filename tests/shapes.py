@@ -93,6 +93,13 @@ def table():
     return blocks((5, 4, 4), ((0, 5), (0, 4), (3, 4)), *legs)
 
 
+def chair():
+    """Return a seat at 4 < z < 5 on four legs, and a back above y = 5."""
+    legs = [((x, x + 1), (y, y + 1), (0, 4)) for x in (0, 5) for y in (0, 5)]
+    seat, back = ((0, 6), (0, 6), (4, 5)), ((0, 6), (5, 6), (5, 10))
+    return blocks((6, 6, 10), seat, back, *legs)
+
+
 def comb():
     """Return a palm at y < 3 with four fingers along y, like a hand."""
     fingers = [((x, x + 1), (3, 8), (0, 1)) for x in (0, 2, 4, 6)]
@@ -151,6 +158,46 @@ def cup(wall=0.1):
             for i, j in ((0, 1), (1, 2), (2, 3), (3, 0))
         ]
     return mesh_of(vertices, faces)
+
+
+def turned(radii, heights, around=32):
+    """Return what a line from the z axis back to it sweeps, the inside on its left."""
+    turns = 2 * np.pi * np.arange(around) / around
+    rows = [
+        (r * np.cos(turn), r * np.sin(turn), z)
+        for r, z in zip(radii[1:-1], heights[1:-1], strict=True)
+        for turn in turns
+    ]
+    ends = [(0, 0, heights[0]), (0, 0, heights[-1])]
+    faces = []
+    for s in range(around):
+        t = (s + 1) % around
+        last = len(rows) - around
+        faces += [(len(rows), t, s), (len(rows) + 1, last + s, last + t)]
+        faces += [
+            (low + s, low + t, low + around + t, low + around + s)
+            for low in range(0, last, around)
+        ]
+    return mesh_of([*rows, *ends], faces)
+
+
+def bowl(wall=0.08):
+    """Return half a hollow ball of radius 1, open above; its floor is at `wall`."""
+    out, back = np.linspace(0, np.pi / 2, 9), np.linspace(np.pi / 2, 0, 9)
+    radii = [*np.sin(out), *(1 - wall) * np.sin(back)]
+    return turned(radii, [*1 - np.cos(out), *1 - (1 - wall) * np.cos(back)])
+
+
+def mug(wall=0.12):
+    """Return a mug of radius and height 1 and 2, its handle at x > 1."""
+    inner = 1 - wall
+    body = turned([0, 1, 1, inner, inner, 0], [0, 0, 2, 2, wall, wall])
+    bars = [
+        box((0.95, -0.1, 0.4), (1.5, 0.1, 0.6)),
+        box((0.95, -0.1, 1.4), (1.5, 0.1, 1.6)),
+        box((1.4, -0.1, 0.4), (1.6, 0.1, 1.6)),
+    ]
+    return joined(body, *bars)
 
 
 def sphere(subdivisions=2, radius=1.0, center=(0, 0, 0)):

@@ -106,7 +106,7 @@ def test_every_make_command_exists():
 
 def test_every_option_is_one():
     options = {o.replace("-", "_") for o in re.findall(r"[` ]--([a-z-]+)", README)}
-    own = {"help", "hulls", "output", "picture", "preset", "report"}
+    own = {"help", "hulls", "hulls_format", "output", "picture", "preset", "report"}
     blenders = {"command"}
     assert options <= own | blenders | {field.name for field in PARAMETERS}
 

@@ -142,3 +142,7 @@ _EXPORTERS: dict[str, Callable[[Path, Path, Sequence[bpy.types.Object], str], No
     ".xml": _mjcf,
 }
 HULL_ENDINGS = tuple(_EXPORTERS)
+# Names of formats, where the ending is not that.
+HULL_FORMATS = {e.removeprefix("."): e for e in HULL_ENDINGS if e != ".xml"} | {
+    "mjcf": ".xml"
+}

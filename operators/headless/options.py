@@ -16,7 +16,7 @@ from ...core.parameters import Parameters
 from ...core.presets import PRESET_KNOB, PRESETS, preset
 from ..bridge.record import version
 from .exporting import ENDINGS as WRITTEN
-from .hull_files import HULL_ENDINGS
+from .hull_files import HULL_ENDINGS, HULL_FORMATS
 from .importing import ENDINGS as READ
 from .targets import Targets, targets_for
 
@@ -81,7 +81,7 @@ def parse(arguments: list[str], program: str) -> Request:
                 options.output,
                 options.picture,
                 options.report,
-                options.hulls,
+                _hull_file(options.hulls, options.hulls_format),
             ),
             report=options.report,
             up=options.up,
@@ -91,6 +91,16 @@ def parse(arguments: list[str], program: str) -> Request:
         )
     except DecompositionError as error:
         parser.error(str(error))
+
+
+def _hull_file(hulls: str | None, hulls_format: str | None) -> str | None:
+    """Return the file for hulls with the ending of the format, if one is asked for."""
+    if hulls_format is None:
+        return hulls
+    if hulls is None:
+        raise DecompositionError("--hulls-format needs --hulls, which names the file.")
+    ending = HULL_FORMATS[hulls_format]
+    return hulls if hulls.lower().endswith(ending) else hulls + ending
 
 
 def _parser(program: str) -> argparse.ArgumentParser:
@@ -121,6 +131,13 @@ def _parser(program: str) -> argparse.ArgumentParser:
         "--hulls",
         metavar="HULLS",
         help="write collision hulls of the parts",
+    )
+    parser.add_argument(
+        "--hulls-format",
+        type=str.lower,
+        choices=tuple(HULL_FORMATS),
+        help="format of HULLS, whose ending is added where it is missing (default: as"
+        " the ending says)",
     )
     parser.add_argument(
         "--up",

@@ -7,6 +7,7 @@ import pytest
 from weak_convex_decomposition.operators.bridge.hulls import hulls_of
 from weak_convex_decomposition.operators.command_line import main
 from weak_convex_decomposition.operators.headless.importing import load
+from weak_convex_decomposition.operators.headless.options import parse
 
 QUICK = ["--samples=100", "--parts=2", "--max-hulls=3", "--naming=unreal"]
 NAMES = ["UCX_Suzanne_01", "UCX_Suzanne_02", "UCX_Suzanne_03"]
@@ -116,11 +117,23 @@ def test_the_report_and_the_model(tmp_path, model):
     assert [obj.name for obj in load(output)] == ["Suzanne"]
 
 
+@pytest.mark.parametrize(
+    ("word", "file"), [("mjcf", "hulls.xml"), ("URDF", "hulls.urdf"), ("obj", "a.obj")]
+)
+def test_a_format_adds_its_ending(tmp_path, model, word, file):
+    hulls = tmp_path / file if word == "obj" else tmp_path / "hulls"
+    words = [str(model), "--hulls", str(hulls), "--hulls-format", word]
+    (targets,) = parse(words, "wcd").targets
+    assert targets.hulls == tmp_path / file
+
+
 def test_wrong_usage(tmp_path, model, capsys):
     assert run(model, "--hulls", tmp_path / "a.ply") == 2
     assert "--hulls has to end in one of" in capsys.readouterr().err
     assert run(model, "--hulls", tmp_path / "a.glb", "--max-hulls=0") == 2
     assert "Most Hulls is 0" in capsys.readouterr().err
+    assert run(model, "--hulls-format=obj") == 2
+    assert "--hulls-format needs --hulls" in capsys.readouterr().err
     words = ["--naming=template", "--template={name}"]
     assert run(model, "--hulls", tmp_path / "a.glb", *words) == 2
     assert "gives all hulls one name" in capsys.readouterr().err

@@ -2,7 +2,13 @@ import numpy as np
 import pytest
 import shapes
 from weak_convex_decomposition.core.piece import cut, join, whole
-from weak_convex_decomposition.core.solid import solid_of
+from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.solid import solid_of as solid_steps
+
+
+def solid_of(mesh, seed):
+    return run(solid_steps(mesh, seed))
+
 
 CUBE = solid_of(shapes.box((-1, -1, -1), (1, 1, 1)), 0)
 PLANES = [np.array([*normal, 0.1]) for normal in np.eye(3)]

@@ -1,8 +1,14 @@
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.cutting import cross_section, cut_triangles
-from weak_convex_decomposition.core.solid import solid_of
+from weak_convex_decomposition.core.cutting import contour, cross_section
+from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.solid import solid_of as solid_steps
+
+
+def solid_of(mesh, seed):
+    return run(solid_steps(mesh, seed))
+
 
 PLANE = np.array([0.0, 0.0, 1.0, -0.5])
 
@@ -39,23 +45,24 @@ def test_chords_are_inside():
     assert radii.min() > 0.47
 
 
-def test_cut_triangles_keep_the_surface():
+def test_contours_have_the_inside_on_their_left():
     mesh = shapes.moved(shapes.sphere(2), rotation=shapes.any_rotation(2))
-    corners = mesh.vertices[mesh.triangles]
-    below, above, segments = cut_triangles(corners, PLANE)
-    assert below[..., 2].max() <= 0.5 + 1e-12
-    assert above[..., 2].min() >= 0.5 - 1e-12
-    areas = [
-        np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum() / 2
-        for t in (below, above)
-    ]
-    assert sum(areas) == pytest.approx(mesh.areas.sum())
-    # The rim is a circle, the inside on its left.
+    segments = contour(mesh.vertices[mesh.triangles], PLANE)
     assert segments[..., 2] == pytest.approx(0.5)
     starts, ends = segments[:, 0], segments[:, 1]
     turn = starts[:, 0] * ends[:, 1] - starts[:, 1] * ends[:, 0]
     assert turn.sum() / 2 == pytest.approx(np.pi * 0.75, rel=0.05)
     assert (turn >= 0).all()
+
+
+def test_rims_end_at_other_planes():
+    section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3), 0), PLANE)
+    planes = np.array([[1.0, 0, 0, -0.25], [0, 1, 0, -5]])
+    rim = section.rim_within(planes)
+    assert rim.min(axis=0) == pytest.approx([-1, -1, 0.5])
+    assert rim.max(axis=0) == pytest.approx([0.25, 1, 0.5])
+    assert len(section.rim_within(np.array([[1.0, 0, 0, 5]]))) == 0
+    assert len(section.rim_within(np.zeros((0, 4)))) == 2 * len(section.rim)
 
 
 def test_cross_sections_leave_out_what_is_hollow():
