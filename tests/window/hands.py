@@ -1,5 +1,6 @@
 """A user's hands and eyes: mouse, keys, what is under the cursor, and pictures."""
 
+import math
 import os
 import subprocess
 from itertools import product
@@ -11,6 +12,8 @@ PICTURES = Path("build/window")
 CATEGORY = "Convex Parts"
 # Points between two places where a button is looked for.
 _STRIDE = 7
+# How far from there Blender may see the cursor, in points.
+_NEAR = 3
 
 
 class TEST_OT_watch(bpy.types.Operator):
@@ -18,7 +21,7 @@ class TEST_OT_watch(bpy.types.Operator):
 
     bl_idname = "test.watch"
     bl_label = "Watch the Cursor"
-    place = None
+    place = (-math.inf, -math.inf)
 
     def invoke(self, context, event):
         context.window_manager.modal_handler_add(self)
@@ -95,7 +98,7 @@ class Hands:
     def move(self, x, y):
         """Move the cursor to a place of Blender's, counted from the lower left."""
         self._do("mousemove", x, self.window.height - 1 - y)
-        yield lambda: TEST_OT_watch.place == (x, y)
+        yield lambda: math.dist(TEST_OT_watch.place, (x, y)) < _NEAR
 
     def click(self, place):
         yield from self.move(*place)
