@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
+
+from .errors import DecompositionError
 
 T = TypeVar("T")
 
@@ -55,3 +57,39 @@ def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
 def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
     """Run `steps` as the part from `low` to `high` of a longer computation."""
     return mapped(steps, lambda p: Progress(p.stage, low + (high - low) * p.fraction))
+
+
+def in_turn(
+    works: Sequence[Steps[T] | DecompositionError], names: Sequence[str]
+) -> Steps[list[T | DecompositionError]]:
+    """Run several computations one after the other; an error ends its own alone.
+
+    Parameters
+    ----------
+    works : sequence of Steps
+        Or errors: of computations that could not even begin.
+    names : sequence of str
+        Come before the stages that are reported, where there are several.
+
+    Returns
+    -------
+    Steps of list
+        The values, and the errors in the places of those that failed.
+    """
+    outcomes: list[T | DecompositionError] = []
+    for number, (work, name) in enumerate(zip(works, names, strict=True)):
+        if isinstance(work, DecompositionError):
+            outcomes.append(work)
+            continue
+        share = number / len(works), (number + 1) / len(works)
+        try:
+            steps = within(work, *share)
+            outcomes.append((yield from _titled(steps, name) if works[1:] else steps))
+        except DecompositionError as error:
+            outcomes.append(error)
+    return outcomes
+
+
+def _titled(steps: Steps[T], title: str) -> Steps[T]:
+    """Run `steps` with a title before their stages."""
+    return mapped(steps, lambda p: Progress(f"{title}: {p.stage}", p.fraction))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
@@ -42,16 +41,16 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         """Draw the settings."""
         draw(self.layout, self, HULLS)
 
-    def _begin(self, context: bpy.types.Context) -> Steps[HullDecomposition]:
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[HullDecomposition]:
         self._parameters = hull_parameters_from(self)
         parameters = parameters_from(context.scene.wcd)
-        return build_hulls_of(context.active_object, parameters, self._parameters)
+        return build_hulls_of(obj, parameters, self._parameters)
 
-    def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> None:
+    def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         write_hulls(obj, value, self._parameters)
-        self._warn(value.notes)
-        seconds = time.perf_counter() - self._started
-        self.report({"INFO"}, f"{hull_summary(value)}, {seconds:.1f} s")
+        return hull_summary(value)
 
 
 WCD_OT_build_hulls.__annotations__ = annotations(HULLS)

@@ -1,4 +1,4 @@
-"""Take back what the other operators left on the active object."""
+"""Take back what the other operators left on objects."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import ClassVar
 
 import bpy
 
-from ..core.errors import DecompositionError
 from .bridge.erase import clear
 from .bridge.hulls import erase_hulls
 from .bridge.record import has_record
-from .bridge.target import refusal
+from .bridge.target import chosen, refusal
+from .each import do_each
 
 
 class WCD_OT_clear(bpy.types.Operator):
@@ -18,26 +18,33 @@ class WCD_OT_clear(bpy.types.Operator):
 
     bl_idname = "wcd.clear"
     bl_label = "Clear Convex Parts"
-    bl_description = "Remove parts, hulls and whatever else was added to the object"
+    bl_description = (
+        "Remove parts, hulls and whatever else was added to the selected objects"
+    )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is anything to clear."""
-        obj = context.active_object
-        reason = refusal(obj, writes_mesh=False)
-        if reason is None and not has_record(obj):
-            reason = f"{obj.name} has no parts to clear"
+        reason = _refusal(chosen(context, _refusal)[0])
         if reason:
             cls.poll_message_set(reason)
         return reason is None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Clear the active object."""
-        try:
-            erase_hulls(context.active_object)
-            clear(context.active_object)
-        except DecompositionError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+        """Clear the selected objects."""
+        return do_each(self, chosen(context, _refusal), _clear)
+
+
+def _clear(obj: bpy.types.Object) -> None:
+    """Take everything of ours off an object."""
+    erase_hulls(obj)
+    clear(obj)
+
+
+def _refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why an object cannot be cleared, None if it can."""
+    reason = refusal(obj, writes_mesh=False)
+    if reason is None and not has_record(obj):
+        return f"{obj.name} has no parts to clear"
+    return reason

@@ -3,52 +3,50 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import bpy
 
 from ..core.errors import DecompositionError
-from ..core.progress import Steps, run
+from ..core.progress import Steps, in_turn, run
 from ..ui import running
 from . import modal
-from .bridge.target import Target
+from .bridge.target import Target, chosen
 from .cursor import with_cursor
+from .each import conclude
 
 
 class Computation:
     """Half an operator that computes.
 
     The other half has `_refusal(obj)`, which returns why an object cannot be worked on;
-    `_begin(context)`, which checks and reads the active object and returns the `Steps`
-    to be done; and `_commit(obj, value)`, which writes what they return to the object
-    and reports it.
-    Buttons invoke it; scripts and Adjust Last Operation execute it.
+    `_begin(context, obj)`, which checks and reads an object and returns the `Steps` to
+    be done; and `_commit(obj, value)`, which writes what they return to the object and
+    returns the figures in a line.
+    Buttons invoke it; scripts and Adjust Last Operation execute it. All is written at
+    the end; where there are several objects, those that fail are told of and left out.
     """
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the active object can be worked on, and nothing else is."""
-        reason = modal.busy() or cls._refusal(context.active_object)
+        """Return whether there is an object to work on, and nothing else is running."""
+        reason = modal.busy() or cls._refusal(cls._chosen(context)[0])
         if reason:
             cls.poll_message_set(reason)
         return reason is None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute while Blender waits."""
-        try:
-            steps = with_cursor(context.window_manager, self._read(context))
-            value = run(steps)
-            self._commit(self._target.find(), value)
-        except DecompositionError as error:
-            return self._refuse(error)
-        return {"FINISHED"}
+        steps = in_turn(self._read(context), self._names)
+        return self._write(run(with_cursor(context.window_manager, steps)), Target.find)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to compute while the window stays alive."""
-        try:
-            steps = self._read(context)
-        except DecompositionError as error:
-            return self._refuse(error)
+        works = self._read(context)
+        if all(isinstance(work, DecompositionError) for work in works):
+            return self._write(works, Target.find)
+        steps = in_turn(works, self._names)
         self._running = modal.start(context, self.bl_label, steps)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -60,32 +58,64 @@ class Computation:
         if event.type == "ESC" and event.value == "PRESS":
             modal.stop()
             return {"CANCELLED"}
-        if event.type != "TIMER":
+        if event.type != "TIMER" or not modal.advance(self._running):
             return {"PASS_THROUGH"}
-        try:
-            if not modal.advance(self._running):
-                return {"PASS_THROUGH"}
-            self._commit(self._changeable(), self._running.job.result())
-        except DecompositionError as error:
-            return self._refuse(error)
-        return {"FINISHED"}
+        return self._write(self._running.job.result(), self._changeable)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Stop: Blender closes the window or loads another file."""
         modal.stop()
 
-    def _read(self, context: bpy.types.Context) -> Steps[Any]:
-        """Check and read the active object; return the work to be done."""
-        self._target = Target.of(context.active_object)
-        self._started = time.perf_counter()
-        return self._begin(context)
+    @classmethod
+    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Return the objects to work on."""
+        return chosen(context, cls._refusal)
 
-    def _changeable(self) -> bpy.types.Object:
+    def _read(
+        self, context: bpy.types.Context
+    ) -> list[Steps[Any] | DecompositionError]:
+        """Check and read the objects; return the work to be done on each."""
+        self._started = time.perf_counter()
+        objects = self._chosen(context)
+        self._names = [obj.name for obj in objects]
+        self._targets = [Target.of(obj) for obj in objects]
+        return [self._begun(context, obj) for obj in objects]
+
+    def _begun(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Any] | DecompositionError:
+        try:
+            return self._begin(context, obj)
+        except DecompositionError as error:
+            return error
+
+    def _write(
+        self, outcomes: Sequence[Any], find: Callable[[Target], bpy.types.Object]
+    ) -> set[str]:
+        """Write what was computed to the objects, and report it and what failed."""
+        failures = []
+        for target, name, outcome in zip(
+            self._targets, self._names, outcomes, strict=True
+        ):
+            self._title = f"{name}: " if outcomes[1:] else ""
+            try:
+                if isinstance(outcome, DecompositionError):
+                    raise outcome
+                figures = self._commit(find(target), outcome)
+            except DecompositionError as error:
+                failures.append(f"{self._title}{error}")
+                continue
+            self._warn(outcome.notes)
+            seconds = time.perf_counter() - self._started
+            self.report({"INFO"}, f"{self._title}{figures}, {seconds:.1f} s")
+        return conclude(self, failures, len(outcomes))
+
+    def _changeable(self, target: Target) -> bpy.types.Object:
         """Return the object that was read, or raise if it must not be written to now.
 
         Modes may have changed since, and undo in a mode knows the objects in it alone.
         """
-        obj = self._target.find()
+        obj = target.find()
         reason = self._refusal(obj)
         if reason is None and obj.mode == "OBJECT" != bpy.context.mode:
             reason = f"{obj.name} cannot be written to while another object is edited"
@@ -93,11 +123,7 @@ class Computation:
             raise DecompositionError(f"{reason}. Start again.")
         return obj
 
-    def _refuse(self, error: DecompositionError) -> set[str]:
-        self.report({"ERROR"}, str(error))
-        return {"CANCELLED"}
-
-    def _warn(self, notes: tuple[str, ...]) -> None:
+    def _warn(self, notes: Sequence[str]) -> None:
         """Report what is worth knowing."""
         for note in notes:
-            self.report({"WARNING"}, note)
+            self.report({"WARNING"}, f"{self._title}{note}")

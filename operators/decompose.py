@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
@@ -24,7 +23,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     bl_idname = "wcd.decompose"
     bl_label = "Decompose into Convex Parts"
     bl_description = (
-        "Split the active mesh into weakly convex parts, and show them on it"
+        "Split the selected meshes into weakly convex parts, and show them on them"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 
@@ -32,21 +31,29 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return refusal(obj)
 
+    @classmethod
+    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Return the objects to work on, one of those that share a mesh."""
+        firsts: dict[bpy.types.ID | None, bpy.types.Object] = {}
+        for obj in super()._chosen(context):
+            firsts.setdefault(obj and obj.data, obj)
+        return list(firsts.values())
+
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings, those of the sidebar's front first."""
         draw(self.layout, self, FRONT)
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
-    def _begin(self, context: bpy.types.Context) -> Steps[Decomposition]:
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Decomposition]:
         self._parameters = parameters_from(self)
-        return decompose_object(context.active_object, self._parameters)
+        return decompose_object(obj, self._parameters)
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
+    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> str:
         write_parts(obj, value, self._parameters)
-        self._warn(value.notes)
-        seconds = time.perf_counter() - self._started
-        self.report({"INFO"}, f"{summary(value)}, {seconds:.1f} s")
+        return summary(value)
 
 
 WCD_OT_decompose.__annotations__ = annotations()

@@ -34,21 +34,21 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
         """Draw the settings."""
         draw(self.layout, self, MEASURE)
 
-    def _begin(self, context: bpy.types.Context) -> Steps[Measurement]:
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Measurement]:
         self._parameters = parameters_from(self, MEASURE)
-        return measure_object(context.active_object, self._parameters)
+        return measure_object(obj, self._parameters)
 
-    def _commit(self, obj: bpy.types.Object, value: Measurement) -> None:
+    def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
         values = asdict(self._parameters)
         used = {name: values[name] for name in MEASURE}
         write_measurement(obj, value, used)
-        self._warn(value.notes)
         error = value.standard_error
-        self.report(
-            {"INFO"},
+        return (
             f"Convexity rank {value.rank:.3f}"
             + (f" ± {error:.3f}" if error else "")
-            + f" ({value.n_samples:,} samples)",
+            + f" ({value.n_samples:,} samples)"
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import bpy
@@ -40,6 +41,23 @@ def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | Non
     if obj.mode == "EDIT" and is_cloud(obj):
         return "Parts of points are made in Object Mode; leave Edit Mode"
     return None
+
+
+def chosen(
+    context: bpy.types.Context, refusal: Callable[[bpy.types.Object], str | None]
+) -> list[bpy.types.Object]:
+    """Return what is to be worked on: those selected, or edited, that can be.
+
+    The active object comes first. It is the only one if no other can be worked on, so
+    that what it is refused for is told.
+    """
+    active = context.active_object
+    if active and active.mode == "EDIT":
+        there = context.objects_in_mode
+    else:
+        there = context.selected_objects
+    fit = [obj for obj in there if refusal(obj) is None]
+    return sorted(fit, key=lambda obj: obj != active) or [active]
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,19 @@ MOUSE = SimpleNamespace(type="MOUSEMOVE", value="NOTHING")
 ESC = SimpleNamespace(type="ESC", value="PRESS")
 
 
+GONE = "The mesh was changed or deleted meanwhile; start again."
+
+
+def cube_at(x):
+    bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0))
+    return bpy.context.active_object
+
+
+def select(*objects):
+    for obj in objects:
+        obj.select_set(True)
+
+
 class Window:
     """Keeps what computations add to a window and its manager."""
 
@@ -76,6 +89,8 @@ def press(cls, window):
     pressed.report = lambda kind, text: pressed.reports.append((*kind, text))
     context = SimpleNamespace(
         active_object=bpy.context.active_object,
+        selected_objects=bpy.context.selected_objects,
+        objects_in_mode=bpy.context.objects_in_mode,
         scene=bpy.context.scene,
         window=window,
         window_manager=window,
@@ -112,6 +127,37 @@ def test_a_button_gives_what_a_script_gives(suzanne, window, cls):
     assert window.is_clean()
     assert window.handlers == [pressed]
     assert pressed.reports[-1][0] == "INFO"
+
+
+def test_several_objects_have_one_progress_and_esc_leaves_all(window):
+    objects = [cube_at(0), cube_at(5), cube_at(10)]
+    select(*objects)
+    before = [snapshot(obj) for obj in objects]
+    pressed = press(WCD_OT_decompose, window)
+    shares, stages = [], []
+    for _ in range(3):
+        pressed.modal(None, TIMER)
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert [snapshot(obj) for obj in objects] == before
+    pressed = press(WCD_OT_decompose, window)
+    while pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
+        shares.append(running.current.job.progress.fraction)
+        stages.append(running.current.job.progress.stage.partition(":")[0])
+    assert shares == sorted(shares)
+    assert set(stages) >= {"Cube", "Cube.001", "Cube.002"}
+    assert all("wcd_part" in obj.data.attributes for obj in objects)
+
+
+def test_one_object_deleted_meanwhile_does_not_stop_the_others(window):
+    kept, gone = cube_at(0), cube_at(5)
+    select(kept, gone)
+    pressed = press(WCD_OT_decompose, window)
+    pressed.modal(None, TIMER)
+    bpy.data.objects.remove(gone)
+    assert finish(pressed) == {"FINISHED"}
+    assert "wcd_part" in kept.data.attributes
+    assert ("WARNING", "Cube.001: " + GONE) in pressed.reports
+    assert errors_of(pressed) == []
 
 
 def test_progress_is_told_and_other_events_pass(suzanne, window, monkeypatch):

@@ -1,5 +1,6 @@
 import pytest
-from weak_convex_decomposition.core.progress import Progress, run, within
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.progress import Progress, in_turn, run, within
 
 
 def counting(n_steps, log=None):
@@ -41,5 +42,37 @@ def test_closing_closes_what_runs_within():
     log = []
     steps = within(counting(3, log), 0.0, 1.0)
     next(steps)
+    steps.close()
+    assert log == ["closed"]
+
+
+def test_works_in_turn_share_the_progress_and_fail_alone():
+    def failing():
+        yield Progress("Failing", 0.0)
+        raise DecompositionError("No.")
+
+    never = DecompositionError("Not even begun.")
+    works = [counting(2), failing(), never, counting(4)]
+    progress = []
+
+    def watched():
+        steps = in_turn(works, "abcd")
+        while True:
+            try:
+                progress.append(next(steps))
+            except StopIteration as stop:
+                return stop.value
+
+    two, error, same, four = watched()
+    assert (two, str(error), same, four) == (2, "No.", never, 4)
+    assert [p.fraction for p in progress] == sorted(p.fraction for p in progress)
+    assert progress[0] == Progress("a: Counting", 0.0)
+    assert progress[-1].fraction == pytest.approx(0.75 + 0.25 * 0.75)
+
+
+def test_a_work_alone_keeps_its_stages_and_closes():
+    log = []
+    steps = in_turn([counting(3, log)], ["alone"])
+    assert next(steps) == Progress("Counting", 0.0)
     steps.close()
     assert log == ["closed"]

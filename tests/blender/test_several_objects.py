@@ -1,0 +1,119 @@
+"""What the operators do when several objects are selected."""
+
+import json
+
+import bpy
+import pytest
+from hand_made import activate, mesh_object
+from snapshot import snapshot
+
+FAST = {"samples": 300}
+
+
+def add(x=0.0):
+    bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0))
+    return bpy.context.active_object
+
+
+def select(active, *others):
+    activate(active)
+    for obj in others:
+        obj.select_set(True)
+
+
+def decomposed(obj):
+    return "wcd" in obj and "wcd_part" in obj.data.attributes
+
+
+def test_all_selected_objects_are_decomposed_and_no_other():
+    first, second, other = add(0), add(5), add(10)
+    select(first, second)
+    before = snapshot(other)["mesh"]
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    assert decomposed(first)
+    assert decomposed(second)
+    assert not decomposed(other)
+    assert snapshot(other)["mesh"] == before
+    assert "measured" not in json.loads(second["wcd"])
+    bpy.ops.wcd.measure(**FAST)
+    assert all("measured" in json.loads(obj["wcd"]) for obj in (first, second))
+    bpy.ops.wcd.clear()
+    assert not decomposed(first)
+    assert not decomposed(second)
+
+
+def test_an_active_object_that_is_not_selected_is_left_alone():
+    first, second = add(0), add(5)
+    activate(second)
+    bpy.context.view_layer.objects.active = first
+    bpy.ops.wcd.decompose(**FAST)
+    assert not decomposed(first)
+    assert decomposed(second)
+
+
+def test_the_active_object_is_done_where_nothing_is_selected():
+    cube = add()
+    cube.select_set(False)
+    bpy.ops.wcd.decompose(**FAST)
+    assert decomposed(cube)
+
+
+def test_what_cannot_be_worked_on_is_left_out():
+    cube = add()
+    bpy.ops.object.light_add()
+    cube.select_set(True)  # the light is active
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    assert decomposed(cube)
+
+
+def test_an_object_that_fails_does_not_stop_the_others():
+    cube = add()
+    flat = mesh_object("Point", [(0, 0, 0)] * 3, [(0, 1, 2)])
+    before = snapshot(flat)["mesh"]
+    select(flat, cube)
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    assert decomposed(cube)
+    assert snapshot(flat)["mesh"] == before
+    activate(flat)
+    with pytest.raises(RuntimeError, match="have no area"):
+        bpy.ops.wcd.decompose(**FAST)
+
+
+def test_objects_that_share_a_mesh_get_one_decomposition():
+    cube = add()
+    twin = cube.copy()
+    bpy.context.collection.objects.link(twin)
+    select(twin, cube)
+    bpy.ops.wcd.decompose(**FAST)
+    assert "wcd" in twin
+    assert "wcd" not in cube
+
+
+def test_several_meshes_are_edited_at_once():
+    first, second, resting = add(0), add(5), add(10)
+    select(first, second)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.wcd.decompose(**FAST)
+    assert first.mode == second.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert decomposed(first)
+    assert decomposed(second)
+    assert not decomposed(resting)
+
+
+def test_several_objects_are_one_undo_step():
+    first, second = add(0), add(5)
+    select(first, second)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.wcd.decompose("EXEC_DEFAULT", True, **FAST)
+    bpy.ops.ed.undo()
+    assert not any(decomposed(obj) for obj in bpy.data.objects)
+    bpy.ops.ed.redo()
+    assert all(decomposed(obj) for obj in bpy.data.objects)
+
+
+def test_hulls_go_around_every_selected_object():
+    first, second = add(0), add(5)
+    select(first, second)
+    bpy.ops.wcd.build_hulls()
+    assert all(len(obj.children) == 1 for obj in (first, second))
