@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import command_line, modal, recut
+from . import command_line, modal, recut, use_parts
 from .bridge import visibility_cache
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
@@ -19,6 +19,7 @@ CLASSES = (
     WCD_OT_use_preset,
     recut.WCD_OT_recut,
     recut.WCD_OT_choose_part_count,
+    *use_parts.CLASSES,
 )
 
 

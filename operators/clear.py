@@ -7,6 +7,7 @@ from typing import ClassVar
 import bpy
 
 from .bridge.erase import clear
+from .bridge.exploding import implode
 from .bridge.hulls import erase_hulls
 from .bridge.record import has_record
 from .bridge.target import chosen, refusal
@@ -39,6 +40,7 @@ class WCD_OT_clear(bpy.types.Operator):
 def _clear(obj: bpy.types.Object) -> None:
     """Take everything of ours off an object."""
     erase_hulls(obj)
+    implode(obj)
     clear(obj)
 
 

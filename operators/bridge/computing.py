@@ -14,7 +14,8 @@ from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
 from ...core.progress import Progress, Steps, within
-from .hulls import hull_refusal, part_labels
+from .hulls import hull_refusal
+from .parted import part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes
 from .record import check_records

@@ -18,15 +18,23 @@ from .record import (
 
 PART_LAYER = "wcd_part"
 MATERIAL_LAYER = "wcd_material_index"
-# Of points alone: their colors by part, and normals where theirs were not to be used.
+# The face sets there were before ours, 0 where there were none.
+FACE_SET_LAYER = "wcd_face_set"
+# Colors by part, of points or of the corners of faces.
 COLOR_LAYER = "wcd_color"
+# Of points whose own normals were not to be used.
 NORMAL_LAYER = "wcd_normal"
 LAYERS = {
     PART_LAYER: "INT",
     MATERIAL_LAYER: "INT",
+    FACE_SET_LAYER: "INT",
     COLOR_LAYER: "FLOAT_COLOR",
     NORMAL_LAYER: "FLOAT_VECTOR",
 }
+
+
+# Where Blender keeps the face sets of Sculpt Mode, counted from 1.
+FACE_SETS = ".sculpt_face_set"
 
 
 def clear(obj: bpy.types.Object) -> None:
@@ -57,8 +65,9 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     indices = _indices_without_ours(mesh, restore, layers)
     materials = _erase_slots(obj, restore)
     layers.set_material_indices(indices)
+    _restore_face_sets(layers)
     for name in LAYERS:
-        layers.remove_faces(name)
+        layers.remove(name)
     layers.finish()
     write_restore(mesh, None)
     for sharer in sharers(mesh):
@@ -78,6 +87,18 @@ def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
         active = restore.active_group
     if active in groups:
         groups.active_index = groups[active].index
+
+
+def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
+    """Bring back the face sets there were, unless the user changed ours since."""
+    before, parts = layers.faces(FACE_SET_LAYER), layers.faces(PART_LAYER)
+    now = layers.faces(FACE_SETS)
+    if before is None or now is None or parts is None or (now != parts + 1).any():
+        return
+    if before.any():
+        layers.set_faces(FACE_SETS, before)
+    else:
+        layers.remove(FACE_SETS)
 
 
 def _indices_without_ours(

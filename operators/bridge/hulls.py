@@ -12,11 +12,11 @@ import numpy as np
 from ...core.errors import DecompositionError
 from ...core.hull_names import hull_names
 from ...core.hull_parameters import HullParameters
-from .erase import PART_LAYER
+from .beside import new_collection
 from .materials import part_materials
 from .points import is_cloud
 from .read import stretch
-from .record import read_restore, write_hull_record
+from .record import write_hull_record
 from .target import refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -42,17 +42,6 @@ def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
     return sorted((c for c in obj.children if _TAG in c), key=lambda c: c.name)
 
 
-def part_labels(obj: bpy.types.Object) -> np.ndarray | None:
-    """Return the part of each polygon, None if the object has no parts of ours."""
-    attribute = obj.data.attributes.get(PART_LAYER)
-    if attribute is None or read_restore(obj.data) is None:
-        return None
-    labels = np.empty(len(obj.data.polygons), dtype=np.int32)
-    attribute.data.foreach_get("value", labels)
-    # Faces added since carry whatever Blender gave them.
-    return np.maximum(labels, 0).astype(np.int64)
-
-
 def write_hulls(
     obj: bpy.types.Object, found: HullDecomposition, parameters: HullParameters
 ) -> list[bpy.types.Object]:
@@ -67,7 +56,8 @@ def write_hulls(
     names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
     _check_free(names, hulls_of(obj))
     erase_hulls(obj)
-    collection = _collection(obj)
+    collection = new_collection(obj, f"{obj.name} hulls")
+    collection[_TAG] = True
     materials = part_materials(int(found.parts.max()) + 1, [])
     scale = stretch(obj)
     hulls = []
@@ -112,15 +102,6 @@ def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> Non
             f"There is an object {taken[0]} already; rename it or choose another"
             " Naming."
         )
-
-
-def _collection(obj: bpy.types.Object) -> bpy.types.Collection:
-    """Return a new collection for an object's hulls, beside the object."""
-    collection = bpy.data.collections.new(f"{obj.name} hulls")
-    collection[_TAG] = True
-    homes = [c for c in obj.users_collection if c.is_editable]
-    (homes[0] if homes else bpy.context.scene.collection).children.link(collection)
-    return collection
 
 
 def _hull_object(

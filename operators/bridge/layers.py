@@ -32,7 +32,7 @@ class ObjectModeLayers:
     def set_material_indices(self, values: IntArray | None) -> None:
         """Write the material index of each face; None removes them."""
         if values is None:
-            self.remove_faces("material_index")
+            self.remove("material_index")
         else:
             self.set_faces("material_index", values)
 
@@ -53,8 +53,16 @@ class ObjectModeLayers:
         # Anything but int32 is converted value by value, 20 times slower.
         attribute.data.foreach_set("value", values.astype(np.int32))
 
-    def remove_faces(self, name: str) -> None:
-        """Remove an attribute of the faces if it is there."""
+    def set_colors(self, name: str, colors: NDArray[np.float32]) -> None:
+        """Write an attribute of the corners, from a color for each face (P, 4)."""
+        sizes = np.empty(len(self._mesh.polygons), dtype=np.int32)
+        self._mesh.polygons.foreach_get("loop_total", sizes)
+        there = self._mesh.color_attributes
+        attribute = there.get(name) or there.new(name, "FLOAT_COLOR", "CORNER")
+        attribute.data.foreach_set("color", np.repeat(colors, sizes, axis=0).ravel())
+
+    def remove(self, name: str) -> None:
+        """Remove an attribute if it is there."""
         attribute = self._mesh.attributes.get(name)
         if attribute is not None:
             self._mesh.attributes.remove(attribute)
@@ -119,11 +127,20 @@ class EditModeLayers:
         for face, value in zip(self._bm.faces, values.tolist(), strict=True):
             face[layer] = value
 
-    def remove_faces(self, name: str) -> None:
-        """Remove a layer of the faces if it is there."""
-        layer = self._bm.faces.layers.int.get(name)
-        if layer is not None:
-            self._bm.faces.layers.int.remove(layer)
+    def set_colors(self, name: str, colors: NDArray[np.float32]) -> None:
+        """Write a layer of the corners, from a color for each face (P, 4)."""
+        layers = self._bm.loops.layers.float_color
+        layer = layers.get(name) or layers.new(name)
+        for face, color in zip(self._bm.faces, colors.tolist(), strict=True):
+            for corner in face.loops:
+                corner[layer] = color
+
+    def remove(self, name: str) -> None:
+        """Remove a layer of the faces, or of their corners, if it is there."""
+        for layers in (self._bm.faces.layers.int, self._bm.loops.layers.float_color):
+            layer = layers.get(name)
+            if layer is not None:
+                layers.remove(layer)
 
     def fill_group(self, group: bpy.types.VertexGroup, vertices: IntArray) -> None:
         """Put vertices into a group with full weight."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ...core.clouds import PointCloud
 from ...core.errors import DecompositionError
 from ...core.shapes import TriangleMesh
+from ...ui.explode_slider import exploding
 from .points import is_cloud, normals_of, positions_of
 
 # Scales that differ by less are the same scale in Blender's single precision.
@@ -54,7 +55,11 @@ def _read_cloud(obj: bpy.types.Object) -> PointCloud:
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     """Return what the user should know about what was read of an object."""
     notes = []
-    modifiers = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
+    modifiers = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier != exploding(obj)
+    ]
     if modifiers:
         notes.append(
             "The mesh was read without its modifiers"

@@ -79,6 +79,17 @@ def has_record(obj: bpy.types.Object) -> bool:
     return _RESULT in obj or _RESTORE in obj.data
 
 
+def has_parts(obj: bpy.types.Object) -> bool:
+    """Return whether the mesh of an object has parts of ours."""
+    return _RESTORE in obj.data
+
+
+def part_records(obj: bpy.types.Object) -> list[dict[str, Any]]:
+    """Return what is noted of each part, nothing if another object has the record."""
+    parts: list[dict[str, Any]] = _read(obj, _RESULT).get("parts", [])
+    return parts
+
+
 def check_records(obj: bpy.types.Object) -> None:
     """Raise if a custom property under one of our names is not ours."""
     read_restore(obj.data)

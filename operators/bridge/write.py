@@ -23,6 +23,7 @@ from .materials import discard_unused, part_materials, part_name, points_materia
 from .palette import part_color
 from .points import count_points, is_cloud, set_points
 from .record import Restore, check_records, read_restore, write_restore, write_result
+from .showing import show, shown
 from .target import refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -48,6 +49,7 @@ def write_parts(
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
+    also_shown = shown(obj)
     former = erase_parts(obj)
     restore = _write_mesh(obj, decomposition)
     if is_cloud(obj):
@@ -59,6 +61,7 @@ def write_parts(
     if is_cloud(obj):
         materials = materials[-1:] * n_parts
     write_result(obj, decomposition, parameters, names, materials)
+    show(obj, *also_shown)
     discard_unused(former)
 
 

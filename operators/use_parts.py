@@ -1,0 +1,151 @@
+"""What parts are good for: objects, exploded views, face sets and colors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import ClassVar
+
+import bpy
+
+from ..ui.explode_slider import exploding
+from .bridge.exploding import explode, implode
+from .bridge.parted import object_mode_refusal, parts_refusal
+from .bridge.separating import replace, separate
+from .bridge.showing import write_colors, write_face_sets
+from .bridge.target import chosen
+from .each import do_each
+
+
+class _OnParts:
+    """Half an operator on selected objects with parts.
+
+    The other half has `_work(obj)`; and `_refusal(obj)`, unless Object Mode is needed.
+    """
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    _refusal: Callable[[bpy.types.Object], str | None] = staticmethod(
+        object_mode_refusal
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether there are parts to work on."""
+        reason = cls._refusal(chosen(context, cls._refusal)[0])
+        if reason:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work on the selected objects."""
+        return do_each(self, chosen(context, self._refusal), self._work)
+
+
+class WCD_OT_separate(_OnParts, bpy.types.Operator):
+    """Make objects of the parts."""
+
+    bl_idname = "wcd.separate"
+    bl_label = "Separate Convex Parts"
+    bl_description = (
+        "Make an object of each part, in a collection of their own; modifiers, groups,"
+        " attributes and materials are kept"
+    )
+
+    original: bpy.props.EnumProperty(
+        name="Original",
+        description="What becomes of the object that is separated",
+        items=(
+            ("HIDE", "Hide", "It stays as it is, hidden in the viewport"),
+            ("REMOVE", "Remove", "It is deleted; its children go to the largest part"),
+        ),
+    )
+
+    def _work(self, obj: bpy.types.Object) -> None:
+        pieces = separate(obj)
+        if bpy.context.active_object == obj:
+            bpy.context.view_layer.objects.active = pieces[0]
+        for piece in pieces:
+            piece.select_set(True)
+        if self.original == "REMOVE":
+            replace(obj, pieces[0])
+        else:
+            obj.select_set(False)
+            obj.hide_set(True)
+
+
+class WCD_OT_explode(_OnParts, bpy.types.Operator):
+    """Move the parts apart."""
+
+    bl_idname = "wcd.explode"
+    bl_label = "Exploded View of Convex Parts"
+    bl_description = (
+        "Move the parts away from the center, by a modifier: the mesh itself stays as"
+        " it is, and so do the parts"
+    )
+
+    distance: bpy.props.FloatProperty(
+        name="Distance",
+        description="How much farther from the center of the shape parts are",
+        default=0.5,
+        min=0.0,
+        soft_max=3.0,
+        subtype="FACTOR",
+    )
+
+    def _work(self, obj: bpy.types.Object) -> None:
+        explode(obj, self.distance)
+
+
+class WCD_OT_implode(_OnParts, bpy.types.Operator):
+    """Take exploded views back."""
+
+    bl_idname = "wcd.implode"
+    bl_label = "End Exploded View"
+    bl_description = "Take the modifier of the exploded view away again"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether there is an exploded view."""
+        objects = chosen(context, cls._refusal)
+        return super().poll(context) and any(map(exploding, objects))
+
+    def _work(self, obj: bpy.types.Object) -> None:
+        implode(obj)
+
+
+class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
+    """Make face sets of the parts."""
+
+    bl_idname = "wcd.face_sets"
+    bl_label = "Face Sets from Convex Parts"
+    bl_description = (
+        "Make a face set of each part, for Sculpt Mode; Clear brings back those there"
+        " were"
+    )
+    _refusal = staticmethod(parts_refusal)
+
+    def _work(self, obj: bpy.types.Object) -> None:
+        write_face_sets(obj)
+
+
+class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
+    """Write the colors of the parts to the mesh."""
+
+    bl_idname = "wcd.color_attribute"
+    bl_label = "Color Attribute from Convex Parts"
+    bl_description = (
+        "Write the colors of the parts to the color attribute wcd_color, for Vertex"
+        " Paint, shaders and export"
+    )
+    _refusal = staticmethod(parts_refusal)
+
+    def _work(self, obj: bpy.types.Object) -> None:
+        write_colors(obj)
+
+
+CLASSES = (
+    WCD_OT_separate,
+    WCD_OT_explode,
+    WCD_OT_implode,
+    WCD_OT_face_sets,
+    WCD_OT_color_attribute,
+)
