@@ -56,14 +56,20 @@ class PointCloud:
         return len(self.points)
 
     @property
+    def center(self) -> NDArray[np.float64]:
+        """Center of the bounding box, (3,)."""
+        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        center: NDArray[np.float64] = (low + high) / 2
+        return center
+
+    @property
     def diagonal(self) -> float:
         """Length of the diagonal of the bounding box."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def normalized(self) -> PointCloud:
         """Return the cloud centered, with a bounding box of diagonal 1."""
-        center = (self.points.min(axis=0) + self.points.max(axis=0)) / 2
-        return replace(self, points=(self.points - center) / self.diagonal)
+        return replace(self, points=(self.points - self.center) / self.diagonal)
 
 
 def _check_points(points: NDArray[np.float64]) -> None:

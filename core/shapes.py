@@ -83,6 +83,13 @@ class TriangleMesh:
         used = self.vertices[self.triangles.ravel()]
         return used.min(axis=0), used.max(axis=0)
 
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """Center of the bounding box, (3,)."""
+        low, high = self.bounds
+        center: NDArray[np.float64] = (high + low) / 2
+        return center
+
     @cached_property
     def diagonal(self) -> float:
         """Length of the diagonal of the bounding box of the triangles' vertices."""
@@ -94,13 +101,11 @@ class TriangleMesh:
 
         Ray casters work in single precision and tolerances in shares of the diagonal.
         """
-        low, high = self.bounds
-        center = (high + low) / 2
         if self.diagonal == 0 or not np.isfinite(self.diagonal):
             raise DecompositionError(
                 "The faces have no area; choose an object with a surface."
             )
-        scaled = replace(self, vertices=(self.vertices - center) / self.diagonal)
+        scaled = replace(self, vertices=(self.vertices - self.center) / self.diagonal)
         if scaled.areas.sum() <= _LEAST_AREA:
             raise DecompositionError(
                 "The faces have no area; choose an object with a surface."

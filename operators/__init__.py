@@ -2,17 +2,19 @@
 
 import bpy
 
-from . import command_line, modal, recut, use_parts
+from . import command_line, modal, recut, show_sight, use_parts
 from .bridge import visibility_cache
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
-from .measure import WCD_OT_measure
+from .measure import WCD_OT_measure, WCD_OT_measure_selection
+from .show_picture import WCD_OT_show_picture
 from .use_preset import WCD_OT_use_preset
 
 CLASSES = (
     WCD_OT_decompose,
     WCD_OT_measure,
+    WCD_OT_measure_selection,
     WCD_OT_build_hulls,
     WCD_OT_clear,
     modal.WCD_OT_cancel,
@@ -20,6 +22,8 @@ CLASSES = (
     recut.WCD_OT_recut,
     recut.WCD_OT_choose_part_count,
     *use_parts.CLASSES,
+    *show_sight.CLASSES,
+    WCD_OT_show_picture,
 )
 
 
@@ -29,12 +33,14 @@ def register() -> None:
         bpy.utils.register_class(cls)
     command_line.register()
     visibility_cache.register()
+    show_sight.register()
 
 
 def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     recut.stop()
     modal.stop()
+    show_sight.unregister()
     visibility_cache.unregister()
     command_line.unregister()
     for cls in reversed(CLASSES):

@@ -9,6 +9,7 @@ import bpy
 from .bridge.erase import clear
 from .bridge.exploding import implode
 from .bridge.hulls import erase_hulls
+from .bridge.images import erase_images
 from .bridge.record import has_record
 from .bridge.target import chosen, refusal
 from .each import do_each
@@ -41,6 +42,7 @@ def _clear(obj: bpy.types.Object) -> None:
     """Take everything of ours off an object."""
     erase_hulls(obj)
     implode(obj)
+    erase_images(obj)
     clear(obj)
 
 

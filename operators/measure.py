@@ -1,15 +1,18 @@
-"""Measure how convex the active mesh is."""
+"""Measure how convex the selected meshes, or faces, are."""
 
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
+from ..core.errors import DecompositionError
+from ..core.parameters import Parameters
 from ..core.progress import Steps
-from ..ui.properties import MEASURE, annotations, draw, parameters_from
-from .bridge.computing import measure_object
+from ..ui.properties import MEASURE, SELECTION, annotations, draw, parameters_from
+from .bridge.computing import measure_object, measure_selection_of
+from .bridge.read import selected_faces
 from .bridge.record import write_measurement
 from .bridge.target import refusal
 from .computation import Computation
@@ -41,15 +44,65 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
         return measure_object(obj, self._parameters)
 
     def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
-        values = asdict(self._parameters)
-        used = {name: values[name] for name in MEASURE}
-        write_measurement(obj, value, used)
-        error = value.standard_error
-        return (
-            f"Convexity rank {value.rank:.3f}"
-            + (f" ± {error:.3f}" if error else "")
-            + f" ({value.n_samples:,} samples)"
-        )
+        write_measurement(obj, value, _used(self._parameters, MEASURE))
+        return _figures(value)
 
 
 WCD_OT_measure.__annotations__ = annotations(MEASURE)
+
+
+class WCD_OT_measure_selection(Computation, bpy.types.Operator):
+    """Measure the share of pairs of points on selected faces that see each other."""
+
+    bl_idname = "wcd.measure_selection"
+    bl_label = "Measure Convexity of Selection"
+    bl_description = (
+        "Measure the share of pairs of points on the selected faces that see each"
+        " other, as for a part"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = refusal(obj, writes_mesh=False)
+        if reason is None and obj.mode != "EDIT":
+            return "Faces are selected in Edit Mode; switch the mode"
+        return reason
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Measurement]:
+        self._parameters = parameters_from(self, SELECTION)
+        steps = measure_selection_of(obj, self._parameters)
+        self._n_faces[obj.session_uid] = int(selected_faces(obj).sum())
+        return steps
+
+    def _read(
+        self, context: bpy.types.Context
+    ) -> list[Steps[Any] | DecompositionError]:
+        self._n_faces: dict[int, int] = {}  # the selection may change meanwhile
+        return super()._read(context)
+
+    def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
+        n_faces = self._n_faces[obj.session_uid]
+        write_measurement(obj, value, _used(self._parameters, SELECTION), n_faces)
+        return f"{_figures(value)} of {n_faces:,} faces"
+
+
+WCD_OT_measure_selection.__annotations__ = annotations(SELECTION)
+
+
+def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:
+    """Return the parameters that a measurement was made with."""
+    values = asdict(parameters)
+    return {name: values[name] for name in names}
+
+
+def _figures(value: Measurement) -> str:
+    """Return the figures of a measurement in a line."""
+    error = value.standard_error
+    return (
+        f"Convexity rank {value.rank:.3f}"
+        + (f" ± {error:.3f}" if error else "")
+        + f" ({value.n_samples:,} samples)"
+    )

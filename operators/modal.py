@@ -58,7 +58,7 @@ def stop() -> None:
         return
     run.job.cancel()
     bpy.context.window_manager.event_timer_remove(run.timer)
-    _show_status(run.workspace, None)
+    show_status(run.workspace, None)
     _redraw_sidebars()
 
 
@@ -69,11 +69,11 @@ def _show(run: Running) -> None:
     run.shown = now
     progress = run.job.progress
     text = f"{run.title}: {progress.stage}, {progress.fraction:.0%}. Esc cancels"
-    _show_status(run.workspace, text)
+    show_status(run.workspace, text)
     _redraw_sidebars()
 
 
-def _show_status(name: str, text: str | None) -> None:
+def show_status(name: str, text: str | None) -> None:
     """Show a text in the status bar of a workspace, or what is usually there."""
     workspace = bpy.data.workspaces.get(name)
     if workspace is None:

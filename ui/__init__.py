@@ -2,17 +2,23 @@
 
 import bpy
 
+from . import menus
 from .chart import WCD_PT_chart
+from .menus import WCD_MT_parts
 from .panels import WCD_PT_advanced, WCD_PT_hulls, WCD_PT_main, WCD_PT_parts
 from .properties import WCD_PG_settings
+from .use_panel import WCD_PT_use, WCD_PT_why
 
 CLASSES = (
     WCD_PG_settings,
     WCD_PT_main,
     WCD_PT_parts,
     WCD_PT_chart,
+    WCD_PT_use,
+    WCD_PT_why,
     WCD_PT_hulls,
     WCD_PT_advanced,
+    WCD_MT_parts,
 )
 
 
@@ -21,10 +27,12 @@ def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Scene.wcd = bpy.props.PointerProperty(type=WCD_PG_settings)
+    menus.register()
 
 
 def unregister() -> None:
     """Undo `register`."""
+    menus.unregister()
     del bpy.types.Scene.wcd
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import bpy
 
 from . import running
-from .properties import ADVANCED, ALL, FRONT, HULLS, MEASURE, draw
+from .properties import ADVANCED, ALL, FRONT, HULLS, MEASURE, draw, hand_over
 from .running import Running
 
 # Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
@@ -38,13 +38,15 @@ def notes_of(result: dict[str, Any]) -> list[str]:
     return list(dict.fromkeys(notes))
 
 
-class _Sidebar:
+class Sidebar:
+    """Where panels of the tab are."""
+
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Convex Parts"
 
 
-class WCD_PT_main(_Sidebar, bpy.types.Panel):
+class WCD_PT_main(Sidebar, bpy.types.Panel):
     """The settings that matter, and the buttons."""
 
     bl_label = "Convex Parts"
@@ -70,14 +72,14 @@ class WCD_PT_main(_Sidebar, bpy.types.Panel):
         else:
             row = row.split(factor=0.7, align=True)
             button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
-            _hand_over(settings, button, ALL)
+            hand_over(settings, button, ALL)
             row.prop(settings, "live", toggle=True)
         row = layout.row(align=True)
-        _hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
+        hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
         row.operator("wcd.clear", text="Clear")
 
 
-class WCD_PT_parts(_Sidebar, bpy.types.Panel):
+class WCD_PT_parts(Sidebar, bpy.types.Panel):
     """The result on the active object."""
 
     bl_label = "Result"
@@ -99,10 +101,10 @@ class WCD_PT_parts(_Sidebar, bpy.types.Panel):
             measured = result["measured"]
             error = measured["standard_error"]
             value = f"{measured['convexity_rank']:.3f}"
-            _line(layout, "Convexity", value + (f" ± {error:.3f}" if error else ""))
+            line(layout, "Convexity", value + (f" ± {error:.3f}" if error else ""))
         if "parts" not in result:
             return
-        _line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
+        line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
         box = layout.box().column(align=True)
         _columns(box.row(), None, "Part", "Faces", "Rank")
         materials = {
@@ -114,7 +116,7 @@ class WCD_PT_parts(_Sidebar, bpy.types.Panel):
             _columns(box.row(), material, part["name"], f"{part['faces']:,}", rank)
 
 
-class WCD_PT_hulls(_Sidebar, bpy.types.Panel):
+class WCD_PT_hulls(Sidebar, bpy.types.Panel):
     """Collision hulls: settings, button and result."""
 
     bl_label = "Collision Hulls"
@@ -129,13 +131,13 @@ class WCD_PT_hulls(_Sidebar, bpy.types.Panel):
         button = layout.operator(
             "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
         )
-        _hand_over(settings, button, HULLS)
+        hand_over(settings, button, HULLS)
         result = result_of(context.active_object).get("hulls")
         if not result:
             return
-        _line(layout, "Largest Error", f"{result['largest_error']:.3f}")
+        line(layout, "Largest Error", f"{result['largest_error']:.3f}")
         if result["volume_ratio"]:
-            _line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
+            line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
         box = layout.box().column(align=True)
         _columns(box.row(), None, "Hull", "Vertices", "Error")
         for hull in result["hulls"]:
@@ -145,7 +147,7 @@ class WCD_PT_hulls(_Sidebar, bpy.types.Panel):
             _columns(box.row(), material, hull["name"], str(hull["vertices"]), error)
 
 
-class WCD_PT_advanced(_Sidebar, bpy.types.Panel):
+class WCD_PT_advanced(Sidebar, bpy.types.Panel):
     """The settings few users touch."""
 
     bl_label = "Advanced"
@@ -195,13 +197,8 @@ def _paragraph(
         column.label(text=line, icon="BLANK1" if number else "ERROR")
 
 
-def _line(layout: bpy.types.UILayout, name: str, value: str) -> None:
+def line(layout: bpy.types.UILayout, name: str, value: str) -> None:
+    """Draw a name and what it has."""
     split = layout.split(factor=0.4)
     split.label(text=name)
     split.label(text=value)
-
-
-def _hand_over(settings: Any, button: Any, names: tuple[str, ...]) -> None:
-    """Give a button's operator the scene's settings."""
-    for name in names:
-        setattr(button, name, getattr(settings, name))

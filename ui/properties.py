@@ -22,6 +22,7 @@ RECUT = tuple(f.name for f in fields(Parameters) if knob_of(f).recut)
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
+SELECTION = ("samples", "seed")
 
 
 def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
@@ -113,6 +114,12 @@ def _value(owner: Any, field: Field[Any]) -> Any:
     if value == float(np.float32(field.default)):
         return field.default
     return float(f"{value:.7g}")
+
+
+def hand_over(settings: Any, button: Any, names: Iterable[str]) -> None:
+    """Give a button's operator the scene's settings."""
+    for name in names:
+        setattr(button, name, getattr(settings, name))
 
 
 def use_preset(settings: Any, chosen: Preset) -> None:

@@ -9,16 +9,18 @@ from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
+import numpy as np
 
 from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
 from ...core.progress import Progress, Steps, within
 from .hulls import hull_refusal
+from .palette import part_srgb
 from .parted import part_labels
 from .ray_caster import BvhRayCaster
-from .read import read_shape, reading_notes
-from .record import check_records
+from .read import read_shape, reading_notes, selected_faces
+from .record import check_records, noted_parameters
 from .visibility_cache import is_seen, see_once
 from .write import check_writable
 
@@ -26,8 +28,12 @@ if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition, Measurement
     from ...core.form import Shape
     from ...core.hull_decomposition import HullDecomposition
+    from ...core.lookout import Lookout
+    from ...core.pictures import Picture
 
-    Result = TypeVar("Result", Decomposition, Measurement, HullDecomposition)
+    Result = TypeVar(
+        "Result", Decomposition, Measurement, HullDecomposition, Lookout, Picture
+    )
 
 # In the order in which they load each other.
 _LIBRARIES = (
@@ -88,6 +94,67 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
         return (yield from measure(mesh, parameters, BvhRayCaster))
 
     return _prepared(reading_notes(obj), work())
+
+
+def look_out_of(obj: bpy.types.Object, parameters: Parameters) -> Steps[Lookout]:
+    """Check and read an object; return the work of making it ready to be looked from.
+
+    Errors are those of `decompose_object`.
+    """
+    shape = read_shape(obj)
+
+    def work() -> Steps[Lookout]:
+        from ...core.lookout import look_out
+
+        return (yield from look_out(shape, parameters, BvhRayCaster))
+
+    return _prepared(reading_notes(obj), work())
+
+
+def measure_selection_of(
+    obj: bpy.types.Object, parameters: Parameters
+) -> Steps[Measurement]:
+    """Check and read an object; return the work of measuring its selected faces.
+
+    Errors are those of `decompose_object`, and that no face is selected.
+    """
+    check_records(obj)
+    mesh, faces = read_shape(obj), selected_faces(obj)
+    if not faces.any():
+        raise DecompositionError(
+            "No faces are selected; select those to be measured in Edit Mode."
+        )
+
+    def work() -> Steps[Measurement]:
+        from ...core.region import measure_region
+
+        return (yield from measure_region(mesh, faces, parameters, BvhRayCaster))
+
+    return _prepared(reading_notes(obj), work())
+
+
+def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
+    """Check and read an object with parts; return the work of drawing a picture of it.
+
+    Lines of sight are looked up as they were for the parts. Errors are those of
+    `decompose_object`.
+    """
+    parameters = noted_parameters(obj)
+    labels, shape = part_labels(obj), read_shape(obj)
+    if labels is None or parameters is None:
+        raise DecompositionError(
+            f"{obj.name} has no record of its parts; decompose it again."
+        )
+    colors = np.array([part_srgb(part) for part in range(int(labels.max()) + 1)])
+
+    def work() -> Steps[Picture]:
+        from ...core.pictures import draw_picture
+
+        visibility = yield from within(see_once(shape, parameters), 0.0, 0.9)
+        yield Progress("Picture", 0.9)
+        return draw_picture(kind, visibility, labels, parameters, colors)
+
+    return _prepared((), work())
 
 
 def build_hulls_of(

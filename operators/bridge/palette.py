@@ -20,11 +20,17 @@ _ROUNDS = ((0.0, 0.0), (0.0, 0.5), (1.0, 0.6), (0.0, 0.75))
 
 def part_color(index: int) -> tuple[float, float, float, float]:
     """Return the linear RGBA color of a part; colors repeat after 32 parts."""
+    red, green, blue = map(_linear, part_srgb(index))
+    return red, green, blue, 1.0
+
+
+def part_srgb(index: int) -> tuple[float, float, float]:
+    """Return the same color in sRGB, as pictures have it."""
     hue = _HUES[index % len(_HUES)]
     gray, share = _ROUNDS[index // len(_HUES) % len(_ROUNDS)]
-    srgb = ((hue >> shift & 0xFF) / 255 for shift in (16, 8, 0))
-    red, green, blue = (_linear(c + (gray - c) * share) for c in srgb)
-    return red, green, blue, 1.0
+    pure = ((hue >> shift & 0xFF) / 255 for shift in (16, 8, 0))
+    red, green, blue = (c + (gray - c) * share for c in pure)
+    return red, green, blue
 
 
 def _linear(srgb: float) -> float:

@@ -14,11 +14,17 @@ from .record import has_parts, part_records, read_restore
 from .target import refusal
 
 
-def parts_refusal(obj: bpy.types.Object | None) -> str | None:
-    """Return why the parts of an object's faces cannot be used, None if they can."""
+def decomposed_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why the parts of an object cannot be used, None if they can."""
     reason = refusal(obj)
     if reason is None and not has_parts(obj):
         return f"{obj.name} has no parts; press Decompose first"
+    return reason
+
+
+def parts_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why the parts of an object's faces cannot be used, None if they can."""
+    reason = decomposed_refusal(obj)
     if reason is None and is_cloud(obj):
         return f"{obj.name} has no faces; give it a surface first"
     return reason

@@ -43,6 +43,13 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     )
 
 
+def selected_faces(obj: bpy.types.Object) -> NDArray[np.bool_]:
+    """Return which faces of a mesh are selected, (P,), once it was read."""
+    selected = np.zeros(len(obj.data.polygons), dtype=bool)
+    obj.data.polygons.foreach_get("select", selected)
+    return selected
+
+
 def _read_cloud(obj: bpy.types.Object) -> PointCloud:
     """Return the points of a cloud, with their normals if it has any."""
     factors, normals = stretch(obj), normals_of(obj)

@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
 _RESULT = "wcd"
 _RESTORE = "wcd_restore"
 _MEASURED = "measured"
+_SELECTION = "selection"
 _HULLS = "hulls"
 _MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
 
@@ -90,6 +91,15 @@ def part_records(obj: bpy.types.Object) -> list[dict[str, Any]]:
     return parts
 
 
+def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
+    """Return what the parts of an object were found with, None if it is not noted."""
+    noted = _read(obj, _RESULT).get("parameters")
+    if noted is None:
+        return None
+    known = {each.name for each in fields(Parameters)}  # other versions have others
+    return Parameters(**{name: noted[name] for name in known & noted.keys()})
+
+
 def check_records(obj: bpy.types.Object) -> None:
     """Raise if a custom property under one of our names is not ours."""
     read_restore(obj.data)
@@ -145,17 +155,24 @@ def write_result(
 
 
 def write_measurement(
-    obj: bpy.types.Object, measurement: Measurement, parameters: dict[str, Any]
+    obj: bpy.types.Object,
+    measurement: Measurement,
+    parameters: dict[str, Any],
+    faces: int | None = None,
 ) -> None:
-    """Note a measurement on its object, keeping its decomposition."""
+    """Note a measurement of an object, or of so many of its faces, keeping all else."""
     result = _read(obj, _RESULT) or {"version": version()}
-    result[_MEASURED] = {
+    noted = {
         "convexity_rank": float(measurement.rank),
         "standard_error": float(measurement.standard_error),
         "samples": int(measurement.n_samples),
         "parameters": parameters,
         "notes": list(measurement.notes),
     }
+    if faces is None:
+        result[_MEASURED] = noted
+    else:
+        result[_SELECTION] = {"faces": faces, **noted}
     _write(obj, _RESULT, result)
 
 
@@ -181,7 +198,9 @@ def write_hull_record(
 def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
     """Return what is noted on an object besides its decomposition."""
     result = _read(obj, _RESULT)
-    return {key: result[key] for key in (_MEASURED, _HULLS) if key in result}
+    return {
+        key: result[key] for key in (_MEASURED, _SELECTION, _HULLS) if key in result
+    }
 
 
 def forget_parts(obj: bpy.types.Object) -> None:

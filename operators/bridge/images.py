@@ -1,0 +1,51 @@
+"""Pictures of an object's parts as images of the file."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+# Custom property of our images: the name of the object they are of.
+_TAG = "wcd_picture"
+
+
+def write_image(
+    obj: bpy.types.Object, label: str, pixels: NDArray[np.float64]
+) -> bpy.types.Image:
+    """Make an image, in place of the former one of that label.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        What the image is of.
+    label : str
+        What it shows.
+    pixels : (H, W, 3) float
+        sRGB in 0…1; the first row is the upper one.
+    """
+    height, width, _ = pixels.shape
+    name = f"{obj.name} {label}"
+    image = next((each for each in images_of(obj) if each.name == name), None)
+    if image is None:
+        image = bpy.data.images.new(name, width, height)
+        image[_TAG] = obj.name
+    elif tuple(image.size) != (width, height):
+        image.scale(width, height)
+    rgba = np.ones((height, width, 4), dtype=np.float32)
+    rgba[:, :, :3] = pixels[::-1]
+    image.pixels.foreach_set(rgba.ravel())
+    image.update()
+    image.pack()  # generated images are not saved with the file
+    return image
+
+
+def images_of(obj: bpy.types.Object) -> list[bpy.types.Image]:
+    """Return our images of an object."""
+    return [image for image in bpy.data.images if image.get(_TAG) == obj.name]
+
+
+def erase_images(obj: bpy.types.Object) -> None:
+    """Remove our images of an object."""
+    for image in images_of(obj):
+        bpy.data.images.remove(image)

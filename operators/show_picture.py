@@ -1,0 +1,81 @@
+"""What the parts come from, as pictures in the Image Editor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+import bpy
+
+from ..core.knobs import Choice
+from ..core.picture_kinds import PICTURES
+from ..core.progress import Steps
+from .bridge.computing import picture_of
+from .bridge.images import write_image
+from .bridge.parted import decomposed_refusal
+from .computation import Computation
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ..core.pictures import Picture
+
+
+class WCD_OT_show_picture(Computation, bpy.types.Operator):
+    """Show a picture of what the parts come from."""
+
+    bl_idname = "wcd.show_picture"
+    bl_label = "Show Convex Parts in Image Editor"
+    bl_description = (
+        "Draw what the parts come from: an image of the file, shown in open Image"
+        " Editors"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = decomposed_refusal(obj)
+        if reason is None and obj.mode != "OBJECT":
+            return "Edit Mode could not undo this; switch to Object Mode"
+        return reason
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip of a picture's entry in the menu."""
+        return _chosen_picture(properties).help
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Picture]:
+        return picture_of(obj, self.picture)
+
+    def _commit(self, obj: bpy.types.Object, value: Picture) -> str:
+        image = write_image(obj, _chosen_picture(self).label, value.pixels)
+        if _show(image):
+            return f"Image {image.name}"
+        return f"Image {image.name}: open an Image Editor to see it"
+
+
+WCD_OT_show_picture.__annotations__ = {
+    "picture": bpy.props.EnumProperty(
+        name="Picture",
+        description="What to draw",
+        items=[(each.identifier, each.label, each.help) for each in PICTURES],
+    )
+}
+
+
+def _chosen_picture(properties: bpy.types.OperatorProperties) -> Choice:
+    return next(each for each in PICTURES if each.identifier == properties.picture)
+
+
+def _show(image: bpy.types.Image) -> bool:
+    """Show an image in open Image Editors; return whether there are any."""
+    editors = [
+        area.spaces.active
+        for window in bpy.context.window_manager.windows
+        for area in window.screen.areas
+        if area.type == "IMAGE_EDITOR"
+    ]
+    for editor in editors:
+        editor.image = image
+    return bool(editors)

@@ -1,0 +1,193 @@
+"""Lines of sight of points that are clicked on, drawn over the viewports."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import bpy
+import numpy as np
+from bpy_extras import view3d_utils
+from mathutils import Vector
+
+from ..core.errors import DecompositionError
+from ..core.progress import Steps
+from ..ui import sight_overlay
+from ..ui.properties import SELECTION, annotations, parameters_from
+from ..ui.sight_overlay import Overlay
+from . import modal
+from .bridge.computing import look_out_of
+from .bridge.read import stretch
+from .bridge.target import refusal
+from .computation import Computation
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ..core.lookout import Lookout
+
+_HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hide"
+
+
+class WCD_OT_show_sight(Computation, bpy.types.Operator):
+    """Show which samples the points see that are clicked on."""
+
+    bl_idname = "wcd.show_sight"
+    bl_label = "Show Lines of Sight"
+    bl_description = (
+        "Click points of the active object to see what they see: samples in line of"
+        " sight are green, others blue. Nothing is written to the object"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER"}
+
+    _lookout: Lookout | None = None
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return refusal(obj, writes_mesh=False)
+
+    @classmethod
+    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return [context.active_object]
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Compute what is needed; then show what the points see that are clicked."""
+        if self._lookout is None:
+            answer = super().modal(context, event)
+            return answer if answer != {"FINISHED"} else self._picking(context)
+        if sight_overlay.current is not self._overlay:  # hidden, or shown anew
+            return {"FINISHED", "PASS_THROUGH"}
+        if event.value != "PRESS":
+            return {"PASS_THROUGH"}
+        if event.type in {"ESC", "RIGHTMOUSE"}:
+            stop()
+            return {"FINISHED"}
+        if event.type in {"RET", "NUMPAD_ENTER"}:
+            modal.show_status(self._overlay.workspace, None)
+            return {"FINISHED"}
+        place = _viewport_at(context, event.mouse_x, event.mouse_y)
+        if event.type != "LEFTMOUSE" or place is None:
+            return {"PASS_THROUGH"}
+        return self._clicked(*place)
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Lookout]:
+        parameters = parameters_from(self, SELECTION)
+        return look_out_of(obj, parameters)
+
+    def _commit(self, obj: bpy.types.Object, value: Lookout) -> str:
+        self._lookout = value
+        self._overlay = Overlay(
+            obj.session_uid, stretch(obj), bpy.context.workspace.name
+        )
+        sight_overlay.show(self._overlay)
+        if self.face >= 0:
+            self._show(obj, *_above_face(obj, self.face))
+        return f"{len(value.samples):,} samples"
+
+    def _picking(self, context: bpy.types.Context) -> set[str]:
+        """Begin to wait for clicks."""
+        modal.show_status(self._overlay.workspace, _HINT)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:
+        """Show what the point sees that is at a place of a viewport."""
+        try:
+            obj = self._targets[0].find()
+        except DecompositionError as error:
+            stop()
+            self.report({"WARNING"}, str(error))
+            return {"CANCELLED"}
+        to_object = obj.matrix_world.inverted_safe()
+        where = region, region.data, (x, y)
+        origin = to_object @ view3d_utils.region_2d_to_origin_3d(*where)
+        towards = view3d_utils.region_2d_to_vector_3d(*where)
+        self._show(obj, origin, to_object.to_3x3() @ towards)
+        return {"RUNNING_MODAL"}
+
+    def _show(self, obj: bpy.types.Object, origin: Vector, direction: Vector) -> None:
+        """Show what the first point along a ray in object space sees."""
+        scale = self._overlay.scale
+        view = self._lookout.look(np.array(origin) * scale, np.array(direction) * scale)
+        if view is not None:
+            sight_overlay.show_view(view)
+
+
+WCD_OT_show_sight.__annotations__ = {
+    **annotations(SELECTION),
+    "face": bpy.props.IntProperty(
+        name="Face",
+        description="Face whose middle looks around, -1 for none; for scripts",
+        default=-1,
+        min=-1,
+        options={"SKIP_SAVE"},
+    ),
+}
+
+
+class WCD_OT_hide_sight(bpy.types.Operator):
+    """Take lines of sight off the viewports."""
+
+    bl_idname = "wcd.hide_sight"
+    bl_label = "Hide Lines of Sight"
+    bl_description = "Take the lines of sight off the viewports"
+    bl_options: ClassVar[set[str]] = set()
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether any are shown."""
+        return sight_overlay.current is not None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Hide them."""
+        stop()
+        return {"FINISHED"}
+
+
+CLASSES = (WCD_OT_show_sight, WCD_OT_hide_sight)
+
+
+@bpy.app.handlers.persistent
+def stop(*_: object) -> None:
+    """Hide the overlay, and what the status bar says of it."""
+    overlay = sight_overlay.current
+    sight_overlay.hide()
+    if overlay is not None:
+        modal.show_status(overlay.workspace, None)
+
+
+def register() -> None:
+    """Hide overlays at each file load."""
+    bpy.app.handlers.load_pre.append(stop)
+
+
+def unregister() -> None:
+    """Undo `register`, and hide."""
+    bpy.app.handlers.load_pre.remove(stop)
+    stop()
+
+
+def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
+    """Return a ray in object space that comes down on the middle of a face."""
+    polygons = obj.data.polygons
+    if face >= len(polygons):
+        raise DecompositionError(
+            f"{obj.name} has no face {face}; it has {len(polygons)}, counted from 0."
+        )
+    normal = polygons[face].normal
+    height = max(obj.dimensions) * 1e-4
+    return polygons[face].center + height * normal, -normal
+
+
+def _viewport_at(
+    context: bpy.types.Context, x: int, y: int
+) -> tuple[bpy.types.Region, int, int] | None:
+    """Return the viewport at a place of the window, and the place in it."""
+    for area in context.window.screen.areas:
+        there = [region for region in area.regions if _holds(region, x, y)]
+        if area.type == "VIEW_3D" and {r.type for r in there} == {"WINDOW"}:
+            return there[0], x - there[0].x, y - there[0].y
+    return None
+
+
+def _holds(region: Any, x: int, y: int) -> bool:
+    return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height

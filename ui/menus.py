@@ -1,0 +1,66 @@
+"""The submenu Convex Parts of the menus Object and, in Edit Mode, Mesh."""
+
+from __future__ import annotations
+
+import bpy
+
+from .properties import ALL, HULLS, MEASURE, SELECTION, hand_over
+
+# Operators in the order of the menu, with the settings they take from the scene, None
+# for a line between groups. F3 finds them by these labels.
+_ENTRIES = (
+    ("wcd.decompose", ALL),
+    ("wcd.measure", MEASURE),
+    ("wcd.measure_selection", SELECTION),
+    None,
+    ("wcd.separate", ()),
+    ("wcd.explode", ()),
+    ("wcd.implode", ()),
+    ("wcd.face_sets", ()),
+    ("wcd.color_attribute", ()),
+    ("wcd.build_hulls", HULLS),
+    None,
+    ("wcd.show_sight", SELECTION),
+    ("wcd.hide_sight", ()),
+    ("wcd.show_picture", ()),
+    None,
+    ("wcd.clear", ()),
+)
+
+# Menus of Blender's that have the submenu at their ends.
+_HOMES = ("VIEW3D_MT_object", "VIEW3D_MT_edit_mesh")
+
+
+class WCD_MT_parts(bpy.types.Menu):
+    """All that can be done with convex parts."""
+
+    bl_label = "Convex Parts"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the menu."""
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        for entry in _ENTRIES:
+            if entry is None:
+                layout.separator()
+                continue
+            name, settings = entry
+            hand_over(context.scene.wcd, layout.operator(name), settings)
+
+
+def _draw_submenu(menu: bpy.types.Menu, context: bpy.types.Context) -> None:
+    """Add the submenu to one of Blender's menus."""
+    menu.layout.separator()
+    menu.layout.menu("WCD_MT_parts")
+
+
+def register() -> None:
+    """Add the submenu."""
+    for name in _HOMES:
+        getattr(bpy.types, name).append(_draw_submenu)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    for name in _HOMES:
+        getattr(bpy.types, name).remove(_draw_submenu)

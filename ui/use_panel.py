@@ -1,0 +1,98 @@
+"""Panels on what parts are good for, and on why they are as they are."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import bpy
+
+from . import sight_overlay
+from .explode_slider import exploding, slider
+from .panels import Sidebar, line, result_of
+from .properties import SELECTION, hand_over
+
+
+class WCD_PT_use(Sidebar, bpy.types.Panel):
+    """Objects, exploded view, face sets and colors."""
+
+    bl_label = "Use the Parts"
+    bl_parent_id = "WCD_PT_main"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether there are parts."""
+        return "parts" in result_of(context.active_object)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        _exploded_view(layout, context.active_object)
+        layout.operator_menu_enum(
+            "wcd.separate",
+            "original",
+            text="Separate into Objects",
+            icon="OUTLINER_OB_MESH",
+        )
+        row = layout.row(align=True)
+        row.operator("wcd.face_sets", text="Face Sets", icon="FACE_MAPS")
+        row.operator("wcd.color_attribute", text="Colors", icon="GROUP_VCOL")
+
+
+class WCD_PT_why(Sidebar, bpy.types.Panel):
+    """Lines of sight, ranks of selections, matrices."""
+
+    bl_label = "See Why"
+    bl_parent_id = "WCD_PT_main"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        settings = context.scene.wcd
+        _lines_of_sight(layout, settings)
+        if context.mode == "EDIT_MESH":
+            button = layout.operator("wcd.measure_selection", text="Measure Selection")
+            hand_over(settings, button, SELECTION)
+        measured = result_of(context.active_object).get("selection")
+        if measured:
+            rank = (
+                f"{measured['convexity_rank']:.3f} ± {measured['standard_error']:.3f}"
+            )
+            line(layout, f"{measured['faces']:,} Faces", rank)
+        layout.operator_menu_enum(
+            "wcd.show_picture",
+            "picture",
+            text="Show in Image Editor",
+            icon="IMAGE_DATA",
+        )
+
+
+def _exploded_view(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Draw the slider of the exploded view, or the button that makes one."""
+    modifier = exploding(obj)
+    row = layout.row(align=True)
+    if modifier is None:
+        row.operator("wcd.explode", text="Exploded View", icon="MOD_EXPLODE")
+        return
+    owner, path = slider(modifier)
+    row.prop(owner, path, text="Exploded View", slider=True)
+    row.operator("wcd.implode", text="", icon="X")
+
+
+def _lines_of_sight(layout: bpy.types.UILayout, settings: bpy.types.AnyType) -> None:
+    """Draw the button that shows lines of sight, or hides them."""
+    overlay = sight_overlay.current
+    if overlay is None:
+        button = layout.operator(
+            "wcd.show_sight", text="Lines of Sight", icon="HIDE_OFF"
+        )
+        hand_over(settings, button, SELECTION)
+        return
+    layout.operator(
+        "wcd.hide_sight", text="Lines of Sight", icon="HIDE_OFF", depress=True
+    )
+    if overlay.share is None:
+        layout.label(text="Click the surface", icon="RESTRICT_SELECT_OFF")
+    else:
+        line(layout, "Sees", f"{overlay.share:.0%} of the surface")
