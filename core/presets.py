@@ -37,6 +37,27 @@ PRESETS = (
         {"sight": "CONE", "samples": 6000},
     ),
     Preset(
+        "CHARACTER",
+        "Character",
+        "More parts, for limbs that are hidden from each other: Balance 4 instead of 2,"
+        " and parts down to 0.2 % of the area, such as fingers",
+        {"alpha": 4.0, "smallest_part": 0.002},
+    ),
+    Preset(
+        "MECHANICAL",
+        "Mechanical",
+        "Short and straight seams, as between the members of a tool: Smoothness 10"
+        " instead of 2",
+        {"smoothness": 10.0},
+    ),
+    Preset(
+        "SCAN",
+        "Scan",
+        "For rough surfaces, whose bumps hide points that see each other: Balance 1"
+        " instead of 2, and Smoothness 10 against ragged seams",
+        {"alpha": 1.0, "smoothness": 10.0},
+    ),
+    Preset(
         "PAPER",
         "Paper",
         "The settings of Asafi, Goren and Cohen-Or 2013, for comparison",

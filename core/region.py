@@ -18,6 +18,8 @@ from .scene import MakeCaster, Scene
 from .shapes import TriangleMesh
 from .sight import see_all_pairs, viewpoints
 
+# Faces of less area are lines or points, in squared diagonals.
+_LEAST_AREA = 1e-9
 # Samples, at most: all pairs of them are looked up.
 _MOST_SAMPLES = 2000
 
@@ -53,7 +55,7 @@ def measure_region(
     form = yield from within(form_of(mesh, make_caster), 0.0, 0.1)
     targets = form.targets
     rows = np.flatnonzero(faces[targets.polygons])
-    if not targets.areas[rows].sum() > 0:
+    if targets.areas[rows].sum() <= _LEAST_AREA:
         raise DecompositionError(
             "The faces chosen have no area, or a flat mesh has none of them at its"
             " outline; select others."

@@ -51,7 +51,7 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
         """Compute what is needed; then show what the points see that are clicked."""
         if self._lookout is None:
             answer = super().modal(context, event)
-            return answer if answer != {"FINISHED"} else self._picking(context)
+            return answer if answer != {"FINISHED"} else self._wait()
         if sight_overlay.current is not self._overlay:  # hidden, or shown anew
             return {"FINISHED", "PASS_THROUGH"}
         if event.value != "PRESS":
@@ -83,10 +83,9 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
             self._show(obj, *_above_face(obj, self.face))
         return f"{len(value.samples):,} samples"
 
-    def _picking(self, context: bpy.types.Context) -> set[str]:
-        """Begin to wait for clicks."""
+    def _wait(self) -> set[str]:
+        """Go on to wait for clicks."""
         modal.show_status(self._overlay.workspace, _HINT)
-        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:

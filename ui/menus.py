@@ -6,14 +6,14 @@ import bpy
 
 from .properties import ALL, HULLS, MEASURE, SELECTION, hand_over
 
-# Operators in the order of the menu, with the settings they take from the scene, None
-# for a line between groups. F3 finds them by these labels.
+# Operators in the order of the menu, with the settings they take from the scene, or the
+# property that a submenu offers; None for a line between groups. F3 finds them all.
 _ENTRIES = (
     ("wcd.decompose", ALL),
     ("wcd.measure", MEASURE),
     ("wcd.measure_selection", SELECTION),
     None,
-    ("wcd.separate", ()),
+    ("wcd.separate", "original"),
     ("wcd.explode", ()),
     ("wcd.implode", ()),
     ("wcd.face_sets", ()),
@@ -22,7 +22,7 @@ _ENTRIES = (
     None,
     ("wcd.show_sight", SELECTION),
     ("wcd.hide_sight", ()),
-    ("wcd.show_picture", ()),
+    ("wcd.show_picture", "picture"),
     None,
     ("wcd.clear", ()),
 )
@@ -43,9 +43,11 @@ class WCD_MT_parts(bpy.types.Menu):
         for entry in _ENTRIES:
             if entry is None:
                 layout.separator()
-                continue
-            name, settings = entry
-            hand_over(context.scene.wcd, layout.operator(name), settings)
+            elif isinstance(entry[1], str):
+                layout.operator_menu_enum(*entry)
+            else:
+                button = layout.operator(entry[0])
+                hand_over(context.scene.wcd, button, entry[1])
 
 
 def _draw_submenu(menu: bpy.types.Menu, context: bpy.types.Context) -> None:

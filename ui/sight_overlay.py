@@ -28,7 +28,7 @@ _MOST_RAYS = 250
 # Discs at samples: corners, radius in distances of samples, and how far above the
 # surface they are, in radii.
 _CORNERS = 8
-_RADIUS = 0.3
+_RADIUS = 0.2
 _HEIGHT = 0.2
 
 
@@ -130,7 +130,7 @@ def _batches(view: View) -> list[tuple[Any, tuple[float, ...], str]]:
     ends = view.places[view.visible]
     ends = ends[:: len(ends) // _MOST_RAYS + 1]
     rays = np.stack([np.broadcast_to(view.point, ends.shape), ends], axis=1)
-    ball = _discs(np.tile(view.point, (3, 1)), np.eye(3), 2.5 * radius, lifted=False)
+    ball = _discs(np.tile(view.point, (3, 1)), np.eye(3), 1.5 * radius, lifted=False)
     kinds = (
         ("TRIS", discs[~view.visible], _HIDDEN, "LESS_EQUAL"),
         ("TRIS", discs[view.visible], _SEEN, "LESS_EQUAL"),

@@ -30,6 +30,7 @@ def write_image(
     if image is None:
         image = bpy.data.images.new(name, width, height)
         image[_TAG] = obj.name
+        image.use_fake_user = True  # nothing else may keep it in the file
     elif tuple(image.size) != (width, height):
         image.scale(width, height)
     rgba = np.ones((height, width, 4), dtype=np.float32)
