@@ -39,8 +39,8 @@ PRESETS = (
     Preset(
         "CHARACTER",
         "Character",
-        "More parts, for limbs that are hidden from each other: Balance 4 instead of 2,"
-        " and parts down to 0.2 % of the area, such as fingers",
+        "More parts, for limbs that are hidden from each other, and smaller ones, such"
+        " as fingers: Balance 4 instead of 2, Smallest Part 0.002 instead of 0.005",
         {"alpha": 4.0, "smallest_part": 0.002},
     ),
     Preset(
