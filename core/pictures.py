@@ -112,8 +112,8 @@ def _scatter(
     """Return the samples in a plane of the embedding in which parts are apart."""
     places = _places(visibility, parameters, labels)
     sizes = np.bincount(labels)
-    middles = np.stack([np.bincount(labels, axis) for axis in places.T], axis=1)
-    middles = middles[sizes > 0] / sizes[sizes > 0, None]
+    totals = np.stack([np.bincount(labels, axis) for axis in places.T], axis=1)
+    middles = totals[sizes > 0] / sizes[sizes > 0, None]
     _, _, axes = np.linalg.svd(middles - middles.mean(axis=0))
     flat = np.zeros((len(places), 2))
     flat[:, : len(axes)] = (places - middles.mean(axis=0)) @ axes[:2].T

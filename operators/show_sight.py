@@ -35,7 +35,7 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
         "Click points of the active object to see what they see: samples in line of"
         " sight are green, others blue. Nothing is written to the object"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER"}
+    bl_options: ClassVar[set[str]] = set()
 
     _lookout: Lookout | None = None
 
@@ -46,6 +46,17 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
         return [context.active_object]
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Show what the middle of a face sees, at once."""
+        if self.face < 0:
+            self.report(
+                {"ERROR"},
+                "Points are clicked on in a 3D viewport; scripts name a face instead,"
+                " such as face=0.",
+            )
+            return {"CANCELLED"}
+        return super().execute(context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Compute what is needed; then show what the points see that are clicked."""
@@ -74,13 +85,14 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
         return look_out_of(obj, parameters)
 
     def _commit(self, obj: bpy.types.Object, value: Lookout) -> str:
+        ray = None if self.face < 0 else _above_face(obj, self.face)
         self._lookout = value
         self._overlay = Overlay(
             obj.session_uid, stretch(obj), bpy.context.workspace.name
         )
         sight_overlay.show(self._overlay)
-        if self.face >= 0:
-            self._show(obj, *_above_face(obj, self.face))
+        if ray is not None:
+            self._show(*ray)
         return f"{len(value.samples):,} samples"
 
     def _wait(self) -> set[str]:
@@ -100,10 +112,10 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
         where = region, region.data, (x, y)
         origin = to_object @ view3d_utils.region_2d_to_origin_3d(*where)
         towards = view3d_utils.region_2d_to_vector_3d(*where)
-        self._show(obj, origin, to_object.to_3x3() @ towards)
+        self._show(origin, to_object.to_3x3() @ towards)
         return {"RUNNING_MODAL"}
 
-    def _show(self, obj: bpy.types.Object, origin: Vector, direction: Vector) -> None:
+    def _show(self, origin: Vector, direction: Vector) -> None:
         """Show what the first point along a ray in object space sees."""
         scale = self._overlay.scale
         view = self._lookout.look(np.array(origin) * scale, np.array(direction) * scale)

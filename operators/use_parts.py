@@ -54,22 +54,27 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
         name="Original",
         description="What becomes of the object that is separated",
         items=(
-            ("HIDE", "Hide", "It stays as it is, hidden in the viewport"),
+            ("HIDE", "Hide", "It stays as it is, hidden in viewports and renders"),
             ("REMOVE", "Remove", "It is deleted; its children go to the largest part"),
         ),
     )
 
     def _work(self, obj: bpy.types.Object) -> None:
+        was_active = bpy.context.active_object == obj
         pieces = separate(obj)
-        if bpy.context.active_object == obj:
-            bpy.context.view_layer.objects.active = pieces[0]
-        for piece in pieces:
-            piece.select_set(True)
         if self.original == "REMOVE":
             replace(obj, pieces[0])
         else:
             obj.select_set(False)
             obj.hide_set(True)
+            obj.hide_render = True
+        layer = bpy.context.view_layer
+        layer.update()
+        there = [piece for piece in pieces if piece.name in layer.objects]
+        for piece in there:
+            piece.select_set(True)
+        if there and was_active:
+            layer.objects.active = there[0]
 
 
 class WCD_OT_explode(_OnParts, bpy.types.Operator):

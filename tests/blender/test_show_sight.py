@@ -48,9 +48,12 @@ def test_a_face_of_a_cube_sees_all_other_faces(cube):
 def test_nothing_is_shown_of_what_cannot_be_read(cube):
     with pytest.raises(RuntimeError, match="has no face 99; it has 6"):
         bpy.ops.wcd.show_sight(face=99, **FAST)
+    with pytest.raises(RuntimeError, match="scripts name a face instead"):
+        bpy.ops.wcd.show_sight(**FAST)
     bpy.ops.object.light_add()
     with pytest.raises(RuntimeError, match="is not a mesh"):
-        bpy.ops.wcd.show_sight(**FAST)
+        bpy.ops.wcd.show_sight(face=0, **FAST)
+    assert sight_overlay.current is None
 
 
 def test_overlays_end_with_the_file_and_with_the_extension(cube, tmp_path):

@@ -49,6 +49,8 @@ def test_every_part_becomes_an_object(suzanne):
     assert total == pytest.approx(areas(suzanne.data).sum(), rel=1e-5)
     assert snapshot(suzanne)["mesh"] == before
     assert suzanne.hide_get()
+    assert suzanne.hide_render
+    assert not pieces[0].hide_render
     assert set(bpy.context.selected_objects) == set(pieces)
     assert bpy.context.active_object == pieces[0]
     for part, piece in enumerate(pieces):
