@@ -54,8 +54,8 @@ PRESETS = (
         "SCAN",
         "Scan",
         "For rough surfaces, whose bumps hide points that see each other: Balance 1"
-        " instead of 2, and Smoothness 10 against ragged seams",
-        {"alpha": 1.0, "smoothness": 10.0},
+        " instead of 2; clean surfaces get too few parts by it",
+        {"alpha": 1.0},
     ),
     Preset(
         "PAPER",

@@ -55,7 +55,8 @@ def measure_region(
     form = yield from within(form_of(mesh, make_caster), 0.0, 0.1)
     targets = form.targets
     rows = np.flatnonzero(faces[targets.polygons])
-    if targets.areas[rows].sum() <= _LEAST_AREA:
+    area = mesh.areas[faces[mesh.polygons]].sum() / mesh.diagonal**2
+    if area <= _LEAST_AREA or len(rows) == 0:
         raise DecompositionError(
             "The faces chosen have no area, or a flat mesh has none of them at its"
             " outline; select others."
