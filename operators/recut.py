@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
@@ -41,16 +41,22 @@ class _Recut(Computation):
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         return parameters_from(context.scene.wcd)
 
-    def _begin(self, context: bpy.types.Context) -> Steps[Decomposition]:
-        self._parameters = self._wanted(context)
-        if not is_quick(context.active_object, self._parameters):
-            self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
-        return decompose_object(context.active_object, self._parameters)
+    @classmethod
+    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Return the active object: lines of sight of one are kept."""
+        return [context.active_object]
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Decomposition]:
+        self._parameters = self._wanted(context)
+        if not is_quick(obj, self._parameters):
+            self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
+        return decompose_object(obj, self._parameters)
+
+    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> str:
         write_parts(obj, value, self._parameters)
-        self._warn(value.notes)
-        self.report({"INFO"}, summary(value))
+        return summary(value)
 
 
 class WCD_OT_recut(_Recut, bpy.types.Operator):
@@ -84,7 +90,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     def _cut(self, context: bpy.types.Context) -> bool:
         """Cut if need be; return False if that would take longer than a moment."""
         obj, parameters = context.active_object, self._wanted(context)
-        if noted_parameters(obj) == asdict(parameters):
+        if noted_parameters(obj) == parameters:
             return True
         if not (bpy.app.background or is_quick(obj, parameters)):
             return False
@@ -123,9 +129,9 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         return replace(super()._wanted(context), parts=self.parts)
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
-        super()._commit(obj, value)
+    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> str:
         bpy.context.scene.wcd.parts = self.parts
+        return super()._commit(obj, value)
 
 
 WCD_OT_choose_part_count.__annotations__ = annotations(("parts",))

@@ -93,7 +93,10 @@ def part_records(obj: bpy.types.Object) -> list[dict[str, Any]]:
 
 def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
     """Return what the parts of an object were found with, None if it is not noted."""
-    noted = _read(obj, _RESULT).get("parameters")
+    try:
+        noted = _read(obj, _RESULT).get("parameters")
+    except DecompositionError:  # a property of the user's
+        return None
     if noted is None:
         return None
     known = {each.name for each in fields(Parameters)}  # other versions have others
@@ -104,14 +107,6 @@ def check_records(obj: bpy.types.Object) -> None:
     """Raise if a custom property under one of our names is not ours."""
     read_restore(obj.data)
     _read(obj, _RESULT)
-
-
-def noted_parameters(obj: bpy.types.Object) -> dict[str, Any] | None:
-    """Return the parameters of the parts noted on an object, None if there are none."""
-    try:
-        return _read(obj, _RESULT).get("parameters")
-    except DecompositionError:  # a property of the user's
-        return None
 
 
 def write_result(
