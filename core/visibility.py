@@ -79,7 +79,12 @@ class Visibility:
     unit_area: float
 
 
-def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps[Sight]:
+def look(
+    shape: Shape,
+    parameters: Parameters,
+    make_caster: MakeCaster,
+    members: NDArray[np.bool_] | None = None,
+) -> Steps[Sight]:
     """Sample the surface of `shape` and find the lines of sight between samples.
 
     Parameters
@@ -90,6 +95,9 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
     make_caster : callable
         Returns a RayCaster for the mesh it is given: `shape` centered, scaled and
         oriented, with its shells set apart, or the splats of its points.
+    members : (P,) bool, optional
+        Polygons, or points of a cloud, that samples lie on; all of them if left out.
+        Lines of sight run through the whole shape.
 
     Returns
     -------
@@ -102,13 +110,11 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
         where faces are the samples.
     """
     form = yield from within(form_of(shape, make_caster), 0.0, 0.01)
+    if members is not None:
+        form = form.part(members)
     yield Progress("Samples", 0.01)
     rng = np.random.default_rng(parameters.seed)
-    if parameters.sampling == "FACES":
-        samples = sample_faces(form.targets)
-        _check_number(samples, parameters)
-    else:
-        samples = sample_surface(form.targets, parameters.samples, rng)
+    samples = _samples(form, parameters, rng)
     yield Progress("Ray tree", 0.01)
     scene = Scene(form.targets, make_caster(form.targets), form.grain)
     views = viewpoints(scene, samples)
@@ -132,10 +138,13 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
 
 
 def see(
-    shape: Shape, parameters: Parameters, make_caster: MakeCaster
+    shape: Shape,
+    parameters: Parameters,
+    make_caster: MakeCaster,
+    members: NDArray[np.bool_] | None = None,
 ) -> Steps[Visibility]:
     """Return the visibility of `shape`; parameters and errors are those of `look`."""
-    sight = yield from within(look(shape, parameters, make_caster), 0.0, 0.8)
+    sight = yield from within(look(shape, parameters, make_caster, members), 0.0, 0.8)
     ranked = sight.pairs
     if parameters.containers == "FILLED" and sight.form.plane is None:
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
@@ -157,6 +166,27 @@ def see(
         sight.form,
         shape.diagonal**2,
     )
+
+
+def _samples(form: Form, parameters: Parameters, rng: np.random.Generator) -> Samples:
+    """Return samples of those targets that are nodes of the form."""
+    sampled = np.flatnonzero(form.targets.polygons <= form.nodes.max(initial=-1))
+    mesh = form.targets
+    if len(sampled) < len(mesh.triangles):
+        if mesh.areas[sampled].sum() <= 0:
+            raise DecompositionError(
+                "The part has no surface that lines of sight could start from; choose"
+                " another one."
+            )
+        mesh = replace(
+            mesh, triangles=mesh.triangles[sampled], polygons=mesh.polygons[sampled]
+        )
+    if parameters.sampling == "FACES":
+        samples = sample_faces(mesh)
+        _check_number(samples, parameters)
+    else:
+        samples = sample_surface(mesh, parameters.samples, rng)
+    return replace(samples, triangles=sampled[samples.triangles])
 
 
 def _check_number(samples: Samples, parameters: Parameters) -> None:
