@@ -11,7 +11,7 @@ from .form import Shape
 from .parameters import Parameters
 from .part_count import given_part_count, search_part_count
 from .partition import Partitioner, count
-from .progress import Steps, within
+from .progress import Progress, Steps, within
 from .scene import MakeCaster
 from .surface import Surface
 from .visibility import Visibility, look, see
@@ -95,10 +95,11 @@ def decompose(
 def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decomposition]:
     """Return the parts for `parameters` from a visibility computed before.
 
-    Everything but the samples, their lines of sight, the embedding and the seed may
-    differ from the parameters that `visibility` was computed with.
+    Every `recut` among the parameters may differ from those that `visibility` was
+    computed with.
     """
     surface = visibility.transfer.surface
+    yield Progress("Embedding", 0.0)
     partitioner = Partitioner(visibility, parameters)
     if parameters.parts:
         search = given_part_count(partitioner, parameters.parts, parameters.max_parts)
@@ -106,7 +107,7 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
         search = search_part_count(
             partitioner, parameters.min_parts, parameters.max_parts
         )
-    parts, psi_by_k = yield from within(search, 0.0, 0.7)
+    parts, psi_by_k = yield from within(search, 0.1, 0.7)
     parts = yield from within(partitioner.seamed(parts), 0.7, 1.0)
     labels = _by_size(parts, surface)[visibility.form.nodes]
     found = describe(visibility, labels, parameters, psi_by_k)

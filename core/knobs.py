@@ -38,6 +38,9 @@ class Knob:
         'ANGLE' (radians), 'FACTOR' or 'NONE', in Blender's vocabulary.
     advanced : bool
         Whether it belongs with the settings few users touch.
+    recut : bool
+        Whether a new value cuts anew what was seen before: no samples, lines of sight
+        or containers depend on it.
     """
 
     label: str
@@ -47,6 +50,7 @@ class Knob:
     choices: tuple[Choice, ...] = ()
     subtype: str = "NONE"
     advanced: bool = True
+    recut: bool = False
 
 
 def parameter(default: Any, knob: Knob) -> Any:

@@ -27,6 +27,7 @@ class Parameters:
             low=0,
             high=256,
             advanced=False,
+            recut=True,
         ),
     )
     rays: int = parameter(
@@ -49,6 +50,7 @@ class Parameters:
             low=0.0,
             high=10.0,
             advanced=False,
+            recut=True,
         ),
     )
     sight: str = parameter(
@@ -162,15 +164,28 @@ class Parameters:
                 Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
                 Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
             ),
+            recut=True,
         ),
     )
     min_parts: int = parameter(
         2,
-        Knob("Fewest Parts", "Where the search for k begins", low=2, high=256),
+        Knob(
+            "Fewest Parts",
+            "Where the search for k begins",
+            low=2,
+            high=256,
+            recut=True,
+        ),
     )
     max_parts: int = parameter(
         13,
-        Knob("Most Parts", "Where the search for k ends", low=2, high=256),
+        Knob(
+            "Most Parts",
+            "Where the search for k ends",
+            low=2,
+            high=256,
+            recut=True,
+        ),
     )
     refinement: str = parameter(
         "PSI",
@@ -189,6 +204,7 @@ class Parameters:
                     "Clusters stay as they are and seams keep to them, as in the paper",
                 ),
             ),
+            recut=True,
         ),
     )
     smoothness: float = parameter(
@@ -198,6 +214,7 @@ class Parameters:
             "Weight lambda of short seams in concave creases; 0 leaves seams ragged",
             low=0.0,
             high=100.0,
+            recut=True,
         ),
     )
     smallest_part: float = parameter(
@@ -208,6 +225,7 @@ class Parameters:
             low=0.0,
             high=0.5,
             subtype="FACTOR",
+            recut=True,
         ),
     )
     seed: int = parameter(

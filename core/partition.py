@@ -36,6 +36,7 @@ class Partitioner:
         self.parameters = parameters
         self.transfer = visibility.transfer
         self.surface = visibility.transfer.surface
+        self.embedding = visibility.embedding(parameters)
         self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
         self._labels: dict[int, NDArray[np.int64]] = {}
@@ -89,7 +90,7 @@ class Partitioner:
         # Samples that see the same, as in a convex shape, are told apart by place.
         coordinates = np.hstack(
             [
-                self.visibility.embedding[:, :n_clusters],
+                self.embedding[:, :n_clusters],
                 _PLACE_WEIGHT * self.visibility.samples.positions,
             ]
         )
@@ -125,7 +126,7 @@ class Partitioner:
     ) -> NDArray[np.float64]:
         """Return the data term of eq. 4, how little samples like labels, (N, K)."""
         if not self.by_psi:
-            return distances_to_parts(self.visibility.embedding, labels, n_labels)
+            return distances_to_parts(self.embedding, labels, n_labels)
         members = members_of(labels, n_labels)
         pulls = self.visibility.pairs.pulls(members, self.parameters.alpha)
         return pulls.max(axis=1, keepdims=True) - pulls

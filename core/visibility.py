@@ -1,17 +1,21 @@
-"""The expensive half of a decomposition: samples, lines of sight, embedding."""
+"""The expensive half of a decomposition: samples, their lines of sight, embedding."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Hashable
+from dataclasses import dataclass, field, fields, replace
+from hashlib import blake2b
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .cone import see_cones, see_uniform_pairs
 from .containers import Grid, find_enclosed, see_through
-from .convexity import KnownPairs
+from .convexity import KnownPairs, Matrix
 from .errors import DecompositionError
 from .form import Form, Shape, form_of
+from .knobs import knob_of
 from .parameters import Parameters
 from .progress import Progress, Steps, within
 from .sampling import Samples, sample_faces, sample_surface
@@ -60,8 +64,8 @@ class Visibility:
         Which samples are in line of sight, for convexity ranks.
     pairs : KnownPairs
         Which samples see each other, through containers too, for psi.
-    embedding : (N, n) float
-        Coordinates of the samples.
+    affinity : (N, N) float32 or sparse
+        What the embedding comes from.
     transfer : Transfer
         Between the samples and the nodes of the surface.
     form : Form
@@ -73,10 +77,24 @@ class Visibility:
     samples: Samples
     ranked: KnownPairs
     pairs: KnownPairs
-    embedding: NDArray[np.float64]
+    affinity: Matrix
     transfer: Transfer
     form: Form
     unit_area: float
+    _embeddings: dict[Hashable, NDArray[np.float64]] = field(default_factory=dict)
+
+    def embedding(self, parameters: Parameters) -> NDArray[np.float64]:
+        """Return coordinates of the samples, (N, n) float.
+
+        As many as parts may be asked for: eigenvectors differ a little by how many of
+        them are looked for, and so would parts.
+        """
+        n_coordinates = max(parameters.parts, parameters.max_parts)
+        stochastic = parameters.normalization == "STOCHASTIC"
+        key = n_coordinates, stochastic
+        if key not in self._embeddings:
+            self._embeddings[key] = embed(self.affinity, *key)
+        return self._embeddings[key]
 
 
 def look(
@@ -148,20 +166,14 @@ def see(
     ranked = sight.pairs
     if parameters.containers == "FILLED" and sight.form.plane is None:
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
-    yield Progress("Embedding", 0.9)
+    yield Progress("Surface", 0.9)
     node_of_sample = sight.form.targets.polygons[sight.samples.triangles]
     transfer = Transfer(sight.samples, node_of_sample, sight.form.surface())
-    yield Progress("Embedding", 0.95)
-    embedding = embed(
-        sight.along_rays.visible,
-        max(parameters.parts, parameters.max_parts),
-        parameters.normalization == "STOCHASTIC",
-    )
     return Visibility(
         sight.samples,
         ranked,
         sight.pairs,
-        embedding,
+        sight.along_rays.visible,
         transfer,
         sight.form,
         shape.diagonal**2,
@@ -187,6 +199,25 @@ def _samples(form: Form, parameters: Parameters, rng: np.random.Generator) -> Sa
     else:
         samples = sample_surface(mesh, parameters.samples, rng)
     return replace(samples, triangles=sampled[samples.triangles])
+
+
+def visibility_key(shape: Shape, parameters: Parameters) -> Hashable:
+    """Return what is the same for two calls of `see` only if their values are.
+
+    Everything of `shape` counts, and every parameter that is no `recut`.
+    """
+    digest = blake2b()
+    for each in fields(shape):
+        array: NDArray[Any] | None = getattr(shape, each.name)
+        digest.update(f"{each.name} {None if array is None else array.shape}".encode())
+        if array is not None:
+            digest.update(np.ascontiguousarray(array).data)
+    values = tuple(
+        getattr(parameters, each.name)
+        for each in fields(parameters)
+        if not knob_of(each).recut
+    )
+    return type(shape), digest.digest(), values
 
 
 def _check_number(samples: Samples, parameters: Parameters) -> None:

@@ -3,6 +3,7 @@
 import bpy
 
 from . import command_line, modal
+from .bridge import visibility_cache
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
@@ -20,15 +21,17 @@ CLASSES = (
 
 
 def register() -> None:
-    """Register the operators and the command."""
+    """Register the operators, the command and the cache."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     command_line.register()
+    visibility_cache.register()
 
 
 def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     modal.stop()
+    visibility_cache.unregister()
     command_line.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -18,10 +18,12 @@ from .hulls import hull_refusal, part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes
 from .record import check_records
+from .visibility_cache import see_once
 from .write import check_writable
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition, Measurement
+    from ...core.form import Shape
     from ...core.hull_decomposition import HullDecomposition
 
     Result = TypeVar("Result", Decomposition, Measurement, HullDecomposition)
@@ -51,12 +53,15 @@ def decompose_object(
     check_writable(obj)
     mesh = read_shape(obj)
 
-    def work() -> Steps[Decomposition]:
-        from ...core.decomposition import decompose
+    return _prepared(reading_notes(obj), _decompose(mesh, parameters))
 
-        return (yield from decompose(mesh, parameters, BvhRayCaster))
 
-    return _prepared(reading_notes(obj), work())
+def _decompose(shape: Shape, parameters: Parameters) -> Steps[Decomposition]:
+    """Decompose as `core.decomposition.decompose` does, by the latest visibility."""
+    from ...core.decomposition import find_parts
+
+    visibility = yield from within(see_once(shape, parameters), 0.0, 0.8)
+    return (yield from within(find_parts(visibility, parameters), 0.8, 1.0))
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -90,12 +95,11 @@ def build_hulls_of(
     mesh, labels = read_shape(obj), part_labels(obj)
 
     def work() -> Steps[HullDecomposition]:
-        from ...core.decomposition import decompose
         from ...core.hull_decomposition import build_hulls
 
         found = labels
         if found is None:
-            parts = yield from within(decompose(mesh, parameters, BvhRayCaster), 0, 0.4)
+            parts = yield from within(_decompose(mesh, parameters), 0, 0.4)
             found = parts.labels
         steps = build_hulls(mesh, found, hull_parameters, parameters.seed)
         return (yield from within(steps, 0.0 if labels is not None else 0.4, 1.0))

@@ -18,7 +18,7 @@ def clusters(
     visibility: Visibility, n_clusters: int, parameters: Parameters
 ) -> np.ndarray:
     """Return the cluster of each polygon, connected or not."""
-    coordinates = visibility.embedding[:, :n_clusters]
+    coordinates = visibility.embedding(parameters)[:, :n_clusters]
     with mock.patch.object(clustering, "_STARTS", STARTS):
         labels = clustering.cluster(coordinates, n_clusters, parameters.seed)
     return visibility.transfer.to_polygons(labels, n_clusters)

@@ -1,0 +1,52 @@
+"""The latest visibility, kept so that new parts of the same shape take a moment.
+
+The one state of the extension that outlives an operator. It holds arrays, no data of
+Blender's, and knows its shape by content: whatever changes a mesh, in whatever way, is
+noticed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ...core.parameters import Parameters
+from ...core.progress import Steps
+from .ray_caster import BvhRayCaster
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ...core.form import Shape
+    from ...core.visibility import Visibility
+
+_latest: dict[Hashable, Visibility] = {}
+
+
+def see_once(shape: Shape, parameters: Parameters) -> Steps[Visibility]:
+    """Return the visibility of a shape: the latest one if it is the same."""
+    from ...core.visibility import see, visibility_key
+
+    key = visibility_key(shape, parameters)
+    if key not in _latest:
+        visibility = yield from see(shape, parameters, BvhRayCaster)
+        _latest.clear()
+        _latest[key] = visibility
+    return _latest[key]
+
+
+@bpy.app.handlers.persistent
+def forget(*_: object) -> None:
+    """Free the memory."""
+    _latest.clear()
+
+
+def register() -> None:
+    """Forget at each file load."""
+    bpy.app.handlers.load_pre.append(forget)
+
+
+def unregister() -> None:
+    """Undo `register`, and forget."""
+    bpy.app.handlers.load_pre.remove(forget)
+    forget()
