@@ -56,13 +56,19 @@ class PointCloud:
         return len(self.points)
 
     @property
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest corner of the box around the points."""
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+    @property
     def diagonal(self) -> float:
         """Length of the diagonal of the bounding box."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def normalized(self) -> PointCloud:
         """Return the cloud centered, with a bounding box of diagonal 1."""
-        center = (self.points.min(axis=0) + self.points.max(axis=0)) / 2
+        low, high = self.bounds
+        center = (low + high) / 2
         return replace(self, points=(self.points - center) / self.diagonal)
 
 

@@ -134,9 +134,7 @@ def describe(
         Psi for the numbers of parts that were tried.
     """
     n_parts, transfer = count(labels), visibility.transfer
-    nodes = visibility.form.nodes
-    parts = np.zeros(transfer.surface.n_polygons, dtype=np.int64)
-    parts[nodes] = labels
+    parts = visibility.form.labels_of_nodes(labels)
     samples = transfer.to_samples(parts)
     pairs = visibility.pairs
     whole = pairs.tally(np.zeros_like(samples), 1)

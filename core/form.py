@@ -56,6 +56,12 @@ class Form:
     normals: NDArray[np.float64] | None = None
     plane: NDArray[np.float64] | None = None
 
+    def labels_of_nodes(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the label of each node from those of polygons or points, (F,)."""
+        found = np.zeros(int(self.nodes.max()) + 1, dtype=np.int64)
+        found[self.nodes] = labels
+        return found
+
     def part(self, members: NDArray[np.bool_]) -> Form:
         """Return the form of some polygons, or points, seen through the whole shape.
 

@@ -2,8 +2,8 @@
 
 import bpy
 
-from . import command_line, modal
-from .bridge import visibility_cache
+from . import command_line, edit_parts, modal, show_parts
+from .bridge import rows, visibility_cache
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
@@ -17,20 +17,24 @@ CLASSES = (
     WCD_OT_clear,
     modal.WCD_OT_cancel,
     WCD_OT_use_preset,
+    *edit_parts.CLASSES,
+    *show_parts.CLASSES,
 )
 
 
 def register() -> None:
-    """Register the operators, the command and the cache."""
+    """Register the operators, the command, the cache and the table's rows."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     command_line.register()
     visibility_cache.register()
+    rows.register()
 
 
 def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     modal.stop()
+    rows.unregister()
     visibility_cache.unregister()
     command_line.unregister()
     for cls in reversed(CLASSES):

@@ -9,13 +9,13 @@ import bpy
 
 from ..core.progress import Steps
 from ..ui.properties import ADVANCED, FRONT, annotations, draw, parameters_from
-from .bridge.computing import decompose_object, summary
+from .bridge.computing import summary
+from .bridge.locking import decompose_unlocked
 from .bridge.target import refusal
-from .bridge.write import write_parts
 from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.decomposition import Decomposition
+    from .bridge.editing import Edited
 
 
 class WCD_OT_decompose(Computation, bpy.types.Operator):
@@ -38,15 +38,14 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
-    def _begin(self, context: bpy.types.Context) -> Steps[Decomposition]:
-        self._parameters = parameters_from(self)
-        return decompose_object(context.active_object, self._parameters)
+    def _begin(self, context: bpy.types.Context) -> Steps[Edited]:
+        return decompose_unlocked(context.active_object, parameters_from(self))
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
-        write_parts(obj, value, self._parameters)
-        self._warn(value.notes)
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> None:
+        value.write(obj)
+        self._warn(value.decomposition.notes)
         seconds = time.perf_counter() - self._started
-        self.report({"INFO"}, f"{summary(value)}, {seconds:.1f} s")
+        self.report({"INFO"}, f"{summary(value.decomposition)}, {seconds:.1f} s")
 
 
 WCD_OT_decompose.__annotations__ = annotations()

@@ -3,12 +3,15 @@
 import bpy
 
 from .panels import WCD_PT_advanced, WCD_PT_hulls, WCD_PT_main, WCD_PT_parts
+from .parts_table import WCD_PT_edit, WCD_UL_parts
 from .properties import WCD_PG_settings
 
 CLASSES = (
     WCD_PG_settings,
     WCD_PT_main,
+    WCD_UL_parts,
     WCD_PT_parts,
+    WCD_PT_edit,
     WCD_PT_hulls,
     WCD_PT_advanced,
 )
