@@ -16,8 +16,8 @@ from .surface import Surface
 # A polygon dislikes a part by its distance from it: 1 at this one, in square roots of
 # the area.
 _UNIT = 0.05
-# What no smoothness outweighs.
-_NEVER = 1e6
+# What no seam is worth. Capacities are whole numbers: far more would hide the rest.
+_NEVER = 1e3
 # What is so deep in a part stays there, in shares of the greatest depth.
 _CORE = 0.5
 

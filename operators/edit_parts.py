@@ -12,6 +12,7 @@ from ..ui.properties import annotations
 from .bridge import edits
 from .bridge.computing import summary
 from .bridge.editing import edit_object
+from .bridge.points import is_cloud
 from .bridge.present_parts import parts_refusal
 from .bridge.rows import active_part, chosen_parts
 from .computation import Computation
@@ -114,6 +115,8 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         reason = parts_refusal(obj)
+        if reason is None and is_cloud(obj):
+            reason = f"{obj.name} has no faces, only points"
         if reason is None and obj.mode != "EDIT":
             reason = "Faces are selected in Edit Mode; switch the mode"
         return reason

@@ -7,6 +7,7 @@ begins with.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import bmesh
 import bpy
@@ -18,33 +19,36 @@ from .layers import IntArray
 BoolArray = NDArray[np.bool_]
 
 
-def select_faces(obj: bpy.types.Object, faces: BoolArray, extend: bool) -> None:
+def select_faces(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
     """Select faces, and nothing else unless `extend`."""
     mesh = obj.data
+    if mesh.is_editmode:
+        _select_in_edit_mode(mesh, "faces", chosen, extend)
+        return
     corners, edges, sizes = _corners(mesh)
-    of_faces = np.repeat(faces, sizes)
-    for domain, chosen in (
-        ("vertices", _flags(len(mesh.vertices), corners[of_faces])),
-        ("edges", _flags(len(mesh.edges), edges[of_faces])),
-        ("polygons", faces),
-    ):
-        _select(obj, domain, chosen, extend)
-    _finish(obj)
+    of_faces = np.repeat(chosen, sizes)
+    _select(mesh.vertices, _flags(len(mesh.vertices), corners[of_faces]), extend)
+    _select(mesh.edges, _flags(len(mesh.edges), edges[of_faces]), extend)
+    _select(mesh.polygons, chosen, extend)
+    _show(mesh)
 
 
 def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
-    """Select edges, and nothing else unless `extend`."""
+    """Select edges, and nothing else unless `extend`; they show where faces do, too."""
     mesh = obj.data
+    settings = bpy.context.scene.tool_settings
+    if settings.mesh_select_mode[:] == (False, False, True):
+        settings.mesh_select_mode = (False, True, False)
+    if mesh.is_editmode:
+        _select_in_edit_mode(mesh, "edges", chosen, extend)
+        return
     ends = np.empty(len(mesh.edges) * 2, dtype=np.int32)
     mesh.edges.foreach_get("vertices", ends)
-    touched = _flags(len(mesh.vertices), ends.reshape(-1, 2)[chosen].ravel())
-    for domain, flags in (
-        ("vertices", touched),
-        ("edges", chosen),
-        ("polygons", np.zeros(len(mesh.polygons), dtype=bool)),
-    ):
-        _select(obj, domain, flags, extend)
-    _finish(obj)
+    touched = ends.reshape(-1, 2)[chosen].ravel()
+    _select(mesh.vertices, _flags(len(mesh.vertices), touched), extend)
+    _select(mesh.edges, chosen, extend)
+    _select(mesh.polygons, np.zeros(len(mesh.polygons), dtype=bool), extend)
+    _show(mesh)
 
 
 def mark_seams(obj: bpy.types.Object, chosen: BoolArray) -> None:
@@ -59,7 +63,7 @@ def mark_seams(obj: bpy.types.Object, chosen: BoolArray) -> None:
         edges.ensure_lookup_table()
         for index in np.flatnonzero(chosen).tolist():
             edges[index].seam = True
-    _finish(obj)
+    _show(mesh)
 
 
 def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
@@ -70,7 +74,7 @@ def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
     for face, hide in zip(bm.faces, hidden.tolist(), strict=True):
         if hide:
             face.hide_set(True)
-    _finish(obj)
+    _show(obj.data)
 
 
 def boundary_edges(
@@ -107,31 +111,33 @@ def _flags(size: int, rows: IntArray) -> BoolArray:
     return flags
 
 
-def _select(
-    obj: bpy.types.Object, domain: str, chosen: BoolArray, extend: bool
+def _select(elements: Any, chosen: BoolArray, extend: bool) -> None:
+    """Select vertices, edges or polygons of a mesh that is not edited."""
+    if extend:
+        before = np.empty(len(elements), dtype=bool)
+        elements.foreach_get("select", before)
+        chosen = chosen | before
+    elements.foreach_set("select", chosen)
+
+
+def _select_in_edit_mode(
+    mesh: bpy.types.Mesh, domain: str, chosen: BoolArray, extend: bool
 ) -> None:
-    """Select vertices, edges or polygons."""
-    mesh = obj.data
-    if not mesh.is_editmode:
-        elements = getattr(mesh, domain)
-        if extend:
-            before = np.empty(len(elements), dtype=bool)
-            elements.foreach_get("select", before)
-            chosen = chosen | before
-        elements.foreach_set("select", chosen)
-        return
+    """Select edges or faces of a mesh that is edited, but for hidden ones."""
     bm = bmesh.from_edit_mesh(mesh)
-    elements = {"vertices": bm.verts, "edges": bm.edges, "polygons": bm.faces}[domain]
-    for element, select in zip(elements, chosen.tolist(), strict=True):
-        if not element.hide:
-            element.select = select or (extend and element.select)
+    if not extend:
+        for element in (*bm.faces, *bm.edges, *bm.verts):
+            element.select_set(False)
+    for element, select in zip(getattr(bm, domain), chosen.tolist(), strict=True):
+        if select and not element.hide:
+            element.select_set(True)
+    bm.select_flush_mode()
+    _show(mesh)
 
 
-def _finish(obj: bpy.types.Object) -> None:
+def _show(mesh: bpy.types.Mesh) -> None:
     """Tell Blender that flags have changed."""
-    mesh = obj.data
-    if not mesh.is_editmode:
+    if mesh.is_editmode:
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    else:
         mesh.update()
-        return
-    bmesh.from_edit_mesh(mesh).select_flush_mode()
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
