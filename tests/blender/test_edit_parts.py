@@ -277,6 +277,7 @@ def test_clear_brings_the_users_data_back_after_an_edit(suzanne, name):
     getattr(bpy.ops.wcd, name)(**EDITS[name])
     bpy.ops.wcd.clear()
     assert snapshot(suzanne) == before
+    assert not [key for key in suzanne.keys() if "wcd" in key]  # noqa: SIM118 - no dict
 
 
 def test_parts_and_rows_are_in_a_saved_file(monkey, tmp_path):
