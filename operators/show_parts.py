@@ -136,14 +136,15 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there are parts, and a view to move."""
-        if context.region_data is None:
+        space = context.space_data
+        if space is None or space.type != "VIEW_3D":
             cls.poll_message_set("There is no 3D viewport here")
             return False
         return super().poll(context)
 
     def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         points = points_of_parts(obj, _members(obj))
-        frame_points(context.region_data, context.space_data, points)
+        frame_points(context.space_data, points)
 
 
 class WCD_OT_select_boundary(_Show, bpy.types.Operator):

@@ -9,6 +9,9 @@ import bpy
 from .sidebar import Sidebar, result_of
 
 _ROWS = 6
+# Widths: of the color beside a button, and the share of the name in what is left.
+_SWATCH = 0.35
+_NAME = 0.4
 
 
 class WCD_UL_parts(bpy.types.UIList):
@@ -34,11 +37,11 @@ class WCD_UL_parts(bpy.types.UIList):
         tick = "CHECKBOX_HLT" if row.chosen else "CHECKBOX_DEHLT"
         line.prop(row, "chosen", text="", icon=tick, emboss=False)
         material = obj.data.materials.get(part["material"])
+        swatch = line.row()
+        swatch.scale_x = _SWATCH
         if material:
-            swatch = line.row()
-            swatch.scale_x = 0.35
             swatch.prop(material, "diffuse_color", text="")
-        split = line.split(factor=0.42)
+        split = line.split(factor=_NAME)
         split.prop(row, "name", text="", emboss=False)
         _numbers(split, *_figures(result, index))
         lock = "LOCKED" if row.locked else "UNLOCKED"
@@ -50,7 +53,8 @@ def _figures(result: dict[str, Any], index: int) -> list[str]:
     part = result["parts"][index]
     faces, area = part["faces"], part["area"]
     short = f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k"
-    texts = [short, f"{area:.3g}", f"{part['convexity_rank']:.2f}"]
+    small = f"{area:.2g}" if area < 100 else f"{area:.4g}"
+    texts = [short, small, f"{part['convexity_rank']:.2f}"]
     hulls = result.get("hulls", {}).get("hulls", ())
     errors = [hull["error"] for hull in hulls if hull["part"] == index]
     return [*texts, f"{max(errors):.2f}"] if errors else texts
@@ -58,9 +62,10 @@ def _figures(result: dict[str, Any], index: int) -> list[str]:
 
 def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
     """Draw columns of the same width, to the right."""
-    columns = layout.row(align=True)
-    for text in texts:
-        cell = columns.row()
+    rest = layout
+    for left, text in zip(range(len(texts), 0, -1), texts, strict=True):
+        rest = rest.split(factor=1 / left, align=True) if left > 1 else rest
+        cell = rest.row()
         cell.alignment = "RIGHT"
         cell.label(text=text)
 
@@ -68,8 +73,10 @@ def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
 def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Draw the parts of an object."""
     hulls = result_of(obj).get("hulls", {}).get("hulls", ())
-    heading = layout.row()
-    split = heading.split(factor=0.42)
+    heading = layout.row(align=True)
+    heading.label(text="", icon="BLANK1")
+    heading.label(text="", icon="BLANK1")
+    split = heading.split(factor=_NAME)
     split.label(text="Part")
     error = ("Hull",) if any(hull["part"] is not None for hull in hulls) else ()
     _numbers(split, "Faces", "Area", "Rank", *error)
@@ -114,8 +121,8 @@ class WCD_PT_edit(Sidebar, bpy.types.Panel):
         )
         _buttons(
             column,
-            ("wcd.mirror_parts", "+X to -X", {"direction": "TO_NEGATIVE"}),
-            ("wcd.mirror_parts", "-X to +X", {"direction": "TO_POSITIVE"}),
+            ("wcd.mirror_parts", "Mirror to -X", {"direction": "TO_NEGATIVE"}),
+            ("wcd.mirror_parts", "Mirror to +X", {"direction": "TO_POSITIVE"}),
         )
         column = layout.column(align=True)
         _buttons(

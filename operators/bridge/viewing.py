@@ -33,14 +33,11 @@ def points_of_parts(
     return places @ world[:3, :3].T + world[:3, 3]
 
 
-def frame_points(
-    region: bpy.types.RegionView3D,
-    space: bpy.types.SpaceView3D,
-    points: NDArray[np.float64],
-) -> None:
+def frame_points(space: bpy.types.SpaceView3D, points: NDArray[np.float64]) -> None:
     """Move a view so that it shows points, from the side it shows now."""
     if len(points) == 0:
         return
+    region = space.region_3d
     low, high = points.min(axis=0), points.max(axis=0)
     radius = max(float(np.linalg.norm(high - low)) / 2, 10 * space.clip_start)
     if region.view_perspective == "CAMERA":
