@@ -11,7 +11,7 @@ from .sidebar import Sidebar, result_of
 _ROWS = 6
 # Widths: of the color beside a button, and the share of the name in what is left.
 _SWATCH = 0.35
-_NAME = 0.4
+_NAME = 0.38
 
 
 class WCD_UL_parts(bpy.types.UIList):
@@ -53,21 +53,25 @@ def _figures(result: dict[str, Any], index: int) -> list[str]:
     part = result["parts"][index]
     faces, area = part["faces"], part["area"]
     short = f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k"
-    small = f"{area:.2g}" if area < 100 else f"{area:.4g}"
-    texts = [short, small, f"{part['convexity_rank']:.2f}"]
+    texts = [short, _area(area), f"{part['convexity_rank']:.2f}"]
     hulls = result.get("hulls", {}).get("hulls", ())
     errors = [hull["error"] for hull in hulls if hull["part"] == index]
     return [*texts, f"{max(errors):.2f}"] if errors else texts
 
 
+def _area(area: float) -> str:
+    """Return an area in as many signs as others have, so that columns line up."""
+    if area < 0.01:
+        return f"{area:.0e}"
+    return next(f"{area:.{n}f}" for n in (2, 1, 0) if area < 10 ** (3 - n) or n == 0)
+
+
 def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
-    """Draw columns of the same width, to the right."""
-    rest = layout
-    for left, text in zip(range(len(texts), 0, -1), texts, strict=True):
-        rest = rest.split(factor=1 / left, align=True) if left > 1 else rest
-        cell = rest.row()
-        cell.alignment = "RIGHT"
-        cell.label(text=text)
+    """Draw texts at the right."""
+    columns = layout.row(align=True)
+    columns.alignment = "RIGHT"
+    for text in texts:
+        columns.label(text=text)
 
 
 def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:

@@ -360,3 +360,12 @@ def test_points_have_parts_that_can_be_merged():
         bpy.ops.wcd.select_parts()
     with pytest.raises(RuntimeError, match="has no faces, only points"):
         bpy.ops.wcd.assign_faces()
+
+
+def test_hulls_of_former_parts_are_not_taken_for_those_of_new_ones(monkey):
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    hulls = record_of(monkey)["hulls"]["hulls"]
+    assert {hull["part"] for hull in hulls} == {0, 1, 2, 3}
+    bpy.ops.wcd.merge_parts()
+    hulls = record_of(monkey)["hulls"]["hulls"]
+    assert [hull["part"] for hull in hulls] == [None] * len(hulls)
