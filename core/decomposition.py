@@ -141,7 +141,7 @@ def describe(
     areas = np.bincount(parts, transfer.surface.areas, n_parts)
     return Decomposition(
         labels=labels,
-        areas=areas * visibility.unit_area,
+        areas=areas.astype(np.float64) * visibility.unit_area,
         face_counts=np.bincount(labels),
         ranks=visibility.ranked.tally(samples, n_parts).ranks(),
         psi_before=whole.psi(parameters.alpha),
