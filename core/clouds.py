@@ -58,9 +58,14 @@ class PointCloud:
     @property
     def center(self) -> NDArray[np.float64]:
         """Center of the bounding box, (3,)."""
-        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        low, high = self.bounds
         center: NDArray[np.float64] = (low + high) / 2
         return center
+
+    @property
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest corner of the box around the points."""
+        return self.points.min(axis=0), self.points.max(axis=0)
 
     @property
     def diagonal(self) -> float:

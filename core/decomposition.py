@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,20 +112,49 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
             partitioner, parameters.min_parts, parameters.max_parts
         )
     parts, psi_by_k, best_k = yield from search
-    parts = _by_size(parts, surface)
-    samples = visibility.transfer.to_samples(parts)
-    ranks = visibility.ranked.tally(samples, count(parts)).ranks()
-    labels = parts[visibility.form.nodes]
+    labels = _by_size(parts, surface)[visibility.form.nodes]
+    found = describe(visibility, labels, parameters, psi_by_k, best_k)
+    return replace(found, notes=found.notes + _notes_on_count(parameters, psi_by_k))
+
+
+def describe(
+    visibility: Visibility,
+    labels: NDArray[np.int64],
+    parameters: Parameters,
+    psi_by_k: dict[int, float],
+    best_k: int,
+) -> Decomposition:
+    """Return the figures of given parts.
+
+    Parameters
+    ----------
+    visibility : Visibility
+        Of the shape.
+    labels : (P,) int
+        Part of each polygon, or point, in 0…K − 1, each used; kept as they are.
+    parameters : Parameters
+        Whose alpha weights psi.
+    psi_by_k : dict of int to float
+        Psi for the numbers of parts that were tried.
+    best_k : int
+        The number among them that a search chooses.
+    """
+    n_parts, transfer = count(labels), visibility.transfer
+    parts = visibility.form.labels_of_nodes(labels)
+    samples = transfer.to_samples(parts)
+    pairs = visibility.pairs
+    whole = pairs.tally(np.zeros_like(samples), 1)
+    areas = np.bincount(parts, transfer.surface.areas, n_parts)
     return Decomposition(
         labels=labels,
-        areas=surface.areas_of(parts) * visibility.unit_area,
-        face_counts=np.bincount(labels, minlength=count(parts)),
-        ranks=ranks,
-        psi_before=psi_by_k[1],
-        psi=partitioner.psi(parts),
+        areas=areas.astype(np.float64) * visibility.unit_area,
+        face_counts=np.bincount(labels),
+        ranks=visibility.ranked.tally(samples, n_parts).ranks(),
+        psi_before=whole.psi(parameters.alpha),
+        psi=pairs.tally(samples, n_parts).psi(parameters.alpha),
         psi_by_k=psi_by_k,
         best_k=best_k,
-        notes=visibility.form.notes + _notes_on_count(parameters, psi_by_k),
+        notes=visibility.form.notes,
         normals=visibility.form.normals,
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,8 @@ class Form:
     Attributes
     ----------
     targets : TriangleMesh
-        What rays are cast at and samples lie on. Its polygons are nodes of `surface`.
+        What rays are cast at and samples lie on. Its polygons are nodes of `surface`,
+        those beyond it carry no samples.
     surface : callable
         Returns the graph that labels move along.
     nodes : (F,) int
@@ -54,6 +55,37 @@ class Form:
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
     plane: NDArray[np.float64] | None = None
+
+    def labels_of_nodes(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the label of each node from those of polygons or points, (F,)."""
+        found = np.zeros(int(self.nodes.max()) + 1, dtype=np.int64)
+        found[self.nodes] = labels
+        return found
+
+    def part(self, members: NDArray[np.bool_]) -> Form:
+        """Return the form of some polygons, or points, seen through the whole shape.
+
+        Parameters
+        ----------
+        members : (F,) bool
+
+        Returns
+        -------
+        Form
+            Rays are cast at all `targets`; samples, surface and nodes are those of the
+            members alone.
+        """
+        whole = self.surface()
+        kept = np.unique(self.nodes[members])
+        places = np.full(whole.n_polygons, len(kept))
+        places[kept] = np.arange(len(kept))
+        return replace(
+            self,
+            targets=replace(self.targets, polygons=places[self.targets.polygons]),
+            surface=lambda: whole.part(kept),
+            nodes=places[self.nodes[members]],
+            normals=None if self.normals is None else self.normals[members],
+        )
 
 
 def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:

@@ -134,7 +134,9 @@ def _places(
     visibility: Visibility, parameters: Parameters, labels: NDArray[np.int64]
 ) -> NDArray[np.float64]:
     """Return the coordinates of samples that told this number of parts apart."""
-    return visibility.embedding(parameters)[:, : max(2, int(labels.max()) + 1)]
+    n_coordinates = max(2, int(labels.max()) + 1)
+    stochastic = parameters.normalization == "STOCHASTIC"
+    return visibility.embedding(n_coordinates, stochastic)[:, :n_coordinates]
 
 
 def _by_part(labels: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -96,6 +96,23 @@ class Surface:
         )
         return borders.tocsr()
 
+    def part(self, kept: NDArray[np.int64]) -> Surface:
+        """Return the surface of some polygons, rows in ascending order."""
+        places = np.full(self.n_polygons, -1)
+        places[kept] = np.arange(len(kept))
+        neighbors, links = places[self.neighbors], places[self.links]
+        within = (neighbors >= 0).all(axis=1)
+        return Surface(
+            self.areas[kept],
+            self.centers[kept],
+            self.normals[kept],
+            neighbors[within],
+            self.lengths[within],
+            self.bends[within],
+            links[(links >= 0).all(axis=1)],
+            None if self.outline is None else self.outline[kept],
+        )
+
     def linked(self, links: NDArray[np.int64]) -> Surface:
         """Return the surface with links (L, 2) between polygons that touch."""
         return replace(self, links=links)

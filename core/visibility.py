@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-from dataclasses import dataclass, field, fields, replace
-from hashlib import blake2b
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +12,6 @@ from .containers import Grid, find_enclosed, see_through
 from .convexity import KnownPairs, Matrix
 from .errors import DecompositionError
 from .form import Form, Shape, form_of
-from .knobs import knob_of
 from .memory import Memory
 from .parameters import Parameters
 from .progress import Progress, Steps, within
@@ -104,7 +100,12 @@ class Visibility:
         )
 
 
-def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps[Sight]:
+def look(
+    shape: Shape,
+    parameters: Parameters,
+    make_caster: MakeCaster,
+    members: NDArray[np.bool_] | None = None,
+) -> Steps[Sight]:
     """Sample the surface of `shape` and find the lines of sight between samples.
 
     Parameters
@@ -115,6 +116,9 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
     make_caster : callable
         Returns a RayCaster for the mesh it is given: `shape` centered, scaled and
         oriented, with its shells set apart, or the splats of its points.
+    members : (P,) bool, optional
+        Polygons, or points of a cloud, that samples lie on; all of them if left out.
+        Lines of sight run through the whole shape.
 
     Returns
     -------
@@ -127,13 +131,11 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
         where faces are the samples.
     """
     form = yield from within(form_of(shape, make_caster), 0.0, 0.01)
+    if members is not None:
+        form = form.part(members)
     yield Progress("Samples", 0.01)
     rng = np.random.default_rng(parameters.seed)
-    if parameters.sampling == "FACES":
-        samples = sample_faces(form.targets)
-        _check_number(samples, parameters)
-    else:
-        samples = sample_surface(form.targets, parameters.samples, rng)
+    samples = _samples(form, parameters, rng)
     yield Progress("Ray tree", 0.01)
     scene = Scene(form.targets, make_caster(form.targets), form.grain)
     views = viewpoints(scene, samples)
@@ -157,10 +159,13 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
 
 
 def see(
-    shape: Shape, parameters: Parameters, make_caster: MakeCaster
+    shape: Shape,
+    parameters: Parameters,
+    make_caster: MakeCaster,
+    members: NDArray[np.bool_] | None = None,
 ) -> Steps[Visibility]:
     """Return the visibility of `shape`; parameters and errors are those of `look`."""
-    sight = yield from within(look(shape, parameters, make_caster), 0.0, 0.8)
+    sight = yield from within(look(shape, parameters, make_caster, members), 0.0, 0.8)
     ranked = sight.pairs
     if parameters.containers == "FILLED" and sight.form.plane is None:
         sight = yield from within(_through_containers(sight), 0.8, 0.9)
@@ -180,23 +185,25 @@ def see(
     )
 
 
-def visibility_key(shape: Shape, parameters: Parameters) -> Hashable:
-    """Return what is the same for two calls of `see` only if their values are.
-
-    Everything of `shape` counts, and every parameter that is no `recut`.
-    """
-    digest = blake2b()
-    for each in fields(shape):
-        array: NDArray[Any] | None = getattr(shape, each.name)
-        digest.update(f"{each.name} {None if array is None else array.shape}".encode())
-        if array is not None:
-            digest.update(np.ascontiguousarray(array).data)
-    values = tuple(
-        getattr(parameters, each.name)
-        for each in fields(parameters)
-        if not knob_of(each).recut
-    )
-    return type(shape), digest.digest(), values
+def _samples(form: Form, parameters: Parameters, rng: np.random.Generator) -> Samples:
+    """Return samples of those targets that are nodes of the form."""
+    sampled = np.flatnonzero(form.targets.polygons <= form.nodes.max(initial=-1))
+    mesh = form.targets
+    if len(sampled) < len(mesh.triangles):
+        if mesh.areas[sampled].sum() <= 0:
+            raise DecompositionError(
+                "The part has no surface that lines of sight could start from; choose"
+                " another one."
+            )
+        mesh = replace(
+            mesh, triangles=mesh.triangles[sampled], polygons=mesh.polygons[sampled]
+        )
+    if parameters.sampling == "FACES":
+        samples = sample_faces(mesh)
+        _check_number(samples, parameters)
+    else:
+        samples = sample_surface(mesh, parameters.samples, rng)
+    return replace(samples, triangles=sampled[samples.triangles])
 
 
 def _check_number(samples: Samples, parameters: Parameters) -> None:

@@ -2,8 +2,16 @@
 
 import bpy
 
-from . import command_line, modal, recut, show_sight, use_parts
-from .bridge import visibility_cache
+from . import (
+    command_line,
+    edit_parts,
+    modal,
+    recut,
+    show_parts,
+    show_sight,
+    use_parts,
+)
+from .bridge import rows, visibility_cache
 from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
@@ -24,16 +32,19 @@ CLASSES = (
     *use_parts.CLASSES,
     *show_sight.CLASSES,
     WCD_OT_show_picture,
+    *edit_parts.CLASSES,
+    *show_parts.CLASSES,
 )
 
 
 def register() -> None:
-    """Register the operators, the command and the cache."""
+    """Register the operators, the command, the cache and the table's rows."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     command_line.register()
     visibility_cache.register()
     show_sight.register()
+    rows.register()
 
 
 def unregister() -> None:
@@ -41,6 +52,7 @@ def unregister() -> None:
     recut.stop()
     modal.stop()
     show_sight.unregister()
+    rows.unregister()
     visibility_cache.unregister()
     command_line.unregister()
     for cls in reversed(CLASSES):

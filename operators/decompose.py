@@ -8,13 +8,13 @@ import bpy
 
 from ..core.progress import Steps
 from ..ui.properties import ADVANCED, FRONT, annotations, draw, parameters_from
-from .bridge.computing import decompose_object, summary
+from .bridge.computing import summary
+from .bridge.locking import decompose_unlocked
 from .bridge.target import refusal
-from .bridge.write import write_parts
 from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.decomposition import Decomposition
+    from .bridge.editing import Edited
 
 
 class WCD_OT_decompose(Computation, bpy.types.Operator):
@@ -47,13 +47,12 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Decomposition]:
-        self._parameters = parameters_from(self)
-        return decompose_object(obj, self._parameters)
+    ) -> Steps[Edited]:
+        return decompose_unlocked(obj, parameters_from(self))
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> str:
-        write_parts(obj, value, self._parameters)
-        return summary(value)
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        value.write(obj)
+        return summary(value.decomposition)
 
 
 WCD_OT_decompose.__annotations__ = annotations()

@@ -14,14 +14,14 @@ from ..core.parameters import Parameters
 from ..core.progress import Steps
 from ..ui.properties import annotations, parameters_from
 from . import modal
-from .bridge.computing import decompose_object, is_quick, summary
+from .bridge.computing import is_quick, summary
+from .bridge.locking import decompose_unlocked
 from .bridge.record import noted_parameters
 from .bridge.target import refusal
-from .bridge.write import write_parts
 from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.decomposition import Decomposition
+    from .bridge.editing import Edited
 
 # Seconds that a slider may wait for parts; what takes longer goes on modally.
 _MOMENT = 0.3
@@ -48,15 +48,15 @@ class _Recut(Computation):
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Decomposition]:
-        self._parameters = self._wanted(context)
-        if not is_quick(obj, self._parameters):
+    ) -> Steps[Edited]:
+        parameters = self._wanted(context)
+        if not is_quick(obj, parameters):
             self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
-        return decompose_object(obj, self._parameters)
+        return decompose_unlocked(obj, parameters)
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> str:
-        write_parts(obj, value, self._parameters)
-        return summary(value)
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        value.write(obj)
+        return summary(value.decomposition)
 
 
 class WCD_OT_recut(_Recut, bpy.types.Operator):
@@ -94,9 +94,9 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
             return True
         if not (bpy.app.background or is_quick(obj, parameters)):
             return False
-        job = Job(decompose_object(obj, parameters))
+        job = Job(decompose_unlocked(obj, parameters))
         if job.advance(math.inf if bpy.app.background else _MOMENT):
-            write_parts(obj, job.result(), parameters)
+            job.result().write(obj)
         job.cancel()
         return job.done
 
@@ -129,7 +129,7 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         return replace(super()._wanted(context), parts=self.parts)
 
-    def _commit(self, obj: bpy.types.Object, value: Decomposition) -> str:
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
         bpy.context.scene.wcd.parts = self.parts
         return super()._commit(obj, value)
 

@@ -4,6 +4,7 @@ import bpy
 
 _FIELDS = {"FLOAT_VECTOR": "vector", "FLOAT2": "vector", "FLOAT_COLOR": "color"}
 _FIELDS["BYTE_COLOR"] = "color"
+_DEFINED = {"wcd_parts", "wcd_active_part"}
 
 
 def snapshot(obj):
@@ -29,6 +30,8 @@ def _object(obj):
         "active_slot": obj.active_material_index,
         "groups": [(g.name, g.index, g.lock_weight) for g in obj.vertex_groups],
         "active_group": obj.vertex_groups.active_index,
+        "rows": [(r.name, r.number, r.chosen, r.locked) for r in obj.wcd_parts],
+        "active_row": obj.wcd_active_part,
         "modifiers": [(m.name, m.type) for m in obj.modifiers],
     }
 
@@ -66,7 +69,9 @@ def _material(material):
 
 
 def _properties(owner):
-    return {key: _plain(owner[key]) for key in owner.keys()}  # noqa: SIM118 - no dict
+    # Before 5.0, Blender keeps what add-ons define among them: see "rows".
+    keys = set(owner.keys()) - _DEFINED
+    return {key: _plain(owner[key]) for key in sorted(keys)}
 
 
 def _plain(value):

@@ -6,13 +6,16 @@ from . import menus
 from .chart import WCD_PT_chart
 from .menus import WCD_MT_parts
 from .panels import WCD_PT_advanced, WCD_PT_hulls, WCD_PT_main, WCD_PT_parts
+from .parts_table import WCD_PT_edit, WCD_UL_parts
 from .properties import WCD_PG_settings
 from .use_panel import WCD_PT_use, WCD_PT_why
 
 CLASSES = (
     WCD_PG_settings,
     WCD_PT_main,
+    WCD_UL_parts,
     WCD_PT_parts,
+    WCD_PT_edit,
     WCD_PT_chart,
     WCD_PT_use,
     WCD_PT_why,

@@ -2,30 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import textwrap
 from typing import Any, ClassVar
 
 import bpy
 
 from . import running
+from .parts_table import draw_table
 from .properties import ADVANCED, ALL, FRONT, HULLS, MEASURE, draw, hand_over
 from .running import Running
+from .sidebar import Sidebar, result_of
 
 # Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
 _MARGINS = 80
 _LETTER = 6
-
-
-def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
-    """Return what was noted on an object, empty if nothing or not ours."""
-    if obj is None:
-        return {}
-    try:
-        result = json.loads(obj.get("wcd", "{}"))
-    except (TypeError, ValueError):
-        return {}
-    return result if isinstance(result, dict) and "version" in result else {}
 
 
 def notes_of(result: dict[str, Any]) -> list[str]:
@@ -36,14 +26,6 @@ def notes_of(result: dict[str, Any]) -> list[str]:
     results = (result, result.get("measured", {}), result.get("hulls", {}))
     notes = [note for noted in results for note in noted.get("notes", ())]
     return list(dict.fromkeys(notes))
-
-
-class Sidebar:
-    """Where panels of the tab are."""
-
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Convex Parts"
 
 
 class WCD_PT_main(Sidebar, bpy.types.Panel):
@@ -105,15 +87,7 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
         if "parts" not in result:
             return
         line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
-        box = layout.box().column(align=True)
-        _columns(box.row(), None, "Part", "Faces", "Rank")
-        materials = {
-            material.name: material for material in obj.data.materials if material
-        }
-        for part in result["parts"]:
-            rank = f"{part['convexity_rank']:.2f}"
-            material = materials.get(part["material"])
-            _columns(box.row(), material, part["name"], f"{part['faces']:,}", rank)
+        draw_table(layout, obj)
 
 
 class WCD_PT_hulls(Sidebar, bpy.types.Panel):
@@ -162,7 +136,7 @@ class WCD_PT_advanced(Sidebar, bpy.types.Panel):
 def _columns(
     row: bpy.types.UILayout, material: Any, name: str, faces: str, rank: str
 ) -> None:
-    """Draw a row of the list of parts, or its heading."""
+    """Draw a row of the list of hulls, or its heading."""
     split = row.split(factor=0.14)
     if material:
         split.prop(material, "diffuse_color", text="")

@@ -184,7 +184,7 @@ def build_hulls_of(
     return _prepared(reading_notes(obj), work())
 
 
-def _load_libraries() -> Steps[None]:
+def load_libraries() -> Steps[None]:
     """Load what the core needs: a second that enabling the add-on must not take.
 
     Once in a session, and one library after the other, so that a window stays alive.
@@ -206,7 +206,7 @@ def hull_summary(found: HullDecomposition) -> str:
 
 def _prepared(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
     """Load what `steps` need, run them and put `notes` before those of their value."""
-    yield from _load_libraries()
+    yield from load_libraries()
     value = yield from steps
     return replace(value, notes=(*notes, *value.notes))
 

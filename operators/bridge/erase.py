@@ -15,6 +15,7 @@ from .record import (
     read_restore,
     write_restore,
 )
+from .rows import erase_rows
 
 PART_LAYER = "wcd_part"
 MATERIAL_LAYER = "wcd_material_index"
@@ -73,6 +74,7 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     for sharer in sharers(mesh):
         if sharer.is_editable:
             forget_parts(sharer)
+            erase_rows(sharer)
     return materials
 
 

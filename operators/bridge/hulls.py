@@ -13,10 +13,11 @@ from ...core.errors import DecompositionError
 from ...core.hull_names import hull_names
 from ...core.hull_parameters import HullParameters
 from .beside import new_collection
+from .identity import usual_identities
 from .materials import part_materials
 from .points import is_cloud
 from .read import stretch
-from .record import write_hull_record
+from .record import identities_of, record_of, write_hull_record
 from .target import refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -58,7 +59,9 @@ def write_hulls(
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
     collection[_TAG] = True
-    materials = part_materials(int(found.parts.max()) + 1, [])
+    n_parts = int(found.parts.max()) + 1
+    identities = identities_of(record_of(obj)) or usual_identities(n_parts)
+    materials = part_materials(identities, [])
     scale = stretch(obj)
     hulls = []
     for row, name in enumerate(names):
@@ -68,8 +71,8 @@ def write_hulls(
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
-    entries = [{"name": h.name, **_figures(found, row)} for row, h in enumerate(hulls)]
-    write_hull_record(obj, found, parameters, entries)
+    figures = [{"name": h.name, **_figures(found, row)} for row, h in enumerate(hulls)]
+    write_hull_record(obj, found, parameters, figures)
     return hulls
 
 

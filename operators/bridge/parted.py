@@ -10,7 +10,7 @@ from .erase import PART_LAYER
 from .layers import layers_of
 from .materials import part_name
 from .points import is_cloud
-from .record import has_parts, part_records, read_restore
+from .record import has_parts, read_restore, record_of
 from .target import refusal
 
 
@@ -49,5 +49,5 @@ def part_labels(obj: bpy.types.Object) -> NDArray[np.int64] | None:
 
 def part_names(obj: bpy.types.Object, n_parts: int) -> list[str]:
     """Return what the parts of an object are called, the first ones as noted."""
-    noted = [part["name"] for part in part_records(obj)]
+    noted = [part["name"] for part in record_of(obj).get("parts", ())]
     return (noted + [part_name(part) for part in range(len(noted), n_parts)])[:n_parts]

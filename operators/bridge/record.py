@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import tomllib
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,8 @@ import bpy
 from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
+from ...core.record import parse_json, parse_record
+from .identity import Identity
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition, Measurement
@@ -80,15 +83,27 @@ def has_record(obj: bpy.types.Object) -> bool:
     return _RESULT in obj or _RESTORE in obj.data
 
 
+def record_of(obj: bpy.types.Object) -> dict[str, Any]:
+    """Return what is noted on an object, empty if nothing is."""
+    return _read(obj, _RESULT)
+
+
+def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
+    """Return the identities of a record's parts, in their order."""
+    return tuple(
+        Identity(part.get("number", place), part["name"])
+        for place, part in enumerate(record.get("parts", ()))
+    )
+
+
+def write_record(obj: bpy.types.Object, record: dict[str, Any]) -> None:
+    """Note a changed record on its object."""
+    _write(obj, _RESULT, record)
+
+
 def has_parts(obj: bpy.types.Object) -> bool:
     """Return whether the mesh of an object has parts of ours."""
     return _RESTORE in obj.data
-
-
-def part_records(obj: bpy.types.Object) -> list[dict[str, Any]]:
-    """Return what is noted of each part, nothing if another object has the record."""
-    parts: list[dict[str, Any]] = _read(obj, _RESULT).get("parts", [])
-    return parts
 
 
 def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
@@ -113,12 +128,12 @@ def write_result(
     obj: bpy.types.Object,
     decomposition: Decomposition,
     parameters: Parameters,
-    groups: list[str],
+    identities: Sequence[Identity],
     materials: list[str],
 ) -> None:
     """Note a decomposition on its object, keeping all else."""
     parts = zip(
-        groups,
+        identities,
         materials,
         decomposition.face_counts.tolist(),
         decomposition.areas.tolist(),
@@ -136,17 +151,21 @@ def write_result(
         "best_k": decomposition.best_k,
         "parts": [
             {
-                "name": group,
+                "name": identity.name,
+                "number": identity.number,
                 "material": material,
                 "faces": faces,
                 "area": area,
                 "convexity_rank": rank,
             }
-            for group, material, faces, area, rank in parts
+            for identity, material, faces, area, rank in parts
         ],
         "notes": list(decomposition.notes),
     }
-    _write(obj, _RESULT, {**result, **_beside_parts(obj)})
+    beside = _beside_parts(obj)
+    for hull in beside.get(_HULLS, {}).get("hulls", ()):
+        hull["part"] = None  # it is around one of the parts that were before
+    _write(obj, _RESULT, {**result, **beside})
 
 
 def write_measurement(
@@ -219,11 +238,9 @@ def _read(owner: bpy.types.ID, key: str) -> dict[str, Any]:
     """Return one of our records, empty if there is none."""
     if key not in owner:
         return {}
-    try:
-        noted = json.loads(owner[key])
-    except (TypeError, ValueError):
-        noted = None
-    if not isinstance(noted, dict) or (key == _RESULT and "version" not in noted):
+    parse = parse_record if key == _RESULT else parse_json
+    noted = parse(owner[key])
+    if noted is None:
         raise _not_ours(owner, key)
     return noted
 

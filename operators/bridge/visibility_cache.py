@@ -25,7 +25,8 @@ _latest: dict[Hashable, Visibility] = {}
 
 def see_once(shape: Shape, parameters: Parameters) -> Steps[Visibility]:
     """Return the visibility of a shape: the latest one if it is the same."""
-    from ...core.visibility import see, visibility_key
+    from ...core.visibility import see
+    from ...core.visibility_key import visibility_key
 
     key = visibility_key(shape, parameters)
     if key not in _latest:
@@ -39,7 +40,7 @@ def is_seen(shape: Shape, parameters: Parameters) -> bool:
     """Return whether the latest visibility is that of a shape."""
     if not _latest:  # nor are the libraries loaded
         return False
-    from ...core.visibility import visibility_key
+    from ...core.visibility_key import visibility_key
 
     return visibility_key(shape, parameters) in _latest
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
@@ -18,11 +19,13 @@ from .erase import (
     PART_LAYER,
     erase_parts,
 )
+from .identity import Identity, usual_identities
 from .layers import IntArray, layers_of
-from .materials import discard_unused, part_materials, part_name, points_material
+from .materials import discard_unused, part_materials, points_material
 from .palette import part_color
 from .points import count_points, is_cloud, set_points
 from .record import Restore, check_records, read_restore, write_restore, write_result
+from .rows import kept_rows, write_rows
 from .showing import show, shown
 from .target import refusal
 
@@ -31,11 +34,15 @@ if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
 
 
 def write_parts(
-    obj: bpy.types.Object, decomposition: Decomposition, parameters: Parameters
+    obj: bpy.types.Object,
+    decomposition: Decomposition,
+    parameters: Parameters,
+    kept: tuple[Identity, ...] | None = None,
 ) -> None:
     """Show a decomposition on its object, in place of an earlier one.
 
-    Everything is checked before anything is written.
+    Everything is checked before anything is written. Parts that have been there before
+    are given by the identities `kept` of all; they keep names, colors, ticks and locks.
 
     Raises
     ------
@@ -50,17 +57,24 @@ def write_parts(
             "The mesh was changed while it was decomposed; start again."
         )
     also_shown = shown(obj)
+    identities = kept or usual_identities(decomposition.n_parts)
+    rows = kept_rows(obj) if kept else {}
     former = erase_parts(obj)
-    restore = _write_mesh(obj, decomposition)
+    restore = _write_mesh(obj, decomposition, identities)
     if is_cloud(obj):
-        _write_points(obj, decomposition)
+        _write_points(obj, decomposition, identities)
     write_restore(obj.data, restore)
-    n_parts = decomposition.n_parts
-    names = restore.groups or [part_name(part) for part in range(n_parts)]
+    if restore.groups:
+        identities = tuple(
+            replace(identity, name=group)
+            for identity, group in zip(identities, restore.groups, strict=True)
+        )
+    n_parts = len(identities)
     materials = [material.name for material in obj.data.materials[-n_parts:]]
     if is_cloud(obj):
         materials = materials[-1:] * n_parts
-    write_result(obj, decomposition, parameters, names, materials)
+    write_result(obj, decomposition, parameters, identities, materials)
+    write_rows(obj, identities, rows)
     show(obj, *also_shown)
     discard_unused(former)
 
@@ -86,7 +100,11 @@ def check_writable(obj: bpy.types.Object) -> None:
             )
 
 
-def _write_mesh(obj: bpy.types.Object, decomposition: Decomposition) -> Restore:
+def _write_mesh(
+    obj: bpy.types.Object,
+    decomposition: Decomposition,
+    identities: Sequence[Identity],
+) -> Restore:
     """Write parts to a mesh that has none; return how to bring it back."""
     mesh = obj.data
     before = layers_of(obj).material_indices()
@@ -96,8 +114,8 @@ def _write_mesh(obj: bpy.types.Object, decomposition: Decomposition) -> Restore:
     active_slot = obj.active_material_index
     groups = []
     if obj.type == "MESH":  # Blender gives point cloud objects no groups
-        groups = _add_groups(obj, decomposition.n_parts, active_group)
-    for material in _materials(obj, decomposition.n_parts, slots):
+        groups = _add_groups(obj, identities, active_group)
+    for material in _materials(obj, identities, slots):
         mesh.materials.append(material)
     obj.active_material_index = active_slot
     layers = layers_of(obj)
@@ -120,26 +138,32 @@ def _write_mesh(obj: bpy.types.Object, decomposition: Decomposition) -> Restore:
     )
 
 
-def _add_groups(obj: bpy.types.Object, n_parts: int, active: str) -> list[str]:
+def _add_groups(
+    obj: bpy.types.Object, identities: Sequence[Identity], active: str
+) -> list[str]:
     """Add a group for each part, keep a group active; return the names given."""
     groups = obj.vertex_groups
-    names = [groups.new(name=part_name(part)).name for part in range(n_parts)]
+    names = [groups.new(name=identity.name).name for identity in identities]
     groups.active_index = groups[active].index if active else 0
     return names
 
 
 def _materials(
-    obj: bpy.types.Object, n_parts: int, slots: list[str]
+    obj: bpy.types.Object, identities: Sequence[Identity], slots: list[str]
 ) -> list[bpy.types.Material]:
     """Return what shows the parts: a material for each, or one for all points."""
     if is_cloud(obj):
         return [points_material(COLOR_LAYER, slots)]
-    return part_materials(n_parts, slots)
+    return part_materials(identities, slots)
 
 
-def _write_points(obj: bpy.types.Object, decomposition: Decomposition) -> None:
+def _write_points(
+    obj: bpy.types.Object,
+    decomposition: Decomposition,
+    identities: Sequence[Identity],
+) -> None:
     """Write what is on points alone: colors, and normals that were found."""
-    palette = np.array([part_color(part) for part in range(decomposition.n_parts)])
+    palette = np.array([part_color(identity.number) for identity in identities])
     set_points(obj, COLOR_LAYER, "FLOAT_COLOR", palette[decomposition.labels])
     if decomposition.normals is not None:
         set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from ...core.parameters import Parameters
 from ...core.progress import Progress, mapped, run
 from ..bridge.computing import build_hulls_of, hull_summary
 from ..bridge.hulls import write_hulls
+from ..bridge.record import record_of
 from .hull_files import save_hulls
 from .parts import ObjectResult
 from .screen import Screen
@@ -46,7 +46,7 @@ def build_and_save(
             with_hulls.append(result)
             continue
         hulls += _hulls(obj, parameters, screen)
-        with_hulls.append(replace(result, record=json.loads(obj["wcd"])))
+        with_hulls.append(replace(result, record=record_of(obj)))
     save_hulls(path, hulls, up)
     return tuple(with_hulls)
 

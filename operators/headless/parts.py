@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from ...core.parameters import Parameters
 from ...core.progress import Progress, mapped, run
 from ..bridge.computing import decompose_object, summary
 from ..bridge.points import is_cloud
+from ..bridge.record import record_of
 from ..bridge.write import write_parts
 from .screen import Screen
 
@@ -93,7 +93,7 @@ def _decompose(
         return ObjectResult(obj.name_full, error=str(error))
     return ObjectResult(
         obj.name_full,
-        record=json.loads(obj["wcd"]),
+        record=record_of(obj),
         summary=summary(decomposition),
         notes=decomposition.notes,
         seconds=time.perf_counter() - started,

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from ..bridge.erase import NORMAL_LAYER, PART_LAYER
+from ..bridge.identity import usual_identities
 from ..bridge.materials import part_materials
 from ..bridge.points import count_points, normals_of, positions_of, read_vectors
 
@@ -26,7 +27,7 @@ def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
     mesh.from_pydata(targets.vertices, [], targets.triangles.tolist())
     parts = np.empty(count_points(obj), dtype=np.int32)
     obj.data.attributes[PART_LAYER].data.foreach_get("value", parts)
-    for material in part_materials(int(parts.max()) + 1, []):
+    for material in part_materials(usual_identities(int(parts.max()) + 1), []):
         mesh.materials.append(material)
     mesh.polygons.foreach_set("material_index", parts[kept])
     return mesh

@@ -11,7 +11,7 @@ from weak_convex_decomposition.core.decomposition import decompose, find_parts
 from weak_convex_decomposition.core.knobs import knob_of
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.visibility import visibility_key
+from weak_convex_decomposition.core.visibility_key import visibility_key
 
 BEFORE = Parameters(samples=120, max_parts=5)
 # A value of each parameter that changes what comes out.

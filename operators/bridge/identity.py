@@ -1,0 +1,87 @@
+"""What a part keeps when others are merged, split or renamed: number and name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import bpy
+
+
+@dataclass(frozen=True)
+class Identity:
+    """What tells a part from others, whatever its place among them.
+
+    Attributes
+    ----------
+    number : int
+        Of its color, counted from 0.
+    name : str
+        Of its vertex group, material and entry in the record.
+    """
+
+    number: int
+    name: str
+
+
+def part_name(number: int) -> str:
+    """Return the name of a part, counted from 0, as the user sees it."""
+    return f"Part {number + 1:02d}"
+
+
+def usual_identities(n_parts: int) -> tuple[Identity, ...]:
+    """Return the identities of parts that were never edited."""
+    return tuple(Identity(number, part_name(number)) for number in range(n_parts))
+
+
+def identities_after(
+    before: Sequence[Identity], former: Sequence[int], mirrored: Mapping[int, int]
+) -> list[Identity]:
+    """Return who the parts are after an edit.
+
+    Parameters
+    ----------
+    before : sequence of Identity
+        Of the K parts that were there.
+    former : sequence of int
+        What each part was: one of these, or new from K on. New ones get the lowest
+        numbers that are free.
+    mirrored : mapping of int to int
+        New parts that are mirror images, and of which part: they are named for the
+        other side.
+
+    Returns
+    -------
+    list of Identity
+        One for each of `former`.
+    """
+    found = {label: before[label] for label in former if label < len(before)}
+    gone = {each.name: each for each in before if each not in found.values()}
+    names = {
+        image: bpy.utils.flip_name(found[label].name)
+        for image, label in mirrored.items()
+    }
+    # Mirror images take the place of those that have been there.
+    found |= {label: gone[name] for label, name in names.items() if name in gone}
+    taken = {each.number for each in found.values()}
+    for label in former:
+        if label not in found:
+            free = next(n for n in range(len(taken) + 1) if n not in taken)
+            taken.add(free)
+            found[label] = Identity(free, names.get(label) or part_name(free))
+    return [found[label] for label in former]
+
+
+def with_sides(
+    identities: Sequence[Identity], sources: Iterable[int], side: str
+) -> tuple[Identity, ...]:
+    """Return identities, those of `sources` named for a side, "L" or "R".
+
+    A name that tells a side already stays.
+    """
+    named = list(identities)
+    for label in sources:
+        name = named[label].name
+        if bpy.utils.flip_name(name) == name:
+            named[label] = Identity(named[label].number, f"{name}.{side}")
+    return tuple(named)

@@ -1,0 +1,47 @@
+"""The 3D viewport moved to what there is to see."""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+import numpy as np
+from mathutils import Vector
+from numpy.typing import NDArray
+
+from .points import is_cloud, positions_of
+
+# Room around what is framed.
+_MARGIN = 1.1
+
+
+def points_of_parts(
+    obj: bpy.types.Object, members: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Return the points of some faces of an object, or of some points, in the world."""
+    places = positions_of(obj).astype(np.float64)
+    if is_cloud(obj):
+        places = places[members]
+    else:
+        mesh = obj.data
+        sizes = np.empty(len(mesh.polygons), dtype=np.int32)
+        mesh.polygons.foreach_get("loop_total", sizes)
+        corners = np.empty(len(mesh.loops), dtype=np.int32)
+        mesh.loops.foreach_get("vertex_index", corners)
+        places = places[corners[np.repeat(members, sizes)]]
+    world = np.array(obj.matrix_world)
+    return places @ world[:3, :3].T + world[:3, 3]
+
+
+def frame_points(space: bpy.types.SpaceView3D, points: NDArray[np.float64]) -> None:
+    """Move a view so that it shows points, from the side it shows now."""
+    if len(points) == 0:
+        return
+    region = space.region_3d
+    low, high = points.min(axis=0), points.max(axis=0)
+    radius = max(float(np.linalg.norm(high - low)) / 2, 10 * space.clip_start)
+    if region.view_perspective == "CAMERA":
+        region.view_perspective = "PERSP"
+    region.view_location = Vector((low + high) / 2)
+    # As wide as Blender's viewports see: their sensor has twice a camera's 36 mm.
+    region.view_distance = _MARGIN * radius / math.sin(math.atan(36 / space.lens))

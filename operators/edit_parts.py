@@ -1,0 +1,191 @@
+"""Change the parts of the active object by hand."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import bpy
+
+from ..core.errors import DecompositionError
+from ..core.progress import Steps
+from ..ui.properties import annotations
+from .bridge import edits
+from .bridge.computing import summary
+from .bridge.editing import edit_object
+from .bridge.points import is_cloud
+from .bridge.present_parts import parts_refusal
+from .bridge.rows import active_part, chosen_parts
+from .computation import Computation
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from .bridge.editing import Edited
+
+SCOPE = bpy.props.EnumProperty(
+    name="Seams Of",
+    description="Whose seams",
+    items=(
+        ("CHOSEN", "Chosen Parts", "Those ticked in the table, or the highlighted one"),
+        ("ALL", "All Parts", "All parts of the object"),
+    ),
+)
+
+
+def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
+    """Return the parts that a `SCOPE` means."""
+    return chosen_parts(obj) if scope == "CHOSEN" else list(range(len(obj.wcd_parts)))
+
+
+class _Edit(Computation):
+    """What edits of parts share."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return parts_refusal(obj)
+
+    @classmethod
+    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Return the active object, whose parts the table shows."""
+        return [context.active_object]
+
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        value.write(obj)
+        return summary(value.decomposition)
+
+
+class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
+    """Make one part of those that are ticked."""
+
+    bl_idname = "wcd.merge_parts"
+    bl_label = "Merge Convex Parts"
+    bl_description = (
+        "Make one part of those ticked in the table. It keeps the name and color of the"
+        " highlighted one, or of the first"
+    )
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = parts_refusal(obj)
+        if reason is None and len(chosen_parts(obj)) < 2:
+            reason = "Tick two or more parts in the table to merge them"
+        return reason
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Edited]:
+        chosen, into = chosen_parts(obj), active_part(obj)
+        change = edits.merging(chosen, into if into in chosen else chosen[0])
+        return edit_object(obj, change)
+
+
+class WCD_OT_split_parts(_Edit, bpy.types.Operator):
+    """Decompose single parts again."""
+
+    bl_idname = "wcd.split_parts"
+    bl_label = "Split Convex Parts"
+    bl_description = (
+        "Decompose the chosen parts again, each by itself: all samples are on it, so"
+        " that small ones come apart, such as the fingers of a hand"
+    )
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Edited]:
+        if self.parts == 1:
+            raise DecompositionError(
+                "One part is no split; choose 2 or more, or 0 to find the number."
+            )
+        return edit_object(obj, edits.splitting(chosen_parts(obj), self.parts))
+
+
+WCD_OT_split_parts.__annotations__ = {
+    "parts": bpy.props.IntProperty(
+        name="Parts",
+        description="Number of parts that each is split into; 0 searches for the one"
+        " of largest psi",
+        default=2,
+        min=0,
+        max=256,
+    )
+}
+
+
+class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
+    """Give the selected faces to the highlighted part."""
+
+    bl_idname = "wcd.assign_faces"
+    bl_label = "Assign Faces to Convex Part"
+    bl_description = "Give the selected faces to the highlighted part"
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = parts_refusal(obj)
+        if reason is None and is_cloud(obj):
+            reason = f"{obj.name} has no faces, only points"
+        if reason is None and obj.mode != "EDIT":
+            reason = "Faces are selected in Edit Mode; switch the mode"
+        return reason
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Edited]:
+        faces = edits.selected_faces(obj)
+        return edit_object(obj, edits.giving(faces, active_part(obj)))
+
+
+class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
+    """Make the seams of parts short and smooth."""
+
+    bl_idname = "wcd.smooth_seams"
+    bl_label = "Smooth Seams of Convex Parts"
+    bl_description = (
+        "Make the seams of parts shorter and smoother, along creases where there are"
+        " any, near to where they are"
+    )
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Edited]:
+        chosen = in_scope(obj, self.scope)
+        return edit_object(obj, edits.smoothing(chosen, self.smoothness))
+
+
+WCD_OT_smooth_seams.__annotations__ = {"scope": SCOPE, **annotations(["smoothness"])}
+
+
+class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):
+    """Copy the parts of one side to the other."""
+
+    bl_idname = "wcd.mirror_parts"
+    bl_label = "Mirror Convex Parts"
+    bl_description = (
+        "Copy the parts on one side of the object's X axis to the other: faces get the"
+        " part of their mirror image. Parts on one side alone are named .L and .R"
+    )
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Edited]:
+        change = edits.mirroring(self.direction == "TO_NEGATIVE")
+        return edit_object(obj, change)
+
+
+WCD_OT_mirror_parts.__annotations__ = {
+    "direction": bpy.props.EnumProperty(
+        name="Direction",
+        description="Which side's parts are copied",
+        items=(
+            ("TO_NEGATIVE", "+X to -X", "Copy the parts at positive X"),
+            ("TO_POSITIVE", "-X to +X", "Copy the parts at negative X"),
+        ),
+    )
+}
+
+CLASSES: tuple[Any, ...] = (
+    WCD_OT_merge_parts,
+    WCD_OT_split_parts,
+    WCD_OT_assign_faces,
+    WCD_OT_smooth_seams,
+    WCD_OT_mirror_parts,
+)

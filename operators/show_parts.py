@@ -1,0 +1,185 @@
+"""Select, isolate and view parts of the active object, and mark their seams."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+import numpy as np
+
+from ..core.errors import DecompositionError
+from .bridge.points import is_cloud
+from .bridge.present_parts import parts_refusal, present_parts
+from .bridge.rows import chosen_parts
+from .bridge.selection import (
+    boundary_edges,
+    hide_faces,
+    mark_seams,
+    select_edges,
+    select_faces,
+)
+from .bridge.viewing import frame_points, points_of_parts
+from .edit_parts import SCOPE, in_scope
+
+_EXTEND = bpy.props.BoolProperty(
+    name="Extend", description="Keep what is selected already", default=False
+)
+
+
+class _Show:
+    """What these operators share; `_show(obj)` does the work."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the active object has parts that this can be done to."""
+        reason = cls._refusal(context.active_object)
+        if reason:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = parts_refusal(obj)
+        if reason is None and is_cloud(obj):
+            reason = f"{obj.name} has no faces, only points"
+        return reason
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Do it."""
+        obj = context.active_object
+        try:
+            if obj.mode == "EDIT":
+                obj.update_from_editmode()
+            self._show(context, obj)
+        except DecompositionError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+def _members(obj: bpy.types.Object) -> np.ndarray:
+    """Return which faces, or points, are of the chosen parts."""
+    return np.isin(present_parts(obj).labels, chosen_parts(obj))
+
+
+class WCD_OT_select_parts(_Show, bpy.types.Operator):
+    """Select the faces of the chosen parts."""
+
+    bl_idname = "wcd.select_parts"
+    bl_label = "Select Convex Parts"
+    bl_description = (
+        "Select the faces of the parts ticked in the table, or of the highlighted one."
+        " In Object Mode the selection shows when Edit Mode is entered"
+    )
+
+    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        select_faces(obj, _members(obj), self.extend)
+
+
+WCD_OT_select_parts.__annotations__ = {"extend": _EXTEND}
+
+
+class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
+    """Hide the faces of all other parts, or show them again."""
+
+    bl_idname = "wcd.isolate_parts"
+    bl_label = "Isolate Convex Parts"
+    bl_description = (
+        "Hide the faces of all parts but those ticked in the table, or the highlighted"
+        " one"
+    )
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip of either button."""
+        return cls.bl_description if properties.hide else "Show all hidden faces again"
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = _Show._refusal(obj)
+        if reason is None and obj.mode != "EDIT":
+            reason = "Faces are hidden in Edit Mode alone; switch the mode"
+        return reason
+
+    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        members = _members(obj)
+        hide_faces(obj, ~members if self.hide else np.zeros_like(members))
+
+
+WCD_OT_isolate_parts.__annotations__ = {
+    "hide": bpy.props.BoolProperty(
+        name="Hide Others",
+        description="Hide the other parts; otherwise show all faces",
+        default=True,
+    )
+}
+
+
+class WCD_OT_frame_parts(_Show, bpy.types.Operator):
+    """Move the view to the chosen parts."""
+
+    bl_idname = "wcd.frame_parts"
+    bl_label = "Frame Convex Parts"
+    bl_description = (
+        "Move the view to the parts ticked in the table, or to the highlighted one"
+    )
+    bl_options: ClassVar[set[str]] = set()
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return parts_refusal(obj)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether there are parts, and a view to move."""
+        space = context.space_data
+        if space is None or space.type != "VIEW_3D":
+            cls.poll_message_set("There is no 3D viewport here")
+            return False
+        return super().poll(context)
+
+    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        points = points_of_parts(obj, _members(obj))
+        frame_points(context.space_data, points)
+
+
+class WCD_OT_select_boundary(_Show, bpy.types.Operator):
+    """Select the edges between parts."""
+
+    bl_idname = "wcd.select_boundary"
+    bl_label = "Select Boundary of Convex Parts"
+    bl_description = "Select the edges where parts meet"
+
+    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
+        select_edges(obj, boundary_edges(obj, labels, chosen), self.extend)
+
+
+WCD_OT_select_boundary.__annotations__ = {"scope": SCOPE, "extend": _EXTEND}
+
+
+class WCD_OT_mark_seams(_Show, bpy.types.Operator):
+    """Mark the edges between parts as seams, for unwrapping."""
+
+    bl_idname = "wcd.mark_seams"
+    bl_label = "Mark Seams of Convex Parts"
+    bl_description = "Mark the edges where parts meet as seams, for unwrapping"
+
+    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
+        mark_seams(obj, boundary_edges(obj, labels, chosen))
+
+
+WCD_OT_mark_seams.__annotations__ = {"scope": SCOPE}
+
+CLASSES: tuple[Any, ...] = (
+    WCD_OT_select_parts,
+    WCD_OT_isolate_parts,
+    WCD_OT_frame_parts,
+    WCD_OT_select_boundary,
+    WCD_OT_mark_seams,
+)

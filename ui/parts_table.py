@@ -1,0 +1,148 @@
+"""The table of parts in the sidebar, and the buttons that act on its rows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from .sidebar import Sidebar, result_of
+
+_ROWS = 6
+# Widths: of the color beside a button, and the share of the name in what is left.
+_SWATCH = 0.35
+_NAME = 0.38
+
+
+class WCD_UL_parts(bpy.types.UIList):
+    """A part a row: figures from the record, ticks and locks of the row."""
+
+    def draw_item(
+        self,
+        context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        obj: bpy.types.Object,
+        row: Any,
+        icon: int,
+        active_data: bpy.types.Object,
+        active_property: str,
+        index: int,
+    ) -> None:
+        """Draw a row."""
+        result = result_of(obj)
+        if index >= len(result.get("parts", ())):
+            return
+        part = result["parts"][index]
+        line = layout.row(align=True)
+        tick = "CHECKBOX_HLT" if row.chosen else "CHECKBOX_DEHLT"
+        line.prop(row, "chosen", text="", icon=tick, emboss=False)
+        material = obj.data.materials.get(part["material"])
+        swatch = line.row()
+        swatch.scale_x = _SWATCH
+        if material:
+            swatch.prop(material, "diffuse_color", text="")
+        split = line.split(factor=_NAME)
+        split.prop(row, "name", text="", emboss=False)
+        _numbers(split, *_figures(result, index))
+        lock = "LOCKED" if row.locked else "UNLOCKED"
+        line.prop(row, "locked", text="", icon=lock, emboss=False)
+
+
+def _figures(result: dict[str, Any], index: int) -> list[str]:
+    """Return the faces, area, convexity rank and hull error of a part, in short."""
+    part = result["parts"][index]
+    faces, area = part["faces"], part["area"]
+    short = f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k"
+    texts = [short, _area(area), f"{part['convexity_rank']:.2f}"]
+    hulls = result.get("hulls", {}).get("hulls", ())
+    errors = [hull["error"] for hull in hulls if hull["part"] == index]
+    return [*texts, f"{max(errors):.2f}"] if errors else texts
+
+
+def _area(area: float) -> str:
+    """Return an area in as many signs as others have, so that columns line up."""
+    if area < 0.01:
+        return f"{area:.0e}"
+    return next(f"{area:.{n}f}" for n in (2, 1, 0) if area < 10 ** (3 - n) or n == 0)
+
+
+def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
+    """Draw texts at the right."""
+    columns = layout.row(align=True)
+    columns.alignment = "RIGHT"
+    for text in texts:
+        columns.label(text=text)
+
+
+def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Draw the parts of an object."""
+    hulls = result_of(obj).get("hulls", {}).get("hulls", ())
+    heading = layout.row(align=True)
+    heading.label(text="", icon="BLANK1")
+    heading.label(text="", icon="BLANK1")
+    split = heading.split(factor=_NAME)
+    split.label(text="Part")
+    error = ("Hull",) if any(hull["part"] is not None for hull in hulls) else ()
+    _numbers(split, "Faces", "Area", "Rank", *error)
+    heading.label(text="", icon="BLANK1")
+    layout.template_list(
+        "WCD_UL_parts", "", obj, "wcd_parts", obj, "wcd_active_part", rows=_ROWS
+    )
+
+
+class WCD_PT_edit(Sidebar, bpy.types.Panel):
+    """What can be done to the rows of the table."""
+
+    bl_label = "Edit Parts"
+    bl_parent_id = "WCD_PT_parts"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether there are rows."""
+        obj = context.active_object
+        return obj is not None and bool(obj.wcd_parts)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        _buttons(
+            layout,
+            ("wcd.select_parts", "Select", {}),
+            ("wcd.isolate_parts", "Isolate", {"hide": True}),
+            ("wcd.isolate_parts", "Show All", {"hide": False}),
+            ("wcd.frame_parts", "Frame", {}),
+        )
+        column = layout.column(align=True)
+        _buttons(
+            column,
+            ("wcd.merge_parts", "Merge", {}),
+            ("wcd.assign_faces", "Assign Faces", {}),
+        )
+        _buttons(
+            column,
+            ("wcd.split_parts", "Split in Two", {"parts": 2}),
+            ("wcd.split_parts", "Split by ψ", {"parts": 0}),
+        )
+        _buttons(
+            column,
+            ("wcd.mirror_parts", "Mirror to -X", {"direction": "TO_NEGATIVE"}),
+            ("wcd.mirror_parts", "Mirror to +X", {"direction": "TO_POSITIVE"}),
+        )
+        column = layout.column(align=True)
+        _buttons(
+            column,
+            ("wcd.smooth_seams", "Smooth Seams", {}),
+            ("wcd.mark_seams", "Mark Seams", {}),
+        )
+        _buttons(column, ("wcd.select_boundary", "Select Boundary", {}))
+
+
+def _buttons(
+    layout: bpy.types.UILayout, *buttons: tuple[str, str, dict[str, Any]]
+) -> None:
+    """Draw buttons side by side."""
+    row = layout.row(align=True)
+    for operator, text, settings in buttons:
+        properties = row.operator(operator, text=text)
+        for name, value in settings.items():
+            setattr(properties, name, value)
