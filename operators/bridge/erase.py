@@ -58,7 +58,7 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     materials = _erase_slots(obj, restore)
     layers.set_material_indices(indices)
     for name in LAYERS:
-        layers.remove_faces(name)
+        layers.remove(name)
     layers.finish()
     write_restore(mesh, None)
     for sharer in sharers(mesh):

@@ -47,6 +47,8 @@ def part_labels(obj: bpy.types.Object) -> np.ndarray | None:
     attribute = obj.data.attributes.get(PART_LAYER)
     if attribute is None or read_restore(obj.data) is None:
         return None
+    if attribute.domain != "FACE":  # the points had no faces then
+        return None
     labels = np.empty(len(obj.data.polygons), dtype=np.int32)
     attribute.data.foreach_get("value", labels)
     # Faces added since carry whatever Blender gave them.

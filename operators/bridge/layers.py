@@ -32,7 +32,7 @@ class ObjectModeLayers:
     def set_material_indices(self, values: IntArray | None) -> None:
         """Write the material index of each face; None removes them."""
         if values is None:
-            self.remove_faces("material_index")
+            self.remove("material_index")
         else:
             self.set_faces("material_index", values)
 
@@ -53,8 +53,8 @@ class ObjectModeLayers:
         # Anything but int32 is converted value by value, 20 times slower.
         attribute.data.foreach_set("value", values.astype(np.int32))
 
-    def remove_faces(self, name: str) -> None:
-        """Remove an attribute of the faces if it is there."""
+    def remove(self, name: str) -> None:
+        """Remove an attribute, of faces or points, if it is there."""
         attribute = self._mesh.attributes.get(name)
         if attribute is not None:
             self._mesh.attributes.remove(attribute)
@@ -119,11 +119,18 @@ class EditModeLayers:
         for face, value in zip(self._bm.faces, values.tolist(), strict=True):
             face[layer] = value
 
-    def remove_faces(self, name: str) -> None:
-        """Remove a layer of the faces if it is there."""
-        layer = self._bm.faces.layers.int.get(name)
-        if layer is not None:
-            self._bm.faces.layers.int.remove(layer)
+    def remove(self, name: str) -> None:
+        """Remove a layer, of faces or points, if it is there."""
+        faces, points = self._bm.faces.layers, self._bm.verts.layers
+        for layers in (
+            faces.int,
+            points.int,
+            points.float_color,
+            points.float_vector,
+        ):
+            layer = layers.get(name)
+            if layer is not None:
+                layers.remove(layer)
 
     def fill_group(self, group: bpy.types.VertexGroup, vertices: IntArray) -> None:
         """Put vertices into a group with full weight."""
