@@ -10,7 +10,8 @@ import bpy
 from ..core.progress import Steps
 from ..ui.properties import ADVANCED, FRONT, annotations, draw, parameters_from
 from .bridge.computing import decompose_object, summary
-from .bridge.target import refusal
+from .bridge.converting import carrier_of
+from .bridge.target import decompose_refusal
 from .bridge.write import write_parts
 from .computation import Computation
 
@@ -30,7 +31,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return refusal(obj)
+        return decompose_refusal(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings, those of the sidebar's front first."""
@@ -43,7 +44,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         return decompose_object(context.active_object, self._parameters)
 
     def _commit(self, obj: bpy.types.Object, value: Decomposition) -> None:
-        write_parts(obj, value, self._parameters)
+        write_parts(carrier_of(obj), value, self._parameters)
         self._warn(value.notes)
         seconds = time.perf_counter() - self._started
         self.report({"INFO"}, f"{summary(value)}, {seconds:.1f} s")

@@ -14,6 +14,7 @@ from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
 from ...core.progress import Progress, Steps, within
+from .converting import CONVERTIBLE
 from .hulls import hull_refusal, part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes
@@ -48,7 +49,8 @@ def decompose_object(
     DecompositionError
         At once, if the object cannot be read or written to.
     """
-    check_writable(obj)
+    if obj.type not in CONVERTIBLE:  # else parts go to a new object
+        check_writable(obj)
     mesh = read_shape(obj)
 
     def work() -> Steps[Decomposition]:

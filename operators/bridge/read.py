@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ...core.clouds import PointCloud
 from ...core.errors import DecompositionError
 from ...core.shapes import TriangleMesh
+from .converting import CONVERTIBLE, mesh_of
 from .points import is_cloud, normals_of, positions_of
 
 # Scales that differ by less are the same scale in Blender's single precision.
@@ -25,9 +26,14 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     """
     if is_cloud(obj):
         return _read_cloud(obj)
-    mesh = obj.data
-    if mesh.is_editmode:
+    if obj.mode == "EDIT":
         obj.update_from_editmode()
+    with mesh_of(obj) as mesh:
+        return _read_mesh(mesh, stretch(obj))
+
+
+def _read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMesh:
+    """Return the triangles of a mesh, stretched."""
     mesh.calc_loop_triangles()
     vertices = np.empty(len(mesh.vertices) * 3, dtype=np.float32)
     mesh.vertices.foreach_get("co", vertices)
@@ -36,7 +42,7 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     polygons = np.empty(len(mesh.loop_triangles), dtype=np.int32)
     mesh.loop_triangle_polygons.foreach_get("value", polygons)
     return TriangleMesh(
-        vertices.reshape(-1, 3).astype(np.float64) * stretch(obj),
+        vertices.reshape(-1, 3).astype(np.float64) * factors,
         triangles.reshape(-1, 3).astype(np.int64),
         polygons.astype(np.int64),
     )
@@ -53,6 +59,11 @@ def _read_cloud(obj: bpy.types.Object) -> PointCloud:
 
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     """Return what the user should know about what was read of an object."""
+    if obj.type in CONVERTIBLE:
+        return (
+            f'Parts are on faces: they are on the new mesh object "{obj.name} parts",'
+            f" and {obj.name} is as it was.",
+        )
     notes = []
     modifiers = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     if modifiers:
