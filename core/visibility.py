@@ -101,7 +101,7 @@ def look(shape: Shape, parameters: Parameters, make_caster: MakeCaster) -> Steps
         If the surface has no area, or more faces than all pairs of can be looked up,
         where faces are the samples.
     """
-    form = yield from within(form_of(shape, make_caster), 0.0, 0.01)
+    form = yield from within(form_of(shape), 0.0, 0.01)
     yield Progress("Samples", 0.01)
     rng = np.random.default_rng(parameters.seed)
     if parameters.sampling == "FACES":
