@@ -68,9 +68,10 @@ def test_fewer_parts_than_asked_for_come_with_a_note(make, parts):
 
 def test_more_loose_pieces_than_samples_come_with_a_note():
     specks = [shapes.box(low, np.add(low, 0.1)) for low in np.ndindex(4, 4, 4)]
-    (note,) = split_up(shapes.joined(*specks), samples=20, parts=2).notes
+    fast = {"parts": 2, "containers": "HOLLOW"}
+    (note,) = split_up(shapes.joined(*specks), samples=20, **fast).notes
     assert "of 64 loose pieces are too small" in note
-    assert split_up(shapes.joined(*specks[:8]), samples=160, parts=2).notes == ()
+    assert split_up(shapes.joined(*specks[:8]), samples=160, **fast).notes == ()
 
 
 def test_double_faces_and_sheets_inside_leave_the_parts_as_they_are():
@@ -79,7 +80,7 @@ def test_double_faces_and_sheets_inside_leave_the_parts_as_they_are():
     doubled = shapes.joined(mesh, mesh)
     crossed = shapes.joined(mesh, shapes.moved(inner, 0.2, offset=(1.5, 1.5, 1.5)))
     for shape in (doubled, crossed):
-        found = split_up(shape, parts=2)
+        found = split_up(shape, samples=100, parts=2, containers="HOLLOW")
         labels = found.labels[: mesh.n_polygons]
         x = mesh.vertices[mesh.triangles].mean(axis=1)[:, 0]
         ends = [labels[mesh.polygons[side]] for side in (x < 2.9, x > 6.1)]
