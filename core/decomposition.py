@@ -14,6 +14,7 @@ from .partition import Partitioner, count
 from .progress import Steps, within
 from .scene import MakeCaster
 from .surface import Surface
+from .transfer import Transfer
 from .visibility import Visibility, look, see
 
 
@@ -114,7 +115,12 @@ def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decompos
     parts, psi_by_k, best_k = yield from search
     labels = _by_size(parts, surface)[visibility.form.nodes]
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
-    return replace(found, notes=found.notes + _notes_on_count(parameters, psi_by_k))
+    return replace(
+        found,
+        notes=found.notes
+        + _notes_on_shells(visibility.transfer)
+        + _notes_on_count(parameters, psi_by_k),
+    )
 
 
 def describe(
@@ -176,6 +182,17 @@ def _by_size(parts: NDArray[np.int64], surface: Surface) -> NDArray[np.int64]:
     """Return the parts renumbered, the largest first."""
     order = np.argsort(-surface.areas_of(parts), kind="stable")
     return np.argsort(order)[parts]
+
+
+def _notes_on_shells(transfer: Transfer) -> tuple[str, ...]:
+    """Say that most pieces could not be told apart, if so."""
+    if transfer.n_unsampled <= transfer.n_shells / 2:
+        return ()
+    return (
+        f"{transfer.n_unsampled:,} of {transfer.n_shells:,} loose pieces are too small"
+        " for a sample of their own and go with the nearest one; raise Samples to tell"
+        " them apart.",
+    )
 
 
 def _notes_on_count(

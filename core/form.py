@@ -14,7 +14,6 @@ from .orientation import oriented
 from .outline import flat_mesh
 from .points_surface import surface_of_points
 from .progress import Progress, Steps, within
-from .scene import MakeCaster
 from .shapes import TriangleMesh
 from .shells import set_apart
 from .splats import nearest_points, smoothed, thinned_splats
@@ -88,11 +87,11 @@ class Form:
         )
 
 
-def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:
+def form_of(shape: Shape) -> Steps[Form]:
     """Return the form of a shape: centered, of diagonal 1, facing outwards."""
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
-        return (yield from _form_of_cloud(shape.normalized(), make_caster))
+        return (yield from _form_of_cloud(shape.normalized()))
     mesh = shape.normalized()
     nodes = np.arange(mesh.n_polygons)
     yield Progress("Surface", 0.3)
@@ -106,12 +105,12 @@ def form_of(shape: Shape, make_caster: MakeCaster) -> Steps[Form]:
     return Form(set_apart(mesh), lambda: surface_of(mesh), nodes, notes=notes)
 
 
-def _form_of_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[Form]:
+def _form_of_cloud(cloud: PointCloud) -> Steps[Form]:
     """Return the form of a cloud: its splats, of not more points than needed."""
     points, normals = cloud.points, cloud.normals
     notes: tuple[str, ...] = ()
     if normals is None:
-        normals = yield from within(estimate_normals(points, make_caster), 0.0, 0.6)
+        points, normals = yield from within(estimate_normals(points), 0.0, 0.6)
         notes = ("The points have no normals; they were estimated.",)
     elif face_inwards(points, normals):
         normals = -normals

@@ -138,7 +138,7 @@ def look_out(
     Parameters and errors are those of `visibility.look`; of the parameters only the
     number of samples and the seed matter.
     """
-    form = yield from within(form_of(shape, make_caster), 0.0, 0.4)
+    form = yield from within(form_of(shape), 0.0, 0.4)
     yield Progress("Samples", 0.4)
     rng = np.random.default_rng(parameters.seed)
     samples = sample_surface(form.targets, parameters.samples, rng)

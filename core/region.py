@@ -52,7 +52,7 @@ def measure_region(
     DecompositionError
         If no face is meant, or none with an area; of a flat mesh, none at the outline.
     """
-    form = yield from within(form_of(mesh, make_caster), 0.0, 0.1)
+    form = yield from within(form_of(mesh), 0.0, 0.1)
     targets = form.targets
     rows = np.flatnonzero(faces[targets.polygons])
     area = mesh.areas[faces[mesh.polygons]].sum() / mesh.diagonal**2

@@ -39,6 +39,8 @@ class Transfer:
         Polygon that each sample lies on.
     surface : Surface
         With links between shells that touch.
+    n_unsampled, n_shells : int
+        Connected pieces too small for a sample of their own, and all.
     """
 
     def __init__(
@@ -93,7 +95,8 @@ class Transfer:
         links = links[shells[links[:, 0]] != shells[links[:, 1]]]
         # A shell too small for a sample of its own hangs on the nearest one.
         unsampled = np.setdiff1d(shells, shells[self.polygon_of])
-        _, first = np.unique(shells, return_index=True)
+        numbers, first = np.unique(shells, return_index=True)
+        self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
         small = first[unsampled]
         return np.concatenate(
             [links, np.stack([small, self.polygon_of[nearest[small]]], axis=1)]

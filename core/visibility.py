@@ -130,7 +130,7 @@ def look(
         If the surface has no area, or more faces than all pairs of can be looked up,
         where faces are the samples.
     """
-    form = yield from within(form_of(shape, make_caster), 0.0, 0.01)
+    form = yield from within(form_of(shape), 0.0, 0.01)
     if members is not None:
         form = form.part(members)
     yield Progress("Samples", 0.01)

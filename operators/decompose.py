@@ -9,8 +9,9 @@ import bpy
 from ..core.progress import Steps
 from ..ui.properties import ADVANCED, FRONT, annotations, draw, parameters_from
 from .bridge.computing import summary
+from .bridge.converting import carrier_of
 from .bridge.locking import decompose_unlocked
-from .bridge.target import refusal
+from .bridge.target import decompose_refusal
 from .computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -29,7 +30,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return refusal(obj)
+        return decompose_refusal(obj)
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -51,7 +52,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         return decompose_unlocked(obj, parameters_from(self))
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(obj)
+        value.write(carrier_of(obj))
         return summary(value.decomposition)
 
 

@@ -15,6 +15,7 @@ from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
 from ...core.progress import Progress, Steps, within
+from .converting import CONVERTIBLE
 from .hulls import hull_refusal
 from .palette import part_srgb
 from .parted import part_labels
@@ -57,7 +58,8 @@ def decompose_object(
     DecompositionError
         At once, if the object cannot be read or written to.
     """
-    check_writable(obj)
+    if obj.type not in CONVERTIBLE:  # else parts go to a new object
+        check_writable(obj)
     mesh = read_shape(obj)
 
     return _prepared(reading_notes(obj), _decompose(mesh, parameters))

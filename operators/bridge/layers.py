@@ -62,7 +62,7 @@ class ObjectModeLayers:
         attribute.data.foreach_set("color", np.repeat(colors, sizes, axis=0).ravel())
 
     def remove(self, name: str) -> None:
-        """Remove an attribute if it is there."""
+        """Remove an attribute, of faces or points, if it is there."""
         attribute = self._mesh.attributes.get(name)
         if attribute is not None:
             self._mesh.attributes.remove(attribute)
@@ -136,8 +136,15 @@ class EditModeLayers:
                 corner[layer] = color
 
     def remove(self, name: str) -> None:
-        """Remove a layer of the faces, or of their corners, if it is there."""
-        for layers in (self._bm.faces.layers.int, self._bm.loops.layers.float_color):
+        """Remove a layer of faces, their corners or points, if it is there."""
+        points = self._bm.verts.layers
+        for layers in (
+            self._bm.faces.layers.int,
+            self._bm.loops.layers.float_color,
+            points.int,
+            points.float_color,
+            points.float_vector,
+        ):
             layer = layers.get(name)
             if layer is not None:
                 layers.remove(layer)

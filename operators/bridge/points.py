@@ -11,6 +11,13 @@ from numpy.typing import NDArray
 
 # Attributes that hold normals, by the programs and importers that write them.
 _NORMALS = ("normal", "Normal", "normals", "Normals", "custom_normal", "N")
+_NORMALS_BY_AXIS = ("nx", "ny", "nz")
+# Where Blender keeps the values of an attribute, and how many numbers each has.
+_FIELDS = {
+    "FLOAT": ("value", 1),
+    "FLOAT_VECTOR": ("vector", 3),
+    "FLOAT_COLOR": ("color", 4),
+}
 
 
 def is_cloud(obj: bpy.types.Object) -> bool:
@@ -37,19 +44,30 @@ def positions_of(obj: bpy.types.Object) -> NDArray[np.float32]:
 
 def normals_of(obj: bpy.types.Object) -> NDArray[np.float32] | None:
     """Return the normals of a cloud, (N, 3), None if no attribute holds them."""
-    found = (read_vectors(obj, name) for name in _NORMALS)
-    return next((normals for normals in found if normals is not None), None)
+    for name in _NORMALS:
+        normals = read_vectors(obj, name)
+        if normals is not None:
+            return normals
+    columns = [_read(obj, name, "FLOAT") for name in _NORMALS_BY_AXIS]
+    if any(column is None for column in columns):
+        return None
+    return np.concatenate(columns, axis=1)
 
 
 def read_vectors(obj: bpy.types.Object, name: str) -> NDArray[np.float32] | None:
     """Return an attribute of vectors of the points, (N, 3), None if there is none."""
+    return _read(obj, name, "FLOAT_VECTOR")
+
+
+def _read(obj: bpy.types.Object, name: str, kind: str) -> NDArray[np.float32] | None:
+    """Return an attribute of the points by its kind, (N, d), None if there is none."""
     attribute = obj.data.attributes.get(name)
-    kind = attribute and (attribute.data_type, attribute.domain)
-    if kind != ("FLOAT_VECTOR", "POINT"):
+    if attribute is None or (attribute.data_type, attribute.domain) != (kind, "POINT"):
         return None
-    values = np.empty(len(attribute.data) * 3, dtype=np.float32)
-    attribute.data.foreach_get("vector", values)
-    return values.reshape(-1, 3)
+    field, width = _FIELDS[kind]
+    values = np.empty(len(attribute.data) * width, dtype=np.float32)
+    attribute.data.foreach_get(field, values)
+    return values.reshape(-1, width)
 
 
 def set_points(
@@ -59,5 +77,5 @@ def set_points(
     attribute = obj.data.attributes.get(name)
     if attribute is None:
         attribute = obj.data.attributes.new(name, kind, "POINT")
-    field = {"FLOAT_COLOR": "color", "FLOAT_VECTOR": "vector"}[kind]
+    field, _ = _FIELDS[kind]
     attribute.data.foreach_set(field, values.astype(np.float32).ravel())

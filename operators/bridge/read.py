@@ -10,6 +10,7 @@ from ...core.clouds import PointCloud
 from ...core.errors import DecompositionError
 from ...core.shapes import TriangleMesh
 from ...ui.explode_slider import exploding
+from .converting import CONVERTIBLE, mesh_of
 from .points import is_cloud, normals_of, positions_of
 
 # Scales that differ by less are the same scale in Blender's single precision.
@@ -26,9 +27,14 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     """
     if is_cloud(obj):
         return _read_cloud(obj)
-    mesh = obj.data
-    if mesh.is_editmode:
+    if obj.mode == "EDIT":
         obj.update_from_editmode()
+    with mesh_of(obj) as mesh:
+        return _read_mesh(mesh, stretch(obj))
+
+
+def _read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMesh:
+    """Return the triangles of a mesh, stretched."""
     mesh.calc_loop_triangles()
     vertices = np.empty(len(mesh.vertices) * 3, dtype=np.float32)
     mesh.vertices.foreach_get("co", vertices)
@@ -37,7 +43,7 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     polygons = np.empty(len(mesh.loop_triangles), dtype=np.int32)
     mesh.loop_triangle_polygons.foreach_get("value", polygons)
     return TriangleMesh(
-        vertices.reshape(-1, 3).astype(np.float64) * stretch(obj),
+        vertices.reshape(-1, 3).astype(np.float64) * factors,
         triangles.reshape(-1, 3).astype(np.int64),
         polygons.astype(np.int64),
     )
@@ -61,6 +67,11 @@ def _read_cloud(obj: bpy.types.Object) -> PointCloud:
 
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     """Return what the user should know about what was read of an object."""
+    if obj.type in CONVERTIBLE:
+        return (
+            f'Parts are on faces: they are on the new mesh object "{obj.name} parts",'
+            f" and {obj.name} is as it was.",
+        )
     notes = []
     modifiers = [
         modifier.name

@@ -8,27 +8,21 @@ from dataclasses import dataclass
 import bpy
 
 from ...core.errors import DecompositionError
+from .converting import CONVERTIBLE, mesh_of
 from .points import count_points, is_cloud
 
 _WORKED_ON = {"MESH", "POINTCLOUD"}
-# Objects that Blender makes meshes of.
-_CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
-# What gives an outline the faces that carry parts.
-_FILLING = (
-    "; an outline is filled with faces by 2D and Fill Mode Both (Object Data > Shape),"
-    " chosen before"
-)
 
 
 def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | None:
     """Return why an object cannot be worked on, None if it can."""
     if obj is None:
         return "There is no active object; select a mesh"
-    if obj.type in _CONVERTIBLE:
+    if obj.type in CONVERTIBLE:
         return (
-            f"{obj.name} is not a mesh; convert it to one first (Object > Convert >"
-            " Mesh)"
-        ) + (_FILLING if obj.type == "CURVE" else "")
+            f"{obj.name} is not a mesh; Decompose makes one beside it, or convert it"
+            " (Object > Convert > Mesh)"
+        )
     if obj.type not in _WORKED_ON:
         return f"{obj.name} is not a mesh; select a mesh or a point cloud"
     if not obj.is_editable or (writes_mesh and not obj.data.is_editable):
@@ -60,6 +54,20 @@ def chosen(
     return sorted(fit, key=lambda obj: obj != active) or [active]
 
 
+def decompose_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why an object, or a copy in faces, cannot be decomposed, or None."""
+    if obj is None or obj.type not in CONVERTIBLE:
+        return refusal(obj)
+    if not obj.is_editable:
+        return (
+            f"{obj.name} is linked from a library; make it local first (Object >"
+            " Relations > Make Local)"
+        )
+    if obj.mode != "OBJECT":
+        return f"{obj.name} is decomposed in Object Mode; leave Edit Mode"
+    return None
+
+
 @dataclass(frozen=True)
 class Target:
     """What tells whether an object is still the one that was read.
@@ -75,21 +83,20 @@ class Target:
     @classmethod
     def of(cls, obj: bpy.types.Object) -> Target:
         """Return the target that an object is now."""
-        mesh = obj.data
         if obj.mode == "EDIT":
             obj.update_from_editmode()
-        return cls(
-            obj.session_uid,
-            mesh.session_uid,
-            count_points(obj),
-            0 if is_cloud(obj) else len(mesh.polygons),
-        )
+        if is_cloud(obj):
+            counts = count_points(obj), 0
+        else:
+            with mesh_of(obj) as mesh:
+                counts = len(mesh.vertices), len(mesh.polygons)
+        return cls(obj.session_uid, obj.data.session_uid, *counts)
 
     def find(self) -> bpy.types.Object:
         """Return the object, or raise if it is gone or has changed."""
         for obj in bpy.data.objects:
             if obj.session_uid == self.object_uid:
-                if obj.type in _WORKED_ON and Target.of(obj) == self:
+                if obj.type in _WORKED_ON | CONVERTIBLE and Target.of(obj) == self:
                     return obj
                 break
         raise DecompositionError(

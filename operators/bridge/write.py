@@ -90,9 +90,10 @@ def check_writable(obj: bpy.types.Object) -> None:
     written = read_restore(obj.data) is not None
     for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
-        allowed = (None, data_type) if written else (None,)
-        kind = attribute and attribute.data_type
-        if kind not in allowed or name in obj.vertex_groups:
+        # On points where those got faces, or on faces of what is points now.
+        ours = attribute and written and attribute.domain in {"FACE", "POINT"}
+        fits = attribute is None or (ours and attribute.data_type == data_type)
+        if not fits or name in obj.vertex_groups:
             raise DecompositionError(
                 f"The mesh has an attribute or vertex group {name} that does not come"
                 " from decomposing this object; rename or remove it in the mesh's"

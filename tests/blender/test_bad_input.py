@@ -76,6 +76,16 @@ def test_an_attribute_of_the_users_is_refused_before_the_work(suzanne):
     assert snapshot(suzanne) == before
 
 
+def test_an_attribute_moved_elsewhere_is_the_users(suzanne):
+    bpy.ops.wcd.decompose(**FAST)
+    attributes = suzanne.data.attributes
+    attributes.remove(attributes["wcd_part"])
+    attributes.new("wcd_part", "INT", "EDGE")
+    before = snapshot(suzanne)
+    refused(bpy.ops.wcd.decompose, "does not come from decomposing")
+    assert snapshot(suzanne) == before
+
+
 def test_a_shared_mesh_works(suzanne):
     bpy.context.collection.objects.link(bpy.data.objects.new("twin", suzanne.data))
     assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}

@@ -2,14 +2,17 @@
 
 import json
 
+import bmesh
 import bpy
 import clouds
 import numpy as np
 import pytest
 import shapes
-from hand_made import activate, mesh_object
+from hand_made import activate, in_mode, mesh_object
+from scipy.spatial import ConvexHull
 from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.hulls import part_labels
 from weak_convex_decomposition.operators.bridge.points import is_cloud, set_points
 from weak_convex_decomposition.operators.bridge.read import read_shape
 
@@ -51,6 +54,16 @@ def test_points_and_normals_are_read(make, name):
     cloud = read_shape(obj)
     assert cloud.points == pytest.approx(POINTS, abs=1e-5)
     assert cloud.normals == pytest.approx(NORMALS, abs=1e-5)
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_normals_may_come_as_an_attribute_for_each_axis(make):
+    obj = make(normals=None)
+    for name, column in zip(("nx", "ny", "nz"), NORMALS.T, strict=True):
+        assert read_shape(obj).normals is None
+        attribute = obj.data.attributes.new(name, "FLOAT", "POINT")
+        attribute.data.foreach_set("value", column.astype(np.float32))
+    assert read_shape(obj).normals == pytest.approx(NORMALS, abs=1e-5)
 
 
 def test_points_without_normals_have_none():
@@ -170,6 +183,32 @@ def test_an_attribute_of_the_users_is_refused():
     assert snapshot(obj) == before
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_points_that_get_faces_are_decomposed_anew(mode):
+    obj = points_object()
+    before = [attribute.name for attribute in obj.data.attributes]
+    bpy.ops.wcd.decompose(**FAST)
+    hull = ConvexHull(POINTS)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for corners in hull.simplices:
+        bm.faces.new([bm.verts[corner] for corner in corners])
+    bm.to_mesh(obj.data)
+    bm.free()
+    assert part_labels(obj) is None
+    in_mode(obj, mode)
+    bpy.ops.wcd.decompose(samples=200, parts=3)
+    in_mode(obj, "OBJECT")
+    assert obj.data.attributes["wcd_part"].domain == "FACE"
+    assert set(part_labels(obj)) == {0, 1, 2}
+    assert "wcd_color" not in obj.data.attributes
+    bpy.ops.wcd.clear()
+    left = [attribute.name for attribute in obj.data.attributes]
+    assert not [name for name in left if name.startswith("wcd")]
+    assert set(before) <= set(left)
+
+
 def test_points_are_not_decomposed_in_edit_mode():
     points_object()
     bpy.ops.object.mode_set(mode="EDIT")
@@ -186,21 +225,6 @@ def test_wires_are_no_clouds():
     assert not is_cloud(obj)
     with pytest.raises(DecompositionError, match="no faces"):
         read_shape(obj)
-
-
-@pytest.mark.parametrize(
-    "add",
-    [
-        lambda: bpy.ops.object.text_add(),
-        lambda: bpy.ops.object.metaball_add(),
-        lambda: bpy.ops.surface.primitive_nurbs_surface_sphere_add(),
-        lambda: bpy.ops.curve.primitive_bezier_circle_add(),
-    ],
-)
-def test_what_can_be_converted_says_so(add):
-    add()
-    with pytest.raises(RuntimeError, match="convert it to one first"):
-        bpy.ops.wcd.decompose(**FAST)
 
 
 @pytest.mark.parametrize("make", MAKERS)

@@ -67,6 +67,28 @@ def test_fewer_parts_than_asked_for_come_with_a_note(make, parts):
         assert f"{found.n_parts} of the {parts}" in note
 
 
+def test_more_loose_pieces_than_samples_come_with_a_note():
+    specks = [shapes.box(low, np.add(low, 0.1)) for low in np.ndindex(4, 4, 4)]
+    fast = {"parts": 2, "containers": "HOLLOW"}
+    (note,) = split_up(shapes.joined(*specks), samples=20, **fast).notes
+    assert "of 64 loose pieces are too small" in note
+    assert split_up(shapes.joined(*specks[:8]), samples=160, **fast).notes == ()
+
+
+def test_double_faces_and_sheets_inside_leave_the_parts_as_they_are():
+    mesh = shapes.dumbbell()
+    inner = shapes.sheet()
+    doubled = shapes.joined(mesh, mesh)
+    crossed = shapes.joined(mesh, shapes.moved(inner, 0.2, offset=(1.5, 1.5, 1.5)))
+    for shape in (doubled, crossed):
+        found = split_up(shape, samples=100, parts=2, containers="HOLLOW")
+        labels = found.labels[: mesh.n_polygons]
+        x = mesh.vertices[mesh.triangles].mean(axis=1)[:, 0]
+        ends = [labels[mesh.polygons[side]] for side in (x < 2.9, x > 6.1)]
+        assert all((end == np.bincount(end).argmax()).mean() > 0.95 for end in ends)
+        assert np.bincount(ends[0]).argmax() != np.bincount(ends[1]).argmax()
+
+
 def test_progress_rises_from_nothing_to_all():
     steps = decompose(shapes.l_shape(), Parameters(samples=100), BruteCaster)
     progress = list(steps)

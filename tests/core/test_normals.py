@@ -2,7 +2,6 @@ import clouds
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
 from weak_convex_decomposition.core import splats as splats_module
 from weak_convex_decomposition.core.normals import estimate_normals, face_inwards
 from weak_convex_decomposition.core.progress import run
@@ -22,20 +21,20 @@ def normalized(mesh, n_points, noise=0.0):
         lambda: shapes.box(high=(1, 1, 0.1), divisions=8),
     ],
 )
-@pytest.mark.parametrize("noise", [0.0, 0.003])
+@pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
 def test_estimated_normals_point_outwards(make, noise):
     points, normals = normalized(make(), 700, noise)
-    found = run(estimate_normals(points, BruteCaster))
+    found = run(estimate_normals(points))[1]
     assert np.linalg.norm(found, axis=1) == pytest.approx(np.ones(700))
     cosines = (found * normals).sum(axis=1)
     assert (cosines > 0).mean() > 0.97
-    assert np.median(cosines) > 0.9
+    assert np.median(cosines) > (0.9 if noise < 0.01 else 0.85)
 
 
 def test_points_that_are_thinned_out_get_normals_too(monkeypatch):
     monkeypatch.setattr(splats_module, "_MOST_SPLATS", 500)
     points, normals = normalized(shapes.dumbbell(), 1500)
-    found = run(estimate_normals(points, BruteCaster))
+    found = run(estimate_normals(points))[1]
     assert ((found * normals).sum(axis=1) > 0).mean() > 0.97
 
 
