@@ -18,7 +18,7 @@ from ...core.progress import Progress, Steps, within
 from .converting import CONVERTIBLE
 from .hulls import hull_refusal
 from .palette import part_srgb
-from .parted import part_labels
+from .parted import part_identities, part_labels
 from .ray_caster import BvhRayCaster
 from .read import read_shape, reading_notes, selected_faces
 from .record import check_records, noted_parameters
@@ -147,7 +147,8 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
         raise DecompositionError(
             f"{obj.name} has no record of its parts; decompose it again."
         )
-    colors = np.array([part_srgb(part) for part in range(int(labels.max()) + 1)])
+    identities = part_identities(obj, int(labels.max()) + 1)
+    colors = np.array([part_srgb(identity.number) for identity in identities])
 
     def work() -> Steps[Picture]:
         from ...core.pictures import draw_picture

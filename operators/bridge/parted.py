@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .erase import PART_LAYER
+from .identity import Identity, usual_identities
 from .layers import layers_of
-from .materials import part_name
 from .points import is_cloud
-from .record import has_parts, read_restore, record_of
+from .record import has_parts, identities_of, read_restore, record_of
 from .target import refusal
 
 
@@ -43,11 +43,13 @@ def part_labels(obj: bpy.types.Object) -> NDArray[np.int64] | None:
     labels = layers_of(obj).faces(PART_LAYER)
     if labels is None or read_restore(obj.data) is None:
         return None
+    if len(labels) != len(obj.data.polygons):  # the points had no faces then
+        return None
     # Faces added since carry whatever Blender gave them.
     return np.maximum(labels, 0).astype(np.int64)
 
 
-def part_names(obj: bpy.types.Object, n_parts: int) -> list[str]:
-    """Return what the parts of an object are called, the first ones as noted."""
-    noted = [part["name"] for part in record_of(obj).get("parts", ())]
-    return (noted + [part_name(part) for part in range(len(noted), n_parts)])[:n_parts]
+def part_identities(obj: bpy.types.Object, n_parts: int) -> tuple[Identity, ...]:
+    """Return who the parts of an object are, the first ones as noted."""
+    noted = identities_of(record_of(obj))
+    return (noted + usual_identities(n_parts)[len(noted) :])[:n_parts]

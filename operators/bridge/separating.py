@@ -12,7 +12,7 @@ from .beside import new_collection
 from .erase import clear
 from .exploding import implode
 from .materials import part_materials
-from .parted import part_labels, part_names
+from .parted import part_identities, part_labels
 
 
 def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
@@ -26,8 +26,8 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     if labels is None:
         raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
     parts = np.unique(labels)
-    names = part_names(obj, int(parts.max()) + 1)
-    materials = part_materials(len(names), [])
+    identities = part_identities(obj, int(parts.max()) + 1)
+    materials = part_materials(identities, [])
     collection = new_collection(obj, f"{obj.name} parts")
     bare = _copy(obj)
     implode(bare)
@@ -35,7 +35,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     pieces = []
     for part in parts.tolist():
         piece = _copy(bare)
-        piece.name = piece.data.name = f"{obj.name} {names[part]}"
+        piece.name = piece.data.name = f"{obj.name} {identities[part].name}"
         _keep_faces(piece.data, labels == part, loose=not pieces)
         piece.color = materials[part].diffuse_color
         if not piece.data.materials:

@@ -9,7 +9,7 @@ from ...core.errors import DecompositionError
 from .erase import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
 from .layers import layers_of
 from .palette import part_color
-from .parted import part_labels
+from .parted import part_identities, part_labels
 from .points import is_cloud
 
 
@@ -28,7 +28,8 @@ def write_face_sets(obj: bpy.types.Object) -> None:
 def write_colors(obj: bpy.types.Object) -> None:
     """Give the corners of faces the colors of their parts."""
     layers, labels = layers_of(obj), _labels(obj)
-    palette = [part_color(part) for part in range(int(labels.max()) + 1)]
+    identities = part_identities(obj, int(labels.max()) + 1)
+    palette = [part_color(identity.number) for identity in identities]
     layers.set_colors(COLOR_LAYER, np.array(palette, dtype=np.float32)[labels])
     layers.finish()
 
@@ -37,8 +38,9 @@ def shown(obj: bpy.types.Object) -> tuple[bool, bool]:
     """Return whether the parts of faces are shown as face sets, and as colors."""
     if is_cloud(obj):
         return False, False
-    there = obj.data.attributes
-    return FACE_SET_LAYER in there, COLOR_LAYER in there
+    colors = obj.data.attributes.get(COLOR_LAYER)
+    of_corners = colors is not None and colors.domain == "CORNER"
+    return FACE_SET_LAYER in obj.data.attributes, of_corners
 
 
 def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:

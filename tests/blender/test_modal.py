@@ -34,7 +34,8 @@ GONE = "The mesh was changed or deleted meanwhile; start again."
 
 
 def cube_at(x):
-    bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0))
+    # Each of another shape: lines of sight of the latest are kept.
+    bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0), scale=(1, 1, 1 + x))
     return bpy.context.active_object
 
 

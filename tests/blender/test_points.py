@@ -12,7 +12,7 @@ from hand_made import activate, in_mode, mesh_object
 from scipy.spatial import ConvexHull
 from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.bridge.hulls import part_labels
+from weak_convex_decomposition.operators.bridge.parted import part_labels
 from weak_convex_decomposition.operators.bridge.points import is_cloud, set_points
 from weak_convex_decomposition.operators.bridge.read import read_shape
 

@@ -12,6 +12,8 @@ from conftest import ROOT
 
 BLENDER = shlex.split(os.environ.get("BLENDER", ""))
 FOLDER = ROOT / "tests" / "window" / "subjects"
+# A Blender that hangs is stopped after these.
+_MOST_SECONDS = 400
 # Subjects that need what another one leaves in build/window/.
 AFTER = {"reopened": "save"}
 SUBJECTS = sorted({path.stem for path in FOLDER.glob("*.py")} - {*AFTER.values()})
@@ -23,7 +25,9 @@ pytestmark = pytest.mark.skipif(
 
 def play(subject):
     drive = [*BLENDER, "--python", "tests/window/drive.py", "--", subject]
-    done = subprocess.run(drive, cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(
+        drive, cwd=ROOT, capture_output=True, text=True, timeout=_MOST_SECONDS
+    )
     print(done.stdout)
     assert done.returncode == 0, done.stdout + done.stderr
     for word in ("Traceback", "Error:"):
