@@ -171,7 +171,8 @@ class Hands:
         if crop is not None:
             top = self.window.height - crop.y - crop.height
             area = ["-crop", f"{crop.width}x{height or crop.height}+{crop.x}+{top}"]
-        command = ["import", "-window", "root", *area, "+repage", str(path)]
+        few = ["+dither", "-colors", "96"]  # small files
+        command = ["import", "-window", "root", *area, "+repage", *few, str(path)]
         subprocess.run(command, check=True, env={**os.environ, "HOME": "/tmp"})
         shown = subprocess.run(
             ["identify", "-format", "%[fx:standard_deviation]", str(path)],
