@@ -64,6 +64,12 @@ class Hands:
             window=self.window, area=self.area, region=self.region(kind)
         )
 
+    def fill_screen(self):
+        """Let the 3D view take all of the window, for long sidebars."""
+        with self.context():
+            bpy.ops.screen.screen_full_area(use_hide_panels=False)
+        yield 0.5
+
     def open_sidebar(self, width=None):
         """Show the tab of the extension."""
         self.area.spaces.active.show_region_ui = True
@@ -126,26 +132,28 @@ class Hands:
         yield 0.1
         self._do("mousedown", 1)
         yield 0.1
-        for offset in offsets:
-            yield from self.move(x + offset, y)
-            yield 0.1
+        for offset in offsets:  # nothing else sees the cursor while a button has it
+            self._do("mousemove", x + offset, self.window.height - 1 - y)
+            yield 0.2
         self._do("mouseup", 1)
         yield 0.2
 
     # Eyes.
 
-    def find(self, wanted):
+    def find(self, wanted, columns=(0.75, 0.12, 0.5, 0.95)):
         """Return the place of the button of an operator or property in the sidebar.
 
-        `wanted` is what Blender copies of it: a call, or a path of data.
+        `wanted` is what Blender copies of it: a call, or a path of data; `columns` are
+        where it may be, in shares of the width.
         """
         region = self.region()
         heights = range(region.y + region.height - 8, region.y, -_STRIDE)
-        for y, share in product(heights, (0.75, 0.12, 0.5, 0.95)):
+        for y, share in product(heights, columns):
             place = int(region.x + share * (region.width - 20)), y
             yield from self.move(*place)
             if wanted in self.under_cursor():
                 return place
+        self.picture("searched")
         raise AssertionError(f"{wanted} is nowhere in the sidebar")
 
     def under_cursor(self):

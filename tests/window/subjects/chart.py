@@ -12,6 +12,7 @@ def record():
 
 
 def steps(hands):
+    yield from hands.fill_screen()
     yield from hands.open_sidebar()
     hands.suzanne(1)
     bpy.context.scene.wcd.samples = 300
@@ -21,7 +22,8 @@ def steps(hands):
     yield 0.5
     first = record()
     chosen = 3 if first["k"] != 3 else 4
-    place = yield from hands.find(f"wcd.choose_part_count(parts={chosen})")
+    wanted = f"wcd.choose_part_count(parts={chosen})"
+    place = yield from hands.find(wanted, columns=(0.12,))
     yield from hands.click(place)
     yield lambda: record()["k"] == chosen
     yield lambda: running.current is None

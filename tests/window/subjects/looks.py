@@ -22,9 +22,7 @@ def use_theme(name):
 
 def steps(hands):
     view = bpy.context.preferences.view
-    with hands.context():
-        bpy.ops.screen.screen_full_area(use_hide_panels=False)
-    yield 0.5
+    yield from hands.fill_screen()
     yield from hands.open_sidebar()
     hands.suzanne(2)
     bpy.context.scene.wcd.samples = 600
