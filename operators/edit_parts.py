@@ -13,7 +13,7 @@ from .bridge import edits
 from .bridge.computing import summary
 from .bridge.editing import edit_object
 from .bridge.points import is_cloud
-from .bridge.present_parts import parts_refusal
+from .bridge.present_parts import edit_refusal
 from .bridge.rows import active_part, chosen_parts
 from .computation import Computation
 
@@ -42,7 +42,7 @@ class _Edit(Computation):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return parts_refusal(obj)
+        return edit_refusal(obj)
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -66,7 +66,7 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = parts_refusal(obj)
+        reason = edit_refusal(obj)
         if reason is None and len(chosen_parts(obj)) < 2:
             reason = "Tick two or more parts in the table to merge them"
         return reason
@@ -120,7 +120,7 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = parts_refusal(obj)
+        reason = edit_refusal(obj)
         if reason is None and is_cloud(obj):
             reason = f"{obj.name} has no faces, only points"
         if reason is None and obj.mode != "EDIT":

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.errors import DecompositionError
 from .bridge.points import is_cloud
-from .bridge.present_parts import parts_refusal, present_parts
+from .bridge.present_parts import edit_refusal, present_parts
 from .bridge.rows import chosen_parts
 from .bridge.selection import (
     boundary_edges,
@@ -41,7 +41,7 @@ class _Show:
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = parts_refusal(obj)
+        reason = edit_refusal(obj)
         if reason is None and is_cloud(obj):
             reason = f"{obj.name} has no faces, only points"
         return reason
@@ -131,7 +131,7 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return parts_refusal(obj)
+        return edit_refusal(obj)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -13,7 +13,7 @@ from ...core.parameters import Parameters
 from ...core.progress import Steps
 from .computing import decompose_object
 from .editing import Edited, edit_object
-from .present_parts import PresentParts, parts_refusal, present_parts
+from .present_parts import PresentParts, edit_refusal, present_parts
 from .ray_caster import BvhRayCaster
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -28,7 +28,7 @@ def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[E
     Errors are those of `decompose_object` and `edit_object`, and of numbers of parts
     that leave none to what is not locked.
     """
-    locks = parts_refusal(obj) is None and any(row.locked for row in obj.wcd_parts)
+    locks = edit_refusal(obj) is None and any(row.locked for row in obj.wcd_parts)
     if locks:
         return _decompose_rest(obj, parameters)
     steps = decompose_object(obj, parameters)

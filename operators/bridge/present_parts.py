@@ -47,7 +47,7 @@ class PresentParts:
     best_k: int
 
 
-def parts_refusal(obj: bpy.types.Object | None) -> str | None:
+def edit_refusal(obj: bpy.types.Object | None) -> str | None:
     """Return why the parts of an object cannot be edited, None if they can."""
     reason = refusal(obj)
     if reason is None and not (
@@ -58,7 +58,7 @@ def parts_refusal(obj: bpy.types.Object | None) -> str | None:
 
 
 def present_parts(obj: bpy.types.Object) -> PresentParts:
-    """Return the parts of an object, which `parts_refusal` has nothing against."""
+    """Return the parts of an object, which `edit_refusal` has nothing against."""
     record = record_of(obj)
     entries = record["parts"]
     labels = layers_of(obj).faces(PART_LAYER)
