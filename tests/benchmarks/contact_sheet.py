@@ -17,6 +17,7 @@ from pathlib import Path
 import bpy
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
+import weak_convex_decomposition as package
 from hand_made import decomposition_of
 from over_models import parse, parser
 from princeton import mean_error, overlaps, read_humans
@@ -138,6 +139,7 @@ def write_png(path: Path, pixels: np.ndarray) -> None:
 
 def main() -> int:
     """Draw every model of a directory, and put the pictures on sheets."""
+    package.register()  # objects have a table of parts then
     options = parser(__doc__)
     options.add_argument("folder", type=Path)
     options.add_argument(

@@ -17,6 +17,7 @@ import time
 import bpy
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
+import weak_convex_decomposition as package
 from hand_made import subdivided_suzanne
 from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.progress import run
@@ -68,6 +69,7 @@ def print_steps(runs: list[Steps]) -> None:
 
 def main() -> int:
     """Time the runs and print the table."""
+    package.register()  # objects have a table of parts then
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--subdivisions", type=int, default=2)
