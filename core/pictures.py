@@ -64,9 +64,8 @@ def draw_picture(
     colors : (K, 3) float
         sRGB of each part.
     """
-    form, of_nodes = visibility.form, np.zeros_like(labels)
-    of_nodes[form.nodes] = labels
-    of_samples = visibility.transfer.to_samples(of_nodes)
+    form = visibility.form
+    of_samples = visibility.transfer.to_samples(form.labels_of_nodes(labels))
     pixels = _DRAWN[kind](visibility, parameters, of_samples, colors)
     return Picture(pixels, form.notes)
 

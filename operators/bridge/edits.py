@@ -108,12 +108,11 @@ def mirroring(to_negative: bool) -> MakeChange:
         from ...core.editing import mirror
 
         yield Progress("Mirror", 0.0)
-        low, high = shape.bounds
         nodes = seen.form.labels_of_nodes(parts.labels)
         found = mirror(
             nodes,
             seen.transfer.surface,
-            -float(low[0] + high[0]) / 2 / shape.diagonal,
+            -float(shape.center[0]) / shape.diagonal,
             to_negative,
         )
         return replace(found, labels=found.labels[seen.form.nodes])
