@@ -90,19 +90,15 @@ def cut_seams(
     labels = labels.copy()
     n_labels = costs.shape[1]
     settled = np.zeros(n_labels, dtype=bool)
-    # Labels that gained nothing, and near which nothing has changed since.
-    idle = np.zeros(n_labels, dtype=bool)
     for sweep in range(_SWEEPS):
         for label in range(n_labels):
             yield Progress("Seams", (sweep + label / n_labels) / _SWEEPS)
-            if not (settled[label] or idle[label]):
-                moved = cutter.expand(labels, label)
-                idle[label] = True
-                if moved.any():
-                    settled[:] = False
-                    idle[labels[moved]] = False
-                    labels[moved] = label
-                    idle[labels[cutter.near(moved)]] = False
+            if settled[label]:
+                continue
+            moved = cutter.expand(labels, label)
+            if moved.any():
+                settled[:] = False
+                labels[moved] = label
             settled[label] = True
         if settled.all():
             break
@@ -157,24 +153,16 @@ class _Expansion:
         moved[nodes[_minimum_cut(gain, tails, heads, capacities)]] = True
         return moved
 
-    def near(self, region: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return the nodes whose label's expansion a change of `region` may change."""
-        return self._within(region, _BAND + 1)
-
     def _band(self, region: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Return the nodes within `_BAND` steps outside `region`."""
-        return self._within(region, _BAND) & ~region
-
-    def _within(self, region: NDArray[np.bool_], steps: int) -> NDArray[np.bool_]:
-        """Return `region` and the nodes within a number of steps of it."""
         reached = region.copy()
         one, other = self.neighbors.T
-        for _ in range(steps):
+        for _ in range(_BAND):
             front = reached.copy()
             front[one[reached[other]]] = True
             front[other[reached[one]]] = True
             reached = front
-        return reached
+        return reached & ~region
 
 
 def _minimum_cut(
