@@ -57,8 +57,10 @@ def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Se
         found = Search((yield from within(seamed, begin, end)), psi_by_k, k)
         if number == 0:
             fewest = found
+        if not partitioner.by_psi:
+            return found
         shortfall = partitioner.psi_of_clusters(k) - partitioner.psi(found.parts)
-        if not partitioner.by_psi or shortfall <= noise / 2:
+        if shortfall <= noise / 2:
             return found
     return fewest
 

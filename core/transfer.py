@@ -55,7 +55,15 @@ class Transfer:
             min(_NEAREST, len(samples)),
         )
         self.shares = self._shares(distances / spacing, nearest)
-        links = self._links(samples, surface, nearest[:, 0], spacing)
+        shells = surface.shells()
+        numbers, first = np.unique(shells, return_index=True)
+        unsampled = np.setdiff1d(numbers, shells[polygon_of])
+        self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
+        # A shell too small for a sample of its own hangs on the nearest one.
+        small = first[unsampled]
+        hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
+        touching = self._touching(samples, shells, spacing)
+        links = np.concatenate([touching, hung])
         self.surface = surface.linked(links)
 
     def _shares(
@@ -79,28 +87,15 @@ class Transfer:
         totals = np.asarray(shares.sum(axis=1)).ravel()
         return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)
 
-    def _links(
-        self,
-        samples: Samples,
-        surface: Surface,
-        nearest: NDArray[np.int64],
-        spacing: float,
+    def _touching(
+        self, samples: Samples, shells: NDArray[np.int64], spacing: float
     ) -> NDArray[np.int64]:
         """Return polygons of different shells that touch: near samples decide."""
-        shells = surface.shells()
         pairs = cKDTree(samples.positions).query_pairs(
             _TOUCH * spacing, output_type="ndarray"
         )
         links = self.polygon_of[pairs]
-        links = links[shells[links[:, 0]] != shells[links[:, 1]]]
-        # A shell too small for a sample of its own hangs on the nearest one.
-        unsampled = np.setdiff1d(shells, shells[self.polygon_of])
-        numbers, first = np.unique(shells, return_index=True)
-        self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
-        small = first[unsampled]
-        return np.concatenate(
-            [links, np.stack([small, self.polygon_of[nearest[small]]], axis=1)]
-        )
+        return links[shells[links[:, 0]] != shells[links[:, 1]]]
 
     def to_polygons(
         self, labels: NDArray[np.int64], n_labels: int

@@ -23,8 +23,8 @@ from .transfer import Transfer
 
 # Samples of which a matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
-# Eigenvectors are looked for by this many: a baker's dozen, as many as a search of
-# default settings tries.
+# Eigenvectors are looked for by this many: as many as a search of default settings
+# needs.
 _COORDINATES = 13
 # What is remembered: two embeddings, their clusters, tallies, the parts of three cuts.
 _KEPT = 7
@@ -90,8 +90,8 @@ class Visibility:
     def embedding(self, n_parts: int, stochastic: bool) -> NDArray[np.float64]:
         """Return coordinates of the samples for some number of parts, (N, n) float.
 
-        Eigenvectors differ a little by how many of them are looked for: they come by
-        the dozen, so that parts do not depend on how many more are tried.
+        Eigenvectors differ a little by how many of them are looked for: they come in
+        fixed numbers, so that parts do not depend on how many more are tried.
         """
         n_coordinates = _COORDINATES * -(-n_parts // _COORDINATES)
         return self.memory.recall(
