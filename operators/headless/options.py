@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import math
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
 
 from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
-from ...core.knobs import Knob, knob_of
+from ...core.knobs import knob_of
 from ...core.parameters import Parameters
 from ...core.presets import PRESET_KNOB, PRESETS, preset
-from ..bridge.record import version
+from ..bridge.notes import version
 from .exporting import ENDINGS as WRITTEN
 from .hull_files import HULL_ENDINGS, HULL_FORMATS
 from .importing import ENDINGS as READ
+from .knob_options import add_option
 from .targets import Targets, targets_for
 
 _DESCRIPTION = f"""\
@@ -112,6 +110,18 @@ def _parser(program: str) -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
+    _add_files(parser)
+    method = parser.add_argument_group("parameters of the method")
+    add_option(method, "preset", PRESET_KNOB, _DEFAULT_PRESET)
+    for_hulls = parser.add_argument_group("parameters of --hulls")
+    for group, kind in ((method, Parameters), (for_hulls, HullParameters)):
+        for each in fields(kind):
+            add_option(group, each.name, knob_of(each), each.default)
+    return parser
+
+
+def _add_files(parser: argparse.ArgumentParser) -> None:
+    """Add what is read and written, and how it is told."""
     parser.add_argument("inputs", metavar="INPUT", nargs="+", type=Path)
     parser.add_argument(
         "--output", metavar="OUTPUT", help="write the model with its parts"
@@ -156,80 +166,3 @@ def _parser(program: str) -> argparse.ArgumentParser:
         version=f"weak_convex_decomposition {version()}",
         help="print the version",
     )
-    method = parser.add_argument_group("parameters of the method")
-    _add(method, "preset", PRESET_KNOB, _DEFAULT_PRESET)
-    for parameter_field in fields(Parameters):
-        knob = knob_of(parameter_field)
-        _add(method, parameter_field.name, knob, parameter_field.default)
-    hulls = parser.add_argument_group("parameters of --hulls")
-    for parameter_field in fields(HullParameters):
-        knob = knob_of(parameter_field)
-        _add(hulls, parameter_field.name, knob, parameter_field.default)
-    return parser
-
-
-def _add(group: argparse._ArgumentGroup, name: str, knob: Knob, default: Any) -> None:
-    """Add an option; unless it is given, the options have no such name."""
-    if knob.choices:
-        convert: Callable[[str], Any] = _choice(knob)
-        metavar = "{" + ",".join(_word(c.identifier) for c in knob.choices) + "}"
-        shown = _word(default)
-    elif knob.subtype == "ANGLE":
-        convert, metavar = _angle(knob), "DEGREES"
-        shown = f"{math.degrees(default):g}"
-    elif isinstance(default, str):
-        convert, metavar, shown = str, "TEXT", default
-    else:
-        convert = type(default)
-        metavar = "N" if isinstance(default, int) else "X"
-        shown = f"{default:g}"
-    group.add_argument(
-        "--" + name.replace("_", "-"),
-        type=convert,
-        default=argparse.SUPPRESS,
-        metavar=metavar,
-        help=f"{_explained(knob)} (default: {shown})".replace("%", "%%"),
-    )
-
-
-def _explained(knob: Knob) -> str:
-    """Return the help of a knob and of its choices."""
-    choices = [
-        f"{_word(c.identifier)}: {c.help[0].lower()}{c.help[1:]}" for c in knob.choices
-    ]
-    return ". ".join([knob.help, "; ".join(choices)] if choices else [knob.help])
-
-
-def _word(identifier: str) -> str:
-    """Return how an identifier such as ALL_PAIRS is typed: all-pairs."""
-    return identifier.lower().replace("_", "-")
-
-
-def _choice(knob: Knob) -> Callable[[str], str]:
-    """Return a converter to one of a knob's identifiers, in any case."""
-    by_word = {_word(choice.identifier): choice.identifier for choice in knob.choices}
-
-    def convert(text: str) -> str:
-        if _word(text) not in by_word:
-            raise argparse.ArgumentTypeError(
-                f"{text!r} is not one of {', '.join(by_word)}"
-            )
-        return by_word[_word(text)]
-
-    return convert
-
-
-def _angle(knob: Knob) -> Callable[[str], float]:
-    """Return a converter from degrees to radians that names bounds in degrees."""
-    low, high = math.degrees(knob.low), math.degrees(knob.high)
-
-    def convert(text: str) -> float:
-        degrees = float(text)
-        if not low <= degrees <= high:
-            raise argparse.ArgumentTypeError(
-                f"{text} is not from {low:g} to {high:g} degrees"
-            )
-        return math.radians(degrees)
-
-    convert.__name__ = "angle"  # argparse: "invalid angle value"
-    return convert

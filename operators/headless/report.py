@@ -10,7 +10,7 @@ from typing import Any
 
 from ...core.errors import DecompositionError
 from ...core.parameters import Parameters
-from ..bridge.record import version
+from ..bridge.notes import version
 from .exporting import replacing
 from .parts import ObjectResult
 
