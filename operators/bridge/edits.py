@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import bpy
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,7 +34,9 @@ def merging(chosen: Sequence[int], into: int) -> MakeChange:
 
 
 def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
-    """Return the edit that gives faces to a part."""
+    """Return the edit that gives faces to a part, or raise if there are none."""
+    if not faces.any():
+        raise DecompositionError("No face is selected; select those to be assigned.")
 
     def change(_: Shape, __: Visibility, parts: PresentParts) -> Steps[Change]:
         from ...core.editing import give
@@ -118,14 +119,3 @@ def mirroring(to_negative: bool) -> MakeChange:
         return replace(found, labels=found.labels[seen.form.nodes])
 
     return change
-
-
-def selected_faces(obj: bpy.types.Object) -> NDArray[np.bool_]:
-    """Return which faces are selected, or raise if none is."""
-    if obj.mode == "EDIT":
-        obj.update_from_editmode()
-    faces = np.zeros(len(obj.data.polygons), dtype=bool)
-    obj.data.polygons.foreach_get("select", faces)
-    if not faces.any():
-        raise DecompositionError("No face is selected; select those to be assigned.")
-    return faces

@@ -7,14 +7,8 @@ import numpy as np
 
 from .layers import EditModeLayers, IntArray, ObjectModeLayers, layers_of
 from .materials import discard_unused, is_ours, our_materials
-from .record import (
-    Restore,
-    check_records,
-    forget_parts,
-    forget_result,
-    read_restore,
-    write_restore,
-)
+from .record import check_records, forget_parts, forget_result
+from .restore import Restore, read_restore, write_restore
 from .rows import erase_rows
 
 PART_LAYER = "wcd_part"

@@ -11,9 +11,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .corners import IntArray, corner_faces
 from .points import is_cloud
-
-IntArray = NDArray[np.int32]
 
 
 class ObjectModeLayers:
@@ -55,11 +54,9 @@ class ObjectModeLayers:
 
     def set_colors(self, name: str, colors: NDArray[np.float32]) -> None:
         """Write an attribute of the corners, from a color for each face (P, 4)."""
-        sizes = np.empty(len(self._mesh.polygons), dtype=np.int32)
-        self._mesh.polygons.foreach_get("loop_total", sizes)
         there = self._mesh.color_attributes
         attribute = there.get(name) or there.new(name, "FLOAT_COLOR", "CORNER")
-        attribute.data.foreach_set("color", np.repeat(colors, sizes, axis=0).ravel())
+        attribute.data.foreach_set("color", colors[corner_faces(self._mesh)].ravel())
 
     def remove(self, name: str) -> None:
         """Remove an attribute, of faces or points, if it is there."""

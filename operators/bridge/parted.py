@@ -10,7 +10,8 @@ from .erase import PART_LAYER
 from .identity import Identity, usual_identities
 from .layers import layers_of
 from .points import is_cloud
-from .record import has_parts, identities_of, read_restore, record_of
+from .record import identities_of, record_of
+from .restore import has_parts, read_restore
 from .target import refusal
 
 

@@ -13,8 +13,9 @@ from ...core.parameters import Parameters
 from .erase import PART_LAYER
 from .identity import Identity
 from .layers import layers_of
-from .record import identities_of, noted_parameters, read_restore, record_of
-from .target import refusal
+from .record import identities_of, noted_parameters, record_of
+from .restore import read_restore
+from .target import flush_edits, refusal
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +60,7 @@ def edit_refusal(obj: bpy.types.Object | None) -> str | None:
 
 def present_parts(obj: bpy.types.Object) -> PresentParts:
     """Return the parts of an object, which `edit_refusal` has nothing against."""
+    flush_edits(obj)
     record = record_of(obj)
     entries = record["parts"]
     labels = layers_of(obj).faces(PART_LAYER)

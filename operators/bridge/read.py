@@ -12,6 +12,7 @@ from ...core.shapes import TriangleMesh
 from ...ui.explode_slider import exploding
 from .converting import CONVERTIBLE, mesh_of
 from .points import is_cloud, normals_of, positions_of
+from .target import flush_edits
 
 # Scales that differ by less are the same scale in Blender's single precision.
 _SAME_SCALE = 1e-5
@@ -27,8 +28,7 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     """
     if is_cloud(obj):
         return _read_cloud(obj)
-    if obj.mode == "EDIT":
-        obj.update_from_editmode()
+    flush_edits(obj)
     with mesh_of(obj) as mesh:
         return _read_mesh(mesh, stretch(obj))
 
@@ -50,7 +50,8 @@ def _read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMe
 
 
 def selected_faces(obj: bpy.types.Object) -> NDArray[np.bool_]:
-    """Return which faces of a mesh are selected, (P,), once it was read."""
+    """Return which faces of a mesh are selected, (P,)."""
+    flush_edits(obj)
     selected = np.zeros(len(obj.data.polygons), dtype=bool)
     obj.data.polygons.foreach_get("select", selected)
     return selected

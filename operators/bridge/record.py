@@ -1,18 +1,10 @@
-"""What we note in the user's file, as JSON in custom properties.
-
-On the object, `wcd`: the result, for people and programs. On the mesh, `wcd_restore`:
-what it takes to bring the mesh back, because groups, slots and attributes are the
-mesh's, whichever of its objects was active.
-"""
+"""What is noted on an object for people and programs: its result, `wcd`."""
 
 from __future__ import annotations
 
-import json
 import math
-import tomllib
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
-from pathlib import Path
+from dataclasses import asdict, fields
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -20,72 +12,29 @@ import bpy
 from ...core.errors import DecompositionError
 from ...core.hull_parameters import HullParameters
 from ...core.parameters import Parameters
-from ...core.record import parse_json, parse_record
+from ...core.record import parse_record
 from .identity import Identity
+from .notes import read_note, version, write_note
+from .restore import has_parts, read_restore
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition, Measurement
     from ...core.hull_decomposition import HullDecomposition
 
 _RESULT = "wcd"
-_RESTORE = "wcd_restore"
 _MEASURED = "measured"
 _SELECTION = "selection"
 _HULLS = "hulls"
-_MANIFEST = Path(__file__).parents[2] / "blender_manifest.toml"
-
-
-@dataclass(frozen=True)
-class Restore:
-    """What it takes to bring a mesh back.
-
-    Attributes
-    ----------
-    groups : list of str
-        Names of the vertex groups that we made, in the order of the parts.
-    active_group : str
-        Name of the active group before; empty if there was none.
-    slots : list of str
-        Names of the materials in the slots before; empty for an empty slot.
-    active_slot : int
-        Index of the active slot of the object before.
-    material_index : int or None
-        The one material index that all faces had, None if they differed.
-    had_material_index : bool
-        Whether the mesh kept material indices at all.
-    """
-
-    groups: list[str]
-    active_group: str
-    slots: list[str]
-    active_slot: int
-    material_index: int | None
-    had_material_index: bool
-
-
-def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
-    """Return what was noted on a mesh, None if we have not written to it."""
-    noted = _read(mesh, _RESTORE)
-    if not noted:
-        return None
-    if noted.keys() != {field.name for field in fields(Restore)}:
-        raise _not_ours(mesh, _RESTORE)
-    return Restore(**noted)
-
-
-def write_restore(mesh: bpy.types.Mesh, restore: Restore | None) -> None:
-    """Note on a mesh how to bring it back; None removes the note."""
-    _write(mesh, _RESTORE, asdict(restore) if restore else {})
 
 
 def has_record(obj: bpy.types.Object) -> bool:
     """Return whether there is anything of ours on an object or its mesh."""
-    return _RESULT in obj or _RESTORE in obj.data
+    return _RESULT in obj or has_parts(obj)
 
 
 def record_of(obj: bpy.types.Object) -> dict[str, Any]:
     """Return what is noted on an object, empty if nothing is."""
-    return _read(obj, _RESULT)
+    return read_note(obj, _RESULT, parse_record)
 
 
 def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
@@ -98,18 +47,13 @@ def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
 
 def write_record(obj: bpy.types.Object, record: dict[str, Any]) -> None:
     """Note a changed record on its object."""
-    _write(obj, _RESULT, record)
-
-
-def has_parts(obj: bpy.types.Object) -> bool:
-    """Return whether the mesh of an object has parts of ours."""
-    return _RESTORE in obj.data
+    write_note(obj, _RESULT, record)
 
 
 def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
     """Return what the parts of an object were found with, None if it is not noted."""
     try:
-        noted = _read(obj, _RESULT).get("parameters")
+        noted = record_of(obj).get("parameters")
     except DecompositionError:  # a property of the user's
         return None
     if noted is None:
@@ -121,7 +65,7 @@ def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
 def check_records(obj: bpy.types.Object) -> None:
     """Raise if a custom property under one of our names is not ours."""
     read_restore(obj.data)
-    _read(obj, _RESULT)
+    record_of(obj)
 
 
 def write_result(
@@ -165,7 +109,7 @@ def write_result(
     beside = _beside_parts(obj)
     for hull in beside.get(_HULLS, {}).get("hulls", ()):
         hull["part"] = None  # it is around one of the parts that were before
-    _write(obj, _RESULT, {**result, **beside})
+    write_note(obj, _RESULT, {**result, **beside})
 
 
 def write_measurement(
@@ -175,7 +119,7 @@ def write_measurement(
     faces: int | None = None,
 ) -> None:
     """Note a measurement of an object, or of so many of its faces, keeping all else."""
-    result = _read(obj, _RESULT) or {"version": version()}
+    result = record_of(obj) or {"version": version()}
     noted = {
         "convexity_rank": float(measurement.rank),
         "standard_error": float(measurement.standard_error),
@@ -187,7 +131,7 @@ def write_measurement(
         result[_MEASURED] = noted
     else:
         result[_SELECTION] = {"faces": faces, **noted}
-    _write(obj, _RESULT, result)
+    write_note(obj, _RESULT, result)
 
 
 def write_hull_record(
@@ -197,7 +141,7 @@ def write_hull_record(
     hulls: list[dict[str, Any]],
 ) -> None:
     """Note the hulls of an object, keeping what else is noted."""
-    result = _read(obj, _RESULT) or {"version": version()}
+    result = record_of(obj) or {"version": version()}
     ratio = found.volume_ratio
     result[_HULLS] = {
         "parameters": asdict(parameters),
@@ -206,12 +150,12 @@ def write_hull_record(
         "hulls": hulls,
         "notes": list(found.notes),
     }
-    _write(obj, _RESULT, result)
+    write_note(obj, _RESULT, result)
 
 
 def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
     """Return what is noted on an object besides its decomposition."""
-    result = _read(obj, _RESULT)
+    result = record_of(obj)
     return {
         key: result[key] for key in (_MEASURED, _SELECTION, _HULLS) if key in result
     }
@@ -220,41 +164,9 @@ def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
 def forget_parts(obj: bpy.types.Object) -> None:
     """Remove what was noted of a decomposition, keeping all else."""
     kept = _beside_parts(obj)
-    _write(obj, _RESULT, {"version": version(), **kept} if kept else {})
+    write_note(obj, _RESULT, {"version": version(), **kept} if kept else {})
 
 
 def forget_result(obj: bpy.types.Object) -> None:
     """Remove everything that was noted on an object."""
-    _write(obj, _RESULT, {})
-
-
-def version() -> str:
-    """Return the version of the extension."""
-    manifest = tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))
-    return str(manifest["version"])
-
-
-def _read(owner: bpy.types.ID, key: str) -> dict[str, Any]:
-    """Return one of our records, empty if there is none."""
-    if key not in owner:
-        return {}
-    parse = parse_record if key == _RESULT else parse_json
-    noted = parse(owner[key])
-    if noted is None:
-        raise _not_ours(owner, key)
-    return noted
-
-
-def _not_ours(owner: bpy.types.ID, key: str) -> DecompositionError:
-    return DecompositionError(
-        f"{owner.name} has a custom property {key} that this add-on did not write;"
-        " rename or delete it."
-    )
-
-
-def _write(owner: bpy.types.ID, key: str, noted: dict[str, Any]) -> None:
-    """Write one of our records; an empty one removes it."""
-    if noted:
-        owner[key] = json.dumps(noted)
-    elif key in owner:
-        del owner[key]
+    write_note(obj, _RESULT, {})

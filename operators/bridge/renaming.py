@@ -10,7 +10,8 @@ import bpy
 from .identity import Identity
 from .materials import discard_unused, is_ours, renamed_material
 from .points import is_cloud
-from .record import identities_of, read_restore, record_of, write_record, write_restore
+from .record import identities_of, record_of, write_record
+from .restore import read_restore, write_restore
 
 
 def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .layers import IntArray
+from .corners import IntArray, corner_edges, corner_faces, corner_vertices
 
 BoolArray = NDArray[np.bool_]
 
@@ -25,10 +25,10 @@ def select_faces(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, "faces", chosen, extend)
         return
-    corners, edges, sizes = _corners(mesh)
-    of_faces = np.repeat(chosen, sizes)
-    _select(mesh.vertices, _flags(len(mesh.vertices), corners[of_faces]), extend)
-    _select(mesh.edges, _flags(len(mesh.edges), edges[of_faces]), extend)
+    of_faces = chosen[corner_faces(mesh)]
+    vertices, edges = corner_vertices(mesh)[of_faces], corner_edges(mesh)[of_faces]
+    _select(mesh.vertices, _flags(len(mesh.vertices), vertices), extend)
+    _select(mesh.edges, _flags(len(mesh.edges), edges), extend)
     _select(mesh.polygons, chosen, extend)
     _show(mesh)
 
@@ -82,8 +82,7 @@ def boundary_edges(
 ) -> BoolArray:
     """Return which edges lie between chosen parts and other parts, (E,)."""
     mesh = obj.data
-    _, edges, sizes = _corners(mesh)
-    labels = np.repeat(labels, sizes)
+    edges, labels = corner_edges(mesh), labels[corner_faces(mesh)]
     lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max)
     highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
     np.minimum.at(lowest, edges, labels)
@@ -92,17 +91,6 @@ def boundary_edges(
     of_chosen = np.zeros(len(mesh.edges), dtype=bool)
     of_chosen[edges[np.isin(labels, chosen)]] = True
     return between & of_chosen
-
-
-def _corners(mesh: bpy.types.Mesh) -> tuple[IntArray, IntArray, IntArray]:
-    """Return the vertex and the edge of each corner, and the corners of each face."""
-    vertices = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", vertices)
-    edges = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("edge_index", edges)
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return vertices, edges, sizes
 
 
 def _flags(size: int, rows: IntArray) -> BoolArray:

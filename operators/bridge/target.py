@@ -68,6 +68,12 @@ def decompose_refusal(obj: bpy.types.Object | None) -> str | None:
     return None
 
 
+def flush_edits(obj: bpy.types.Object) -> None:
+    """Bring what was done to an object in Edit Mode to its mesh."""
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+
+
 @dataclass(frozen=True)
 class Target:
     """What tells whether an object is still the one that was read.
@@ -83,8 +89,7 @@ class Target:
     @classmethod
     def of(cls, obj: bpy.types.Object) -> Target:
         """Return the target that an object is now."""
-        if obj.mode == "EDIT":
-            obj.update_from_editmode()
+        flush_edits(obj)
         if is_cloud(obj):
             counts = count_points(obj), 0
         else:

@@ -9,6 +9,7 @@ import numpy as np
 from mathutils import Vector
 from numpy.typing import NDArray
 
+from .corners import corner_faces, corner_vertices
 from .points import is_cloud, positions_of
 
 # Room around what is framed.
@@ -23,12 +24,8 @@ def points_of_parts(
     if is_cloud(obj):
         places = places[members]
     else:
-        mesh = obj.data
-        sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-        mesh.polygons.foreach_get("loop_total", sizes)
-        corners = np.empty(len(mesh.loops), dtype=np.int32)
-        mesh.loops.foreach_get("vertex_index", corners)
-        places = places[corners[np.repeat(members, sizes)]]
+        vertices = corner_vertices(obj.data)
+        places = places[vertices[members[corner_faces(obj.data)]]]
     world = np.array(obj.matrix_world)
     return places @ world[:3, :3].T + world[:3, 3]
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...core.errors import DecompositionError
 from ...core.parameters import Parameters
+from .corners import corner_faces, corner_vertices
 from .erase import (
     COLOR_LAYER,
     LAYERS,
@@ -24,10 +25,11 @@ from .layers import IntArray, layers_of
 from .materials import discard_unused, part_materials, points_material
 from .palette import part_color
 from .points import count_points, is_cloud, set_points
-from .record import Restore, check_records, read_restore, write_restore, write_result
+from .record import check_records, write_result
+from .restore import Restore, read_restore, write_restore
 from .rows import kept_rows, write_rows
 from .showing import show, shown
-from .target import refusal
+from .target import flush_edits, refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ...core.decomposition import Decomposition
@@ -84,8 +86,7 @@ def check_writable(obj: bpy.types.Object) -> None:
     reason = refusal(obj)
     if reason:
         raise DecompositionError(f"{reason}.")
-    if obj.mode == "EDIT":
-        obj.update_from_editmode()
+    flush_edits(obj)
     check_records(obj)
     written = read_restore(obj.data) is not None
     for name, data_type in LAYERS.items():
@@ -177,11 +178,7 @@ def _vertices_by_part(
     if is_cloud(obj):
         vertices, parts = np.arange(len(labels), dtype=np.int32), labels
     else:
-        mesh = obj.data
-        vertices = np.empty(len(mesh.loops), dtype=np.int32)
-        mesh.loops.foreach_get("vertex_index", vertices)
-        sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-        mesh.polygons.foreach_get("loop_total", sizes)
-        parts = np.repeat(labels, sizes)
+        vertices = corner_vertices(obj.data)
+        parts = labels[corner_faces(obj.data)]
     for part in range(n_parts):
         yield np.unique(vertices[parts == part])
