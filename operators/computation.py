@@ -12,29 +12,20 @@ from ..core.errors import DecompositionError
 from ..core.progress import Steps, in_turn, run
 from ..ui import running
 from . import modal
-from .bridge.target import Target, chosen
+from .bridge.target import Target
 from .cursor import with_cursor
-from .each import conclude
+from .on_objects import OnObjects
 
 
-class Computation:
+class Computation(OnObjects):
     """Half an operator that computes.
 
-    The other half has `_refusal(obj)`, which returns why an object cannot be worked on;
-    `_begin(context, obj)`, which checks and reads an object and returns the `Steps` to
-    be done; and `_commit(obj, value)`, which writes what they return to the object and
-    returns the figures in a line.
+    The other half has `_refusal(obj)`; `_begin(context, obj)`, which checks and reads
+    an object and returns the `Steps` to be done; and `_commit(obj, value)`, which
+    writes what they return to the object and returns the figures in a line.
     Buttons invoke it; scripts and Adjust Last Operation execute it. All is written at
     the end; where there are several objects, those that fail are told of and left out.
     """
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there is an object to work on, and nothing else is running."""
-        reason = modal.busy() or cls._refusal(cls._chosen(context)[0])
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute while Blender waits."""
@@ -67,9 +58,9 @@ class Computation:
         modal.stop()
 
     @classmethod
-    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the objects to work on."""
-        return chosen(context, cls._refusal)
+    def _obstacle(cls, context: bpy.types.Context) -> str | None:
+        """Return what else is running, or why nothing can be done."""
+        return modal.busy() or super()._obstacle(context)
 
     def _read(
         self, context: bpy.types.Context
@@ -108,7 +99,7 @@ class Computation:
             self._warn(outcome.notes)
             seconds = time.perf_counter() - self._started
             self.report({"INFO"}, f"{self._title}{figures}, {seconds:.1f} s")
-        return conclude(self, failures, len(outcomes))
+        return self._conclude(failures, len(outcomes))
 
     def _changeable(self, target: Target) -> bpy.types.Object:
         """Return the object that was read, or raise if it must not be written to now.

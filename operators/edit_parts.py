@@ -10,12 +10,12 @@ from ..core.errors import DecompositionError
 from ..core.progress import Steps
 from ..ui.properties import annotations
 from .bridge import edits
-from .bridge.computing import summary
 from .bridge.editing import edit_object
 from .bridge.points import is_cloud
 from .bridge.present_parts import edit_refusal
+from .bridge.read import selected_faces
 from .bridge.rows import active_part, chosen_parts
-from .computation import Computation
+from .replacement import Replacement
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from .bridge.editing import Edited
@@ -35,7 +35,7 @@ def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
     return chosen_parts(obj) if scope == "CHOSEN" else list(range(len(obj.wcd_parts)))
 
 
-class _Edit(Computation):
+class _Edit(Replacement):
     """What edits of parts share."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
@@ -43,15 +43,6 @@ class _Edit(Computation):
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return edit_refusal(obj)
-
-    @classmethod
-    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the active object, whose parts the table shows."""
-        return [context.active_object]
-
-    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(obj)
-        return summary(value.decomposition)
 
 
 class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
@@ -130,8 +121,8 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        faces = edits.selected_faces(obj)
-        return edit_object(obj, edits.giving(faces, active_part(obj)))
+        change = edits.giving(selected_faces(obj), active_part(obj))
+        return edit_object(obj, change)
 
 
 class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):

@@ -14,11 +14,11 @@ from ..core.parameters import Parameters
 from ..core.progress import Steps
 from ..ui.properties import annotations, parameters_from
 from . import modal
-from .bridge.computing import is_quick, summary
+from .bridge.computing import is_quick
 from .bridge.locking import decompose_unlocked
 from .bridge.record import noted_parameters
 from .bridge.target import refusal
-from .computation import Computation
+from .replacement import Replacement
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from .bridge.editing import Edited
@@ -28,7 +28,7 @@ _MOMENT = 0.3
 _RETRY = 0.1
 
 
-class _Recut(Computation):
+class _Recut(Replacement):
     """Half an operator that replaces parts by those of the settings in the sidebar."""
 
     @staticmethod
@@ -41,11 +41,6 @@ class _Recut(Computation):
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         return parameters_from(context.scene.wcd)
 
-    @classmethod
-    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the active object: lines of sight of one are kept."""
-        return [context.active_object]
-
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
@@ -53,10 +48,6 @@ class _Recut(Computation):
         if not is_quick(obj, parameters):
             self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
         return decompose_unlocked(obj, parameters)
-
-    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(obj)
-        return summary(value.decomposition)
 
 
 class WCD_OT_recut(_Recut, bpy.types.Operator):

@@ -7,7 +7,6 @@ from typing import Any, ClassVar
 import bpy
 import numpy as np
 
-from ..core.errors import DecompositionError
 from .bridge.points import is_cloud
 from .bridge.present_parts import edit_refusal, present_parts
 from .bridge.rows import chosen_parts
@@ -20,24 +19,17 @@ from .bridge.selection import (
 )
 from .bridge.viewing import frame_points, points_of_parts
 from .edit_parts import SCOPE, in_scope
+from .on_objects import OnActive, OnEach
 
 _EXTEND = bpy.props.BoolProperty(
     name="Extend", description="Keep what is selected already", default=False
 )
 
 
-class _Show:
-    """What these operators share; `_show(obj)` does the work."""
+class _Show(OnActive, OnEach):
+    """What these operators share."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the active object has parts that this can be done to."""
-        reason = cls._refusal(context.active_object)
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
@@ -45,18 +37,6 @@ class _Show:
         if reason is None and is_cloud(obj):
             reason = f"{obj.name} has no faces, only points"
         return reason
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Do it."""
-        obj = context.active_object
-        try:
-            if obj.mode == "EDIT":
-                obj.update_from_editmode()
-            self._show(context, obj)
-        except DecompositionError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
 
 
 def _members(obj: bpy.types.Object) -> np.ndarray:
@@ -74,7 +54,7 @@ class WCD_OT_select_parts(_Show, bpy.types.Operator):
         " In Object Mode the selection shows when Edit Mode is entered"
     )
 
-    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         select_faces(obj, _members(obj), self.extend)
 
 
@@ -105,7 +85,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
             reason = "Faces are hidden in Edit Mode alone; switch the mode"
         return reason
 
-    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         members = _members(obj)
         hide_faces(obj, ~members if self.hide else np.zeros_like(members))
 
@@ -134,15 +114,14 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
         return edit_refusal(obj)
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there are parts, and a view to move."""
+    def _obstacle(cls, context: bpy.types.Context) -> str | None:
+        """Return that there is no view to move, or why nothing can be done."""
         space = context.space_data
         if space is None or space.type != "VIEW_3D":
-            cls.poll_message_set("There is no 3D viewport here")
-            return False
-        return super().poll(context)
+            return "There is no 3D viewport here"
+        return super()._obstacle(context)
 
-    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         points = points_of_parts(obj, _members(obj))
         frame_points(context.space_data, points)
 
@@ -154,7 +133,7 @@ class WCD_OT_select_boundary(_Show, bpy.types.Operator):
     bl_label = "Select Boundary of Convex Parts"
     bl_description = "Select the edges where parts meet"
 
-    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
         select_edges(obj, boundary_edges(obj, labels, chosen), self.extend)
 
@@ -169,7 +148,7 @@ class WCD_OT_mark_seams(_Show, bpy.types.Operator):
     bl_label = "Mark Seams of Convex Parts"
     bl_description = "Mark the edges where parts meet as seams, for unwrapping"
 
-    def _show(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
         mark_seams(obj, boundary_edges(obj, labels, chosen))
 

@@ -19,6 +19,7 @@ from .bridge.computing import look_out_of
 from .bridge.read import stretch
 from .bridge.target import refusal
 from .computation import Computation
+from .on_objects import OnActive
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ..core.lookout import Lookout
@@ -26,7 +27,7 @@ if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
 _HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hide"
 
 
-class WCD_OT_show_sight(Computation, bpy.types.Operator):
+class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
     """Show which samples the points see that are clicked on."""
 
     bl_idname = "wcd.show_sight"
@@ -42,10 +43,6 @@ class WCD_OT_show_sight(Computation, bpy.types.Operator):
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return refusal(obj, writes_mesh=False)
-
-    @classmethod
-    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        return [context.active_object]
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Show what the middle of a face sees, at once."""

@@ -12,32 +12,16 @@ from .bridge.exploding import explode, implode
 from .bridge.parted import object_mode_refusal, parts_refusal
 from .bridge.separating import replace, separate
 from .bridge.showing import write_colors, write_face_sets
-from .bridge.target import chosen
-from .each import do_each
+from .on_objects import OnEach
 
 
-class _OnParts:
-    """Half an operator on selected objects with parts.
-
-    The other half has `_work(obj)`; and `_refusal(obj)`, unless Object Mode is needed.
-    """
+class _OnParts(OnEach):
+    """Half an operator on objects with parts, in Object Mode unless it says other."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal: Callable[[bpy.types.Object], str | None] = staticmethod(
         object_mode_refusal
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there are parts to work on."""
-        reason = cls._refusal(chosen(context, cls._refusal)[0])
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Work on the selected objects."""
-        return do_each(self, chosen(context, self._refusal), self._work)
 
 
 class WCD_OT_separate(_OnParts, bpy.types.Operator):
@@ -59,8 +43,8 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
         ),
     )
 
-    def _work(self, obj: bpy.types.Object) -> None:
-        was_active = bpy.context.active_object == obj
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        was_active = context.active_object == obj
         pieces = separate(obj)
         if self.original == "REMOVE":
             replace(obj, pieces[0])
@@ -68,7 +52,7 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
             obj.select_set(False)
             obj.hide_set(True)
             obj.hide_render = True
-        layer = bpy.context.view_layer
+        layer = context.view_layer
         layer.update()
         there = [piece for piece in pieces if piece.name in layer.objects]
         for piece in there:
@@ -96,7 +80,7 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
         subtype="FACTOR",
     )
 
-    def _work(self, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         explode(obj, self.distance)
 
 
@@ -110,10 +94,9 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is an exploded view."""
-        objects = chosen(context, cls._refusal)
-        return super().poll(context) and any(map(exploding, objects))
+        return super().poll(context) and any(map(exploding, cls._chosen(context)))
 
-    def _work(self, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         implode(obj)
 
 
@@ -128,7 +111,7 @@ class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
     )
     _refusal = staticmethod(parts_refusal)
 
-    def _work(self, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         write_face_sets(obj)
 
 
@@ -143,7 +126,7 @@ class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
     )
     _refusal = staticmethod(parts_refusal)
 
-    def _work(self, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         write_colors(obj)
 
 

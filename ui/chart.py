@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 
-from .panels import WCD_PT_parts, result_of
+from .panels import WCD_PT_parts
+from .sidebar import Sidebar, result_of
 
 # Room beside a bar for the number of parts, and height of a row in rows.
 _NUMBER = 0.22
 _HEIGHT = 0.8
 
 
-class WCD_PT_chart(bpy.types.Panel):
+class WCD_PT_chart(Sidebar, bpy.types.Panel):
     """Psi by number of parts."""
 
     bl_label = "ψ by Number of Parts"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
     bl_parent_id = WCD_PT_parts.__name__
-    bl_options: ClassVar[set[str]] = set()
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

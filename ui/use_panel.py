@@ -8,8 +8,9 @@ import bpy
 
 from . import sight_overlay
 from .explode_slider import exploding, slider
-from .panels import Sidebar, line, result_of
+from .panels import line
 from .properties import SELECTION, hand_over
+from .sidebar import Sidebar, result_of
 
 
 class WCD_PT_use(Sidebar, bpy.types.Panel):

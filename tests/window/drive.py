@@ -48,7 +48,7 @@ class Play:
     def __call__(self):
         try:
             return self.go_on()
-        except BaseException:
+        except Exception:
             traceback.print_exc()
             leave(1)
 
