@@ -9,7 +9,6 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.cluster import KMeans
-from threadpoolctl import threadpool_limits
 
 _STARTS = 4
 _THREADS = "OMP_NUM_THREADS"
@@ -27,14 +26,13 @@ def cluster(
     embedding = embedding.round(_DECIMALS)
     n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
     model = KMeans(n_clusters=n_clusters, n_init=_STARTS, random_state=seed)
-    # One thread: sums do not depend on how many there are, and nothing spins.
-    with threadpool_limits(limits=1), _one_thread():
+    with _no_count_of_cores():
         labels: NDArray[np.int64] = model.fit_predict(embedding).astype(np.int64)
     return labels
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
+def _no_count_of_cores() -> Iterator[None]:
     """Keep scikit-learn from starting a program that counts the physical cores."""
     before = os.environ.get(_THREADS)
     os.environ[_THREADS] = "1"

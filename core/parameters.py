@@ -232,6 +232,18 @@ class Parameters:
             recut=True,
         ),
     )
+    levels: int = parameter(
+        1,
+        Knob(
+            "Levels",
+            "How often parts are decomposed in their turn, with all samples on each, so"
+            " that small ones come apart, such as fingers, at several times the time;"
+            " Parts is the number on the first level",
+            low=1,
+            high=4,
+            recut=True,
+        ),
+    )
     seed: int = parameter(
         0,
         Knob("Seed", "Start of the random numbers", low=0, high=2**31 - 1),

@@ -8,15 +8,22 @@ _BLOCK = 1 << 20  # pairs of a ray and a triangle at a time
 class BruteCaster:
     """A `RayCaster` by Möller and Trumbore, "Fast, Minimum Storage Ray-Triangle
     Intersection", 1997, without culling.
+
+    Their triple products are linear in the direction of a ray and its moment, so that
+    they are products of matrices.
     """
 
     def __init__(self, mesh):
         corners = mesh.vertices[mesh.triangles]
-        self._corner = corners[:, 0]
-        self._edges = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        corner = corners[:, 0]
+        first, second = corners[:, 1] - corner, corners[:, 2] - corner
+        self._normals = np.cross(first, second)
+        self._heights = (corner * self._normals).sum(axis=1)
+        self._u = np.hstack([np.cross(corner, second), second])
+        self._v = np.hstack([np.cross(first, corner), -first])
 
     def first_hit(self, origins, directions, reach):
-        rows = max(1, _BLOCK // len(self._corner))
+        rows = max(1, _BLOCK // len(self._normals))
         triangles = np.full(len(origins), -1, dtype=np.int64)
         distances = np.full(len(origins), np.inf)
         for start in range(0, len(origins), rows):
@@ -31,14 +38,10 @@ class BruteCaster:
 
     def _distances(self, origins, directions):
         """Return the distance (M, T) along each ray to each triangle, inf for none."""
-        first, second = self._edges
-        normal = np.cross(directions[:, None], second)
+        rays = np.hstack([directions, np.cross(origins, directions)])
         with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = 1.0 / (first * normal).sum(axis=-1)
-            offset = origins[:, None] - self._corner
-            u = (offset * normal).sum(axis=-1) * inverse
-            across = np.cross(offset, first)
-            v = (directions[:, None] * across).sum(axis=-1) * inverse
-            along = (second * across).sum(axis=-1) * inverse
+            inverse = -1.0 / (directions @ self._normals.T)
+            u, v = rays @ self._u.T * inverse, rays @ self._v.T * inverse
+            along = (origins @ self._normals.T - self._heights) * inverse
             hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (along >= 0)
         return np.where(hit, along, np.inf)

@@ -7,6 +7,9 @@ import sys
 import pytest
 from checkout import PACKAGE, ROOT  # noqa: F401  # tests take them from here
 
+# Before NumPy is loaded: threads wait for each other where other programs are busy.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 EXIT_STATUS = pytest.StashKey[int]()
 
 HAS_BLENDER = importlib.util.find_spec("bpy") is not None

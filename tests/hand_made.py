@@ -2,8 +2,8 @@
 
 import bpy
 import numpy as np
-from weak_convex_decomposition.core.decomposition import Decomposition
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import Decomposition
 from weak_convex_decomposition.operators.bridge.write import write_parts
 
 

@@ -44,7 +44,9 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
     ) -> None:
         """Draw the button that chooses a number of parts; a star marks the best."""
         icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
+        # Deeper levels add parts to the k of the first one.
+        shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
         button = layout.operator(
-            "wcd.choose_part_count", text=str(k), icon=icon, depress=k == result["k"]
+            "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
         )
         button.parts = k

@@ -26,10 +26,11 @@ from .visibility_cache import is_seen, see_once
 from .write import check_writable
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ...core.decomposition import Decomposition, Measurement
+    from ...core.decomposition import Measurement
     from ...core.form import Shape
     from ...core.hull_decomposition import HullDecomposition
     from ...core.lookout import Lookout
+    from ...core.parts import Decomposition
     from ...core.pictures import Picture
 
     Result = TypeVar(
@@ -71,15 +72,17 @@ def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
     Errors are those of `decompose_object`.
     """
     check_writable(obj)
-    return is_seen(read_shape(obj), parameters)
+    return parameters.levels == 1 and is_seen(read_shape(obj), parameters)
 
 
 def _decompose(shape: Shape, parameters: Parameters) -> Steps[Decomposition]:
     """Decompose as `core.decomposition.decompose` does, by the latest visibility."""
-    from ...core.decomposition import find_parts
+    from ...core.decomposition import decompose_seen, share_of_sight
 
-    visibility = yield from within(see_once(shape, parameters), 0.0, 0.8)
-    return (yield from within(find_parts(visibility, parameters), 0.8, 1.0))
+    share = share_of_sight(parameters)
+    visibility = yield from within(see_once(shape, parameters), 0.0, share)
+    steps = decompose_seen(shape, visibility, parameters, BvhRayCaster)
+    return (yield from within(steps, share, 1.0))
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:

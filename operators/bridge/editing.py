@@ -20,9 +20,9 @@ from .visibility_cache import see_once
 from .write import check_writable, write_parts
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ...core.decomposition import Decomposition
     from ...core.editing import Change
     from ...core.form import Shape
+    from ...core.parts import Decomposition
     from ...core.visibility import Visibility
 
     MakeChange: TypeAlias = Callable[[Shape, Visibility, PresentParts], Steps[Change]]
@@ -101,8 +101,8 @@ def _described(
     visibility: Visibility, parts: PresentParts, change: Change, parameters: Parameters
 ) -> tuple[Decomposition, tuple[Identity, ...]]:
     """Return the figures of changed parts, in the order of their numbers."""
-    from ...core.decomposition import describe
     from ...core.editing import compacted
+    from ...core.parts import describe
 
     labels, former = compacted(change.labels)
     before = with_sides(parts.identities, change.mirrored.values(), change.side)

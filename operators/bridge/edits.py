@@ -51,16 +51,16 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
     """Return the edit that splits each of some parts into so many, 0 for by psi."""
 
     def change(shape: Shape, _: Visibility, parts: PresentParts) -> Steps[Change]:
+        from ...core.decomposition import decompose
         from ...core.editing import Change
-        from ...core.splitting import split_part
 
         labels, ranks = parts.labels.copy(), {}
         free = len(parts.identities)
-        parameters = replace(parts.parameters, parts=n_parts)
+        parameters = replace(parts.parameters, parts=n_parts, levels=1)
         for turn, part in enumerate(chosen):
             members = parts.labels == part
             found = yield from within(
-                split_part(shape, members, parameters, BvhRayCaster),
+                decompose(shape, parameters, BvhRayCaster, members),
                 turn / len(chosen),
                 (turn + 1) / len(chosen),
             )

@@ -51,10 +51,10 @@ def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edit
         )
 
     def change(shape: Shape, _: Visibility, parts: PresentParts) -> Steps[Change]:
+        from ...core.decomposition import decompose
         from ...core.editing import Change
-        from ...core.splitting import split_part
 
-        found = yield from split_part(shape, members, rest, BvhRayCaster)
+        found = yield from decompose(shape, rest, BvhRayCaster, members)
         labels = parts.labels.copy()
         first = len(parts.identities)
         labels[members] = first + found.labels

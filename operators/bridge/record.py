@@ -18,8 +18,9 @@ from .notes import read_note, version, write_note
 from .restore import has_parts, read_restore
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ...core.decomposition import Decomposition, Measurement
+    from ...core.decomposition import Measurement
     from ...core.hull_decomposition import HullDecomposition
+    from ...core.parts import Decomposition
 
 _RESULT = "wcd"
 _MEASURED = "measured"

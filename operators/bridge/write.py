@@ -32,7 +32,7 @@ from .showing import show, shown
 from .target import flush_edits, refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ...core.decomposition import Decomposition
+    from ...core.parts import Decomposition
 
 
 def write_parts(

@@ -13,6 +13,7 @@ import numpy as np
 from mathutils import Euler, Matrix, Vector
 from numpy.typing import NDArray
 
+from ..bridge.corners import corner_vertices
 from ..bridge.materials import discard_unused, our_materials
 from ..bridge.points import is_cloud
 from .exporting import replacing, told
@@ -145,9 +146,7 @@ def _coordinates(objects: Sequence[bpy.types.Object]) -> NDArray[np.float32]:
     for obj in objects:
         positions = np.empty(len(obj.data.vertices) * 3, dtype=np.float32)
         obj.data.vertices.foreach_get("co", positions)
-        used = np.empty(len(obj.data.loops), dtype=np.int32)
-        obj.data.loops.foreach_get("vertex_index", used)
-        corners = positions.reshape(-1, 3)[np.unique(used)]
+        corners = positions.reshape(-1, 3)[np.unique(corner_vertices(obj.data))]
         matrix = np.array(obj.matrix_world, dtype=np.float32)
         found.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
     return np.concatenate(found)

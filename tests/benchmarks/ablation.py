@@ -19,8 +19,8 @@ import numpy as np
 from over_models import add_jobs, measured, parse, parser
 from princeton import category, mean_error, median_count, read_humans, read_model
 from weak_convex_decomposition.core import part_count, partition, visibility
-from weak_convex_decomposition.core.decomposition import find_parts
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import find_parts
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.spectral import embed
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster

@@ -21,8 +21,8 @@ from over_models import add_jobs, measured, parse, parser
 from princeton import mean_error, median_count, read_humans, read_model
 from score_table import Score, report
 from symmetry import find_mirror
-from weak_convex_decomposition.core.decomposition import Decomposition, find_parts
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import Decomposition, find_parts
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.shapes import TriangleMesh
 from weak_convex_decomposition.core.visibility import Visibility, look, see

@@ -17,6 +17,7 @@ CHANGES = {
     "refinement": "EMBEDDING",
     "smoothness": 0.0,
     "smallest_part": 0.1,
+    "levels": 2,
 }
 
 

@@ -8,8 +8,9 @@ from hand_made import subdivided_suzanne
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from weak_convex_decomposition.core.decomposition import Decomposition, decompose
+from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import Decomposition
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.shapes import TriangleMesh
 from weak_convex_decomposition.core.surface import surface_of

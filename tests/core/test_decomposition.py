@@ -2,9 +2,10 @@ import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
-from weak_convex_decomposition.core.decomposition import decompose, find_parts
+from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import find_parts
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.shapes import TriangleMesh
 from weak_convex_decomposition.core.surface import surface_of

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 from shapes import dumbbell
-from weak_convex_decomposition.core.decomposition import find_parts
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import find_parts
 from weak_convex_decomposition.core.picture_kinds import PICTURES
 from weak_convex_decomposition.core.pictures import draw_picture
 from weak_convex_decomposition.core.progress import run

@@ -7,9 +7,10 @@ import pytest
 import shapes
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.clouds import PointCloud
-from weak_convex_decomposition.core.decomposition import decompose, find_parts
+from weak_convex_decomposition.core.decomposition import decompose, decompose_seen
 from weak_convex_decomposition.core.knobs import knob_of
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import find_parts
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.visibility_key import visibility_key
 
@@ -31,6 +32,7 @@ CHANGES = {
     "refinement": "EMBEDDING",
     "smoothness": 0.0,
     "smallest_part": 0.1,
+    "levels": 2,
     "seed": 1,
 }
 RECUT = [f.name for f in fields(Parameters) if knob_of(f).recut]
@@ -45,7 +47,7 @@ def test_a_new_cut_is_that_of_a_new_run(seen, decomposed, name):
     after = replace(BEFORE, **{name: CHANGES[name]})
     visibility = seen(shapes.comb, samples=120, max_parts=5)
     run(find_parts(visibility, BEFORE))
-    again = run(find_parts(visibility, after))
+    again = run(decompose_seen(shapes.comb(), visibility, after, BruteCaster))
     fresh = run(decompose(shapes.comb(), after, BruteCaster))
     assert result(again) == result(fresh)
     back = run(find_parts(visibility, BEFORE))

@@ -1,14 +1,14 @@
-"""One part decomposed again: its own samples, its own faces, nothing else."""
+"""Parts decomposed again: their own samples, their own faces, nothing else."""
 
 import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
-from weak_convex_decomposition.core.decomposition import describe, find_parts
+from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parts import describe, find_parts
 from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.splitting import split_part
 from weak_convex_decomposition.core.surface import surface_of
 from weak_convex_decomposition.core.visibility import see
 
@@ -25,7 +25,7 @@ def hand_on_a_wall():
 
 def split(mesh, members, **values):
     parameters = Parameters(**{**SETTINGS, **values})
-    return run(split_part(mesh, members, parameters, BruteCaster))
+    return run(decompose(mesh, parameters, BruteCaster, members))
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +47,47 @@ def test_fingers_come_apart_when_the_hand_is_split(hand):
     assert len(set.union(*tip_parts.values())) == 3
     assert parts.areas.sum() == pytest.approx(surface.areas[members].sum())
     assert parts.face_counts.tolist() == np.bincount(parts.labels).tolist()
+
+
+def hand_on_a_cliff():
+    """Return the same hand on a block that most samples are on, and its finger tips."""
+    fingers = [((x, x + 1), (7, 11), (0, 1)) for x in (0, 2, 4)]
+    mesh = shapes.blocks(
+        (10, 11, 5), ((0, 10), (0, 5), (0, 5)), ((0, 5), (5, 7), (0, 1)), *fingers
+    )
+    return mesh, surface_of(mesh).centers[:, 1] > 8
+
+
+def parts_by_levels(mesh, **values):
+    parameters = Parameters(samples=80, max_parts=6, containers="HOLLOW", **values)
+    return run(decompose(mesh, parameters, BruteCaster))
+
+
+def test_fingers_of_a_large_body_come_apart_at_the_second_level():
+    mesh, tips = hand_on_a_cliff()
+    columns = surface_of(mesh).centers[tips][:, 0] // 2
+    one, two = (parts_by_levels(mesh, levels=n) for n in (1, 2))
+
+    def parts_of_tips(found):
+        return [set(found.labels[tips][columns == c].tolist()) for c in range(3)]
+
+    assert len(set.union(*parts_of_tips(one))) < 3
+    assert [len(parts) for parts in parts_of_tips(two)] == [1, 1, 1]
+    assert len(set.union(*parts_of_tips(two))) == 3
+    # Other parts are as they were, and none reaches over what was a boundary.
+    assert all(len(set(one.labels[two.labels == p])) == 1 for p in range(two.n_parts))
+    assert (np.diff(two.areas) <= 0).all()
+    assert two.areas.sum() == pytest.approx(one.areas.sum())
+    assert len(two.ranks) == two.n_parts
+    assert two.psi > one.psi
+    assert (two.psi_by_k, two.best_k) == (one.psi_by_k, one.best_k)
+
+
+def test_levels_leave_convex_parts_whole():
+    mesh = shapes.l_shape()
+    one, three = (parts_by_levels(mesh, levels=n) for n in (1, 3))
+    assert three.labels.tolist() == one.labels.tolist()
+    assert three.ranks.tolist() == one.ranks.tolist()
 
 
 def test_all_faces_as_a_part_are_the_whole_shape(seen):

@@ -1,0 +1,27 @@
+"""One thread for linear algebra: the same sums everywhere, and nobody waits."""
+
+from __future__ import annotations
+
+from threadpoolctl import ThreadpoolController
+
+from .progress import Steps, T
+
+
+def on_one_thread(steps: Steps[T]) -> Steps[T]:
+    """Run `steps` with one thread for each product of matrices.
+
+    How sums are rounded would depend on the number of cores otherwise; and where other
+    programs keep these busy, threads would wait for each other most of the time.
+    """
+    controller = ThreadpoolController()
+    try:
+        while True:
+            with controller.limit(limits=1):
+                try:
+                    progress = next(steps)
+                except StopIteration as stop:
+                    value: T = stop.value
+                    return value
+            yield progress
+    finally:
+        steps.close()
