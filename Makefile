@@ -34,7 +34,7 @@ demo: venv ## Decompose Blender's monkey; results in build/demo/
 
 test: development ## Run all tests, but those that need a window
 	@echo "Testing with $$($(VENV)/bin/python -V) and $$($(VENV)/bin/pip list 2>/dev/null | awk '/^(bpy|numpy|scipy) / {printf "%s %s  ", $$1, $$2}')"
-	@WCD_REQUIRE_BLENDER=1 $(PYTHON_HERE) -m pytest $(PYTEST)
+	@WCD_REQUIRE_BLENDER=1 $(PYTHON_HERE) .tools/run_tests.py $(PYTEST)
 
 test-window: development ## Drive a Blender that has a window: BLENDER=command that starts it
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }

@@ -67,15 +67,16 @@ class Computation(OnObjects):
     ) -> list[Steps[Any] | DecompositionError]:
         """Check and read the objects; return the work to be done on each."""
         self._started = time.perf_counter()
-        objects = self._chosen(context)
-        self._names = [obj.name for obj in objects]
-        self._targets = [Target.of(obj) for obj in objects]
-        return [self._begun(context, obj) for obj in objects]
+        self._names, self._targets = [], []
+        return [self._begun(context, obj) for obj in self._chosen(context)]
 
     def _begun(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Any] | DecompositionError:
+        self._names.append(obj.name)
+        self._targets.append(None)
         try:
+            self._targets[-1] = Target.of(obj)
             return self._begin(context, obj)
         except DecompositionError as error:
             return error
