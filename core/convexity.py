@@ -98,41 +98,6 @@ class KnownPairs:
             sparse.csr_array(self.visible + self.known * chosen), self.known
         )
 
-    def pulls(
-        self,
-        members: NDArray[np.float32],
-        alpha: float,
-        rows: slice = slice(None),
-    ) -> NDArray[np.float64]:
-        """Return how much psi there is in giving samples to labels.
-
-        Parameters
-        ----------
-        members : (N, K) float32
-            1 where a sample has a label.
-        alpha : float
-            Of psi.
-        rows : slice
-            Of the samples that are asked for.
-
-        Returns
-        -------
-        pulls : (R, K) float
-            What psi would grow by for each unit of area that got the label, but for
-            what does not depend on the label.
-        """
-        mine = members[rows]
-        # A sample sees itself whatever its label is.
-        visible = self.visible[rows] @ members
-        visible = visible - mine * self.visible.diagonal()[rows, None]
-        if self.known is None:
-            known, total = members.sum(axis=0) - mine, float(self.n_samples) ** 2
-        else:
-            known, total = self.known[rows] @ members, float(self.known.sum())
-            known = known - mine * self.known.diagonal()[rows, None]
-        gains = (1 + alpha) * visible.astype(float) - alpha * known.astype(float)
-        return 2 * self.n_samples * gains / total
-
 
 @dataclass(frozen=True, eq=False)
 class PairTally:

@@ -96,7 +96,7 @@ def cut_seams(
             if settled[label]:
                 continue
             moved = cutter.expand(labels, label)
-            if moved.any():
+            if len(moved):
                 settled[:] = False
                 labels[moved] = label
             settled[label] = True
@@ -106,7 +106,10 @@ def cut_seams(
 
 
 class _Expansion:
-    """One alpha-expansion after the other over the same graph."""
+    """One alpha-expansion after the other over the same graph.
+
+    What an expansion takes goes with the size of its band, not with that of the graph.
+    """
 
     def __init__(
         self,
@@ -114,55 +117,61 @@ class _Expansion:
         data: NDArray[np.float64],
         seams: NDArray[np.float64],
     ) -> None:
-        self.neighbors, self.data, self.seams = neighbors, data, seams
-        self.n_nodes = len(data)
-
-    def expand(self, labels: NDArray[np.int64], label: int) -> NDArray[np.bool_]:
-        """Return the nodes that better had `label`: one minimum cut."""
-        band = self._band(labels == label)
-        moved = np.zeros(self.n_nodes, dtype=bool)
-        nodes = np.flatnonzero(band)
-        if len(nodes) == 0:
-            return moved
-        place = np.full(self.n_nodes, -1)
-        place[nodes] = np.arange(len(nodes))
-        gain = self.data[nodes, label] - self.data[nodes, labels[nodes]]
-        edges = band[self.neighbors].any(axis=1)
-        one, other = self.neighbors[edges].T
-        weights = self.seams[edges]
-        arcs = []
-        for here, there in ((one, other), (other, one)):
-            # The far end keeps its label: moving costs or saves a seam.
-            fixed = band[here] & ~band[there]
-            before = labels[here[fixed]] != labels[there[fixed]]
-            after = labels[there[fixed]] != label
-            change = weights[fixed] * (after.astype(float) - before.astype(float))
-            np.add.at(gain, place[here[fixed]], change)
-        free = band[one] & band[other]
-        one, other, weights = one[free], other[free], weights[free]
-        alike = labels[one] == labels[other]
-        arcs = [
-            (place[one[alike]], place[other[alike]], weights[alike]),
-            (place[other], place[one], weights),
-        ]
-        # Different labels: the seam is there anyway unless both move.
-        np.add.at(gain, place[one[~alike]], -weights[~alike])
-        tails, heads, capacities = (
-            np.concatenate(part) for part in zip(*arcs, strict=True)
+        self.data = data
+        n_nodes = len(data)
+        ends = np.concatenate([neighbors, neighbors[:, ::-1]])
+        # Arcs in both directions, by their tails; two nodes may have several edges.
+        graph = sparse.csr_array(
+            (np.tile(seams, 2), tuple(ends.T)), shape=(n_nodes, n_nodes)
         )
-        moved[nodes[_minimum_cut(gain, tails, heads, capacities)]] = True
+        graph.sum_duplicates()
+        self.heads, self.seams = graph.indices, graph.data
+        self.starts = graph.indptr[:-1]
+        self.n_arcs = np.diff(graph.indptr)
+
+    def expand(self, labels: NDArray[np.int64], label: int) -> NDArray[np.int64]:
+        """Return the nodes that better had `label`: one minimum cut."""
+        nodes = self._band(labels == label)
+        if len(nodes) == 0:
+            return nodes
+        own = labels[nodes]
+        gain = self.data[nodes, label] - self.data[nodes, own]
+        arcs = self._arcs(nodes)
+        tails = np.repeat(np.arange(len(nodes)), self.n_arcs[nodes])
+        ends, weights = self.heads[arcs], self.seams[arcs]
+        heads = np.searchsorted(nodes, ends)
+        heads[heads == len(nodes)] = 0
+        free = nodes[heads] == ends
+        alike = own[tails] == labels[ends]
+        # The far end keeps its label: moving costs or saves a seam. Where both may move
+        # and have different labels, the seam is there anyway unless both do; one of the
+        # two arcs stands for that.
+        first = free & ~alike & (tails < heads)
+        gained = np.where(free, first, labels[ends] == label)
+        lost = alike & ~free
+        gain += np.bincount(tails, weights * (lost.astype(int) - gained), len(nodes))
+        capacities = np.where(first, 0.0, weights)[free]
+        moves = _minimum_cut(gain, tails[free], heads[free], capacities)
+        moved: NDArray[np.int64] = nodes[moves]
         return moved
 
-    def _band(self, region: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return the nodes within `_BAND` steps outside `region`."""
-        reached = region.copy()
-        one, other = self.neighbors.T
+    def _band(self, reached: NDArray[np.bool_]) -> NDArray[np.int64]:
+        """Return the nodes within `_BAND` steps outside a region, ascending."""
+        front = np.flatnonzero(reached)
+        band: list[NDArray[np.int64]] = []
         for _ in range(_BAND):
-            front = reached.copy()
-            front[one[reached[other]]] = True
-            front[other[reached[one]]] = True
-            reached = front
-        return reached & ~region
+            ends = self.heads[self._arcs(front)]
+            front = np.unique(ends[~reached[ends]])
+            reached[front] = True
+            band.append(front)
+        return np.sort(np.concatenate(band))
+
+    def _arcs(self, nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the arcs that leave nodes, those of one after those of the other."""
+        sizes = self.n_arcs[nodes]
+        firsts = self.starts[nodes] - np.cumsum(sizes) + sizes
+        arcs: NDArray[np.int64] = np.repeat(firsts, sizes)
+        return arcs + np.arange(len(arcs))
 
 
 def _minimum_cut(
@@ -174,29 +183,32 @@ def _minimum_cut(
     """Return which nodes move, minimizing sum of gains + cut arcs.
 
     `gain` is what moving a node costs; an arc is paid for when its tail stays and its
-    head moves. Staying is the source's side.
+    head moves. Arcs are sorted and there are both of every two nodes, if need be one
+    without capacity: all that SciPy's flow asks for. Staying is the source's side.
     """
     n_nodes = len(gain)
     source, sink = n_nodes, n_nodes + 1
     nodes = np.arange(n_nodes)
-    costly = gain > 0
     # A node that costs to move is held by the source, one that saves by the sink.
-    tails = np.concatenate([tails, np.full(costly.sum(), source), nodes[~costly]])
-    heads = np.concatenate([heads, nodes[costly], np.full((~costly).sum(), sink)])
-    capacities = np.concatenate([capacities, gain[costly], -gain[~costly]])
-    graph = sparse.csr_array(
-        (capacities, (tails.astype(np.int32), heads.astype(np.int32))),
-        shape=(n_nodes + 2, n_nodes + 2),
+    holders = np.where(gain > 0, source, sink)
+    tails = np.concatenate([tails, nodes, holders])
+    heads = np.concatenate([heads, holders, nodes])
+    capacities = np.concatenate(
+        [capacities, np.maximum(-gain, 0.0), np.maximum(gain, 0.0)]
     )
-    graph.sum_duplicates()
-    largest = graph.data.max(initial=0.0)
+    largest = capacities.max(initial=0.0)
     if largest <= 0:
         return np.zeros(n_nodes, dtype=bool)
-    graph.data = np.round(graph.data / largest * _LARGEST_CAPACITY).astype(np.int32)
+    order = np.argsort(tails * (n_nodes + 2) + heads, kind="stable")
+    capacities = np.round(capacities[order] / largest * _LARGEST_CAPACITY)
+    heads = heads[order].astype(np.int32)
+    starts = np.searchsorted(tails[order], np.arange(n_nodes + 3)).astype(np.int32)
+    shape = n_nodes + 2, n_nodes + 2
+    graph = sparse.csr_array((capacities.astype(np.int32), heads, starts), shape)
     flow = maximum_flow(graph, source, sink, method="dinic").flow
-    residual = sparse.csr_array(graph - flow)
-    residual.data = np.maximum(residual.data, 0)
-    residual.eliminate_zeros()
+    left = graph.data > flow.data
+    starts = np.concatenate([[0], np.cumsum(left)])[starts]
+    residual = sparse.csr_array((left[left], heads[left], starts), shape)
     staying = breadth_first_order(residual, source, return_predecessors=False)
     moves = np.ones(n_nodes + 2, dtype=bool)
     moves[staying] = False

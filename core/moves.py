@@ -13,6 +13,67 @@ _SWEEPS = 10
 _TURNS = 15
 
 
+class Pulls:
+    """How much psi there is in giving samples to labels, as labels change.
+
+    Parameters
+    ----------
+    pairs : KnownPairs
+        Which samples see each other, of N.
+    labels : (N,) int
+        In 0…`n_labels` − 1.
+    n_labels : int
+    """
+
+    def __init__(
+        self, pairs: KnownPairs, labels: NDArray[np.int64], n_labels: int
+    ) -> None:
+        self._pairs = pairs
+        self._members = members_of(labels, n_labels)
+        # Counts are whole numbers, exact in float32 however they are added up.
+        self._visible = pairs.visible @ self._members
+        self._own = pairs.visible.diagonal()
+        self._total = float(pairs.n_samples) ** 2
+        if pairs.known is not None:
+            self._known = pairs.known @ self._members
+            self._own_known, self._total = pairs.known.diagonal(), pairs.known.sum()
+
+    def of(self, rows: slice, alpha: float) -> NDArray[np.float64]:
+        """Return the pulls of R samples.
+
+        Parameters
+        ----------
+        rows : slice
+            Of the samples that are asked for.
+        alpha : float
+            Of psi.
+
+        Returns
+        -------
+        pulls : (R, K) float
+            What psi would grow by for each unit of area that got the label, but for
+            what does not depend on the label.
+        """
+        mine = self._members[rows]
+        # A sample sees itself whatever its label is.
+        visible = self._visible[rows] - mine * self._own[rows, None]
+        if self._pairs.known is None:
+            known = self._members.sum(axis=0) - mine
+        else:
+            known = self._known[rows] - mine * self._own_known[rows, None]
+        gains = (1 + alpha) * visible.astype(float) - alpha * known.astype(float)
+        return 2 * len(self._members) * gains / self._total
+
+    def give(self, samples: NDArray[np.int64], labels: NDArray[np.int64]) -> None:
+        """Give samples to labels, (M,) int each."""
+        after = members_of(labels, self._members.shape[1])
+        change = after - self._members[samples]
+        self._members[samples] = after
+        self._visible += self._pairs.visible[samples].T @ change
+        if self._pairs.known is not None:
+            self._known += self._pairs.known[samples].T @ change
+
+
 def raise_psi(
     pairs: KnownPairs, labels: NDArray[np.int64], n_labels: int, alpha: float
 ) -> NDArray[np.int64]:
@@ -37,16 +98,17 @@ def raise_psi(
         Those of `n_labels` that psi is better without are not used any more.
     """
     labels = labels.copy()
-    members = members_of(labels, n_labels)
+    pulls = Pulls(pairs, labels, n_labels)
     for _ in range(_SWEEPS):
         before = labels.copy()
         for turn in range(_TURNS):
-            rows = slice(turn, None, _TURNS)
-            pulls = pairs.pulls(members, alpha, rows)
-            best, here = pulls.argmax(axis=1), labels[rows]
-            better = pulls.max(axis=1) > pulls[np.arange(len(here)), here]
-            labels[rows] = np.where(better, best, here)
-            members[rows] = members_of(labels[rows], n_labels)
+            turns = pulls.of(slice(turn, None, _TURNS), alpha)
+            best, here = turns.argmax(axis=1), labels[turn::_TURNS]
+            better = turns.max(axis=1) > turns[np.arange(len(here)), here]
+            moved = turn + _TURNS * np.flatnonzero(better)
+            if len(moved):
+                labels[moved] = best[better]
+                pulls.give(moved, labels[moved])
         if (labels == before).all():
             break
     return labels

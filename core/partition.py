@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .clustering import cluster
-from .convexity import PairTally, members_of
+from .convexity import PairTally
 from .graph_cut import cut_seams, distances_to_parts
 from .memory import Memory
-from .moves import raise_psi
+from .moves import Pulls, raise_psi
 from .parameters import Parameters
 from .progress import Steps
 from .refinement import connected_parts, merge_to
@@ -189,8 +189,9 @@ class Partitioner:
         """Return the data term of eq. 4, how little samples like labels, (N, K)."""
         if not self.by_psi:
             return distances_to_parts(self._embedding(n_labels), labels, n_labels)
-        members = members_of(labels, n_labels)
-        pulls = self.visibility.pairs.pulls(members, self.parameters.alpha)
+        pulls = Pulls(self.visibility.pairs, labels, n_labels).of(
+            slice(None), self.parameters.alpha
+        )
         return pulls.max(axis=1, keepdims=True) - pulls
 
     def _tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy import sparse
 from weak_convex_decomposition.core.convexity import KnownPairs
-from weak_convex_decomposition.core.moves import raise_psi
+from weak_convex_decomposition.core.moves import Pulls, raise_psi
 
 ALPHAS = (0.5, 1.0, 2.0)
 
@@ -59,8 +59,7 @@ def test_samples_that_all_see_each_other_become_one():
 def test_pulls_tell_what_a_move_gains(alpha, share):
     pairs = random_pairs(5, share=share)
     labels = np.random.default_rng(5).integers(4, size=90)
-    members = np.eye(4, dtype=np.float32)[labels]
-    pulls = pairs.pulls(members, alpha)
+    pulls = Pulls(pairs, labels, 4).of(slice(None), alpha)
     for sample in (0, 17, 89):
         for label in range(4):
             moved = labels.copy()
@@ -69,7 +68,19 @@ def test_pulls_tell_what_a_move_gains(alpha, share):
             told = (pulls[sample, label] - pulls[sample, labels[sample]]) / 90
             assert gain == pytest.approx(told, abs=1e-9)
     rows = slice(3, None, 30)
-    assert (pairs.pulls(members, alpha, rows) == pulls[rows]).all()
+    assert (Pulls(pairs, labels, 4).of(rows, alpha) == pulls[rows]).all()
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5])
+def test_pulls_follow_the_labels(share):
+    pairs = random_pairs(6, share=share)
+    before, after = np.random.default_rng(6).integers(4, size=(2, 90))
+    pulls = Pulls(pairs, before, 4)
+    changed = np.flatnonzero(before != after)
+    for samples in (changed[::2], changed[1::2]):
+        pulls.give(samples, after[samples])
+    anew = Pulls(pairs, after, 4)
+    assert (pulls.of(slice(None), 2.0) == anew.of(slice(None), 2.0)).all()
 
 
 @pytest.mark.parametrize("share", [1.0, 0.5])

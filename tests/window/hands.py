@@ -7,6 +7,10 @@ from itertools import product
 from pathlib import Path
 
 import bpy
+import numpy as np
+import weak_convex_decomposition as package
+from mathutils import Euler
+from weak_convex_decomposition import ui
 
 PICTURES = Path("build/window")
 CATEGORY = "Convex Parts"
@@ -70,7 +74,18 @@ class Hands:
             bpy.ops.screen.screen_full_area(use_hide_panels=False)
         yield 0.5
 
-    def open_sidebar(self, width=None):
+    def open_panels(self, *names):
+        """Have these panels open and others closed, before any of them is drawn.
+
+        Blender tells nobody where their headers are, to click on.
+        """
+        package.unregister()
+        for cls in ui.CLASSES:
+            if hasattr(cls, "bl_parent_id"):
+                cls.bl_options = set() if cls.__name__ in names else {"DEFAULT_CLOSED"}
+        package.register()
+
+    def open_sidebar(self):
         """Show the tab of the extension."""
         self.area.spaces.active.show_region_ui = True
         yield 0.3
@@ -92,9 +107,16 @@ class Hands:
                 bpy.ops.object.modifier_apply(modifier="Subdivision")
             shading = self.area.spaces.active.shading
             shading.type, shading.color_type = "SOLID", "MATERIAL"
-            bpy.ops.view3d.view_selected()
             bpy.ops.ed.undo_push(message="Suzanne")
+        self.look()
         return obj
+
+    def look(self):
+        """Look at the active object from the front and the right."""
+        view = self.area.spaces.active.region_3d
+        view.view_rotation = Euler((1.3, 0.0, 0.5)).to_quaternion()
+        with self.context():
+            bpy.ops.view3d.view_selected()
 
     # Mouse and keys, as the X server's.
 
@@ -134,7 +156,7 @@ class Hands:
         yield 0.1
         for offset in offsets:  # nothing else sees the cursor while a button has it
             self._do("mousemove", x + offset, self.window.height - 1 - y)
-            yield 0.2
+            yield 0.3
         self._do("mouseup", 1)
         yield 0.2
 
@@ -168,6 +190,15 @@ class Hands:
                     copy()
                     break
         return self.manager.clipboard
+
+    def pixels(self, name):
+        """Return what the screen shows, (H, W, 3) float, and save it as a picture."""
+        image = bpy.data.images.load(str(self.picture(name).resolve()))
+        width, height = image.size
+        rgba = np.zeros(width * height * 4, dtype=np.float32)
+        image.pixels.foreach_get(rgba)
+        bpy.data.images.remove(image)
+        return rgba.reshape(height, width, 4)[:, :, :3]
 
     def picture(self, name, crop=None, height=None):
         """Save what the screen shows, or a region of it, or the top of that."""

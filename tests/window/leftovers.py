@@ -3,13 +3,15 @@
 import bpy
 from weak_convex_decomposition.operators import recut
 from weak_convex_decomposition.operators.bridge import visibility_cache
-from weak_convex_decomposition.ui import running
+from weak_convex_decomposition.ui import running, sight_overlay
 
 
 def leftovers():
     """Return the names of what is still there of a computation."""
     found = {
         "computation": running.current is not None,
+        "overlay": sight_overlay.current is not None,
+        "draw handler": sight_overlay._handler is not None,
         "timer": bpy.app.timers.is_registered(recut._invoke),
     }
     return [name for name, there in found.items() if there]

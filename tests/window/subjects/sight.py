@@ -1,0 +1,93 @@
+"""Lines of sight of points that are clicked on; the object stays as it was."""
+
+import math
+
+import bpy
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from leftovers import leftovers
+from mathutils import Vector
+from snapshot import snapshot
+from weak_convex_decomposition.ui import sight_overlay
+
+# How far from the click the picked point may be drawn, in points.
+_NEAR = 2
+
+
+def drawn(pixels):
+    """Return how many green and blue points the screen shows."""
+    red, green, blue = np.moveaxis(pixels, 2, 0)
+    return (
+        int(((green > 0.7) & (red < 0.4) & (blue < 0.5)).sum()),
+        int(((blue > 0.8) & (red < 0.3) & (green < 0.5)).sum()),
+    )
+
+
+def middle(hands, right=0.0, up=0.0):
+    """Return a place near the middle of the view, in shares of its size."""
+    region = hands.region("WINDOW")
+    return (
+        int(region.x + (0.5 + right) * region.width),
+        int(region.y + (0.5 + up) * region.height),
+    )
+
+
+def shown_at(hands, obj):
+    """Return where the picked point is in the window."""
+    overlay = sight_overlay.current
+    region = hands.region("WINDOW")
+    point = obj.matrix_world @ Vector(overlay.view.point / overlay.scale)
+    place = location_3d_to_region_2d(region, hands.area.spaces.active.region_3d, point)
+    return region.x + place.x, region.y + place.y
+
+
+def click_button(hands, wanted):
+    place = yield from hands.find(wanted)
+    yield from hands.click(place)
+
+
+def steps(hands):
+    hands.open_panels("WCD_PT_why")
+    yield from hands.fill_screen()
+    yield from hands.open_sidebar()
+    obj = hands.suzanne(1)
+    bpy.context.scene.wcd.samples = 1200
+    yield 0.5
+    before = snapshot(obj)
+    yield from click_button(hands, "wcd.show_sight")
+    yield lambda: sight_overlay.current is not None
+    assert sight_overlay.current.view is None
+    plain = drawn(hands.pixels("waiting"))
+
+    view = None
+    for name, at in (("forehead", middle(hands, up=0.1)), ("cheek", middle(hands))):
+        yield from hands.click(at)
+        yield lambda before=view: sight_overlay.current.view is not before
+        view = sight_overlay.current.view
+        assert math.dist(shown_at(hands, obj), at) < _NEAR
+        assert 0 < sight_overlay.current.share < 1
+        green, blue = drawn(hands.pixels(name))
+        assert green > plain[0] + 500, name
+        assert blue > plain[1] + 500, name
+    hands.picture("clicked", hands.area)
+
+    yield from hands.press("Escape")
+    yield lambda: sight_overlay.current is None
+    assert leftovers() == []
+    yield 0.5
+    assert drawn(hands.pixels("hidden")) == plain
+
+    # Enter keeps the picture and listens no more; the button takes it away.
+    yield from click_button(hands, "wcd.show_sight")
+    yield lambda: sight_overlay.current is not None
+    yield from hands.click(middle(hands))
+    yield lambda: sight_overlay.current.view is not None
+    view = sight_overlay.current.view
+    yield from hands.press("Return")
+    yield from hands.click(middle(hands, up=0.1))
+    yield 0.5
+    assert sight_overlay.current.view is view
+    yield from click_button(hands, "wcd.hide_sight")
+    yield lambda: sight_overlay.current is None
+    assert leftovers() == []
+    assert snapshot(obj) == before
