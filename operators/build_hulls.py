@@ -28,8 +28,8 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
     bl_idname = "wcd.build_hulls"
     bl_label = "Build Collision Hulls"
     bl_description = (
-        "Put collision hulls around the active mesh, along the seams of its parts; it"
-        " is decomposed with the settings of the scene if it has none"
+        "Put collision hulls around the active mesh, led by the seams of its parts; if"
+        " it has none and each is to get one shape, it is decomposed first"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 

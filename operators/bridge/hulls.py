@@ -59,13 +59,17 @@ def write_hulls(
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
     collection[_TAG] = True
-    n_parts = int(found.parts.max()) + 1
-    identities = identities_of(record_of(obj)) or usual_identities(n_parts)
+    if found.has_parts:
+        colors = found.parts
+        identities = identities_of(record_of(obj)) or usual_identities(colors.max() + 1)
+    else:
+        colors = np.arange(found.n_hulls)
+        identities = usual_identities(found.n_hulls)
     materials = part_materials(identities, [])
     scale = stretch(obj)
     hulls = []
     for row, name in enumerate(names):
-        material = materials[found.parts[row]]
+        material = materials[colors[row]]
         hull = _hull_object(name, found.shapes[row], scale, material)
         hull[_TAG] = json.dumps(_figures(found, row))
         hull.parent = obj
@@ -131,6 +135,6 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
         "kind": shape.kind,
         "error": float(found.errors[row]),
         "volume": float(shape.volume),
-        "part": int(found.parts[row]),
+        "part": int(found.parts[row]) if found.has_parts else None,
         "vertices": len(shape.outline().vertices),
     }
