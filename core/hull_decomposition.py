@@ -72,8 +72,8 @@ def build_hulls(
     ----------
     mesh : TriangleMesh
     labels : (P,) int or None
-        Part of each polygon, 0-based, whose seams suggest cuts. Without them hulls are
-        as good where only errors count.
+        Part of each polygon, 0-based: for one shape a part, and to tell which part a
+        hull is of.
     parameters : HullParameters
     seed : int
         Of the samples.
@@ -102,7 +102,7 @@ def build_hulls(
         start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
     else:
-        pieces = yield from _within_error(solid, parts, parameters)
+        pieces = yield from _within_error(solid, parameters)
     # Rounded: those of one size stay in the order in which they were cut.
     pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
     center = (high + low) / 2
@@ -132,22 +132,18 @@ def _parts_of_triangles(
     return labels[mesh.polygons]
 
 
-def _within_error(
-    solid: Solid, parts: NDArray[np.int64], parameters: HullParameters
-) -> Steps[list[Piece]]:
+def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]]:
     """Return pieces within the largest error, as far as so many may be."""
     most = parameters.max_hulls
     cells = yield from within(
-        _cut(solid, parts, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
+        _cut(solid, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
     )
     return (yield from within(join_pieces(cells, parameters.max_error, most), 0.9, 1.0))
 
 
-def _cut(
-    solid: Solid, parts: NDArray[np.int64], max_error: float, most: int
-) -> Steps[list[Cell]]:
+def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
     """Cut the piece that strays farthest, again and again."""
-    cells = [whole(solid, parts)]
+    cells = [whole(solid)]
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
         share = (len(cells) + len(done)) / most

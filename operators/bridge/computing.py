@@ -165,9 +165,8 @@ def build_hulls_of(
 ) -> Steps[HullDecomposition]:
     """Check and read an object; return the work of building hulls around its parts.
 
-    An object without parts is decomposed only for one shape a part: cuts by error are
-    as good without. Parts found are not written to it. Errors are those of
-    `decompose_object`.
+    An object without parts is decomposed only where each is to get one shape, and they
+    are not written to it. Errors are those of `decompose_object`.
     """
     reason = hull_refusal(obj)
     if reason:

@@ -38,6 +38,11 @@ def hull_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
+def is_hull(obj: bpy.types.Object) -> bool:
+    """Return whether an object is a hull of its parent."""
+    return _TAG in obj and obj.parent is not None
+
+
 def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
     """Return the hulls that an object has, by name."""
     return sorted((c for c in obj.children if _TAG in c), key=lambda c: c.name)

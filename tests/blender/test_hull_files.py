@@ -38,7 +38,7 @@ def hull_boxes(model):
     """Return the boxes of the hulls that the operator makes of a model."""
     (suzanne,) = load(model)
     bpy.context.view_layer.objects.active = suzanne
-    bpy.context.scene.wcd.samples, bpy.context.scene.wcd.parts = 100, 2
+    bpy.ops.wcd.decompose(samples=100, parts=2)
     bpy.ops.wcd.build_hulls(max_hulls=3, naming="UNREAL")
     return boxes(hulls_of(suzanne))
 
@@ -137,3 +137,13 @@ def test_wrong_usage(tmp_path, model, capsys):
     words = ["--naming=template", "--template={name}"]
     assert run(model, "--hulls", tmp_path / "a.glb", *words) == 2
     assert "gives all hulls one name" in capsys.readouterr().err
+
+
+def test_hulls_of_a_model_are_built_anew(tmp_path, model):
+    (suzanne,) = load(model)
+    bpy.context.view_layer.objects.active = suzanne
+    bpy.ops.wcd.build_hulls(max_hulls=2, naming="UNREAL")
+    bpy.ops.wm.save_as_mainfile(filepath=str(model))
+    path, output = tmp_path / "hulls.obj", tmp_path / "parts.blend"
+    assert run(model, "--hulls", path, "--output", output, *QUICK) == 0
+    assert_same(boxes(load(path, "Z")), hull_boxes(model))
