@@ -1,4 +1,5 @@
 import json
+import struct
 import xml.etree.ElementTree as ET
 
 import bpy
@@ -70,6 +71,40 @@ def test_usd_comes_back(tmp_path, model):
     assert sorted(name[: len(NAMES[0])] for name in read) == NAMES
     for name, box in read.items():
         assert box == pytest.approx(expected[name[: len(NAMES[0])]], abs=1e-4)
+
+
+def test_glb_marks_convex_colliders(tmp_path, model):
+    path = tmp_path / "hulls.glb"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    data = path.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    scene = json.loads(data[20 : 20 + length])
+    assert struct.unpack_from("<I", data, 8) == (len(data),)
+    assert scene["extensionsUsed"].count("KHR_physics_rigid_bodies") == 1
+    nodes = scene["nodes"]
+    assert sorted(node["name"] for node in nodes) == NAMES
+    for number, node in enumerate(nodes):
+        collider = node["extensions"]["KHR_physics_rigid_bodies"]["collider"]
+        assert collider == {"geometry": {"node": number, "convexHull": True}}
+
+
+@pytest.mark.skipif(
+    not hasattr(bpy.utils, "expose_bundled_modules"),
+    reason="this Blender lends no USD to Python",
+)
+def test_usd_marks_convex_colliders(tmp_path, model):
+    path = tmp_path / "hulls.usd"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    bpy.utils.expose_bundled_modules()
+    from pxr import Usd, UsdGeom, UsdPhysics
+
+    stage = Usd.Stage.Open(str(path))
+    meshes = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert len(meshes) == 3
+    for mesh in meshes:
+        assert mesh.HasAPI(UsdPhysics.CollisionAPI)
+        marked = UsdPhysics.MeshCollisionAPI(mesh)
+        assert marked.GetApproximationAttr().Get() == "convexHull"
 
 
 def test_stl_holds_all_hulls(tmp_path, model):
