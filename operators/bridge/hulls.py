@@ -18,6 +18,7 @@ from .materials import part_materials
 from .points import is_cloud
 from .read import stretch
 from .record import identities_of, record_of, write_hull_record
+from .rigid_bodies import soften
 from .target import refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -93,6 +94,7 @@ def erase_hulls(obj: bpy.types.Object) -> None:
             "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
             " Object Mode first."
         )
+    soften(obj, hulls)
     collections = {c for hull in hulls for c in hull.users_collection if _TAG in c}
     meshes = [hull.data for hull in hulls]
     for hull in hulls:

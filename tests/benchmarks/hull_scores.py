@@ -7,7 +7,8 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 _POINTS = 60_000
 _ON_SURFACE = 20_000
 _ON_HULL = 1000
-# Rays from a place, most of which tell whether it is inside: open meshes mislead a few.
+# Rays from a place, forwards and back; most tell whether it is inside, though open
+# meshes mislead some.
 _RAYS = np.array([[0.31, 0.17, 1], [1, 0.23, -0.41], [-0.37, 1, 0.19]])
 # What of the surface counts as within a hull: tools remesh and round a little.
 _WITHIN = 0.01
@@ -51,13 +52,13 @@ def scores(mesh, hulls):
 def _is_inside(mesh, points):
     """Return which points (M, 3) more surfaces are left from than entered, (M,)."""
     votes = np.zeros(len(points))
-    for direction in _RAYS:
+    for direction in np.concatenate([_RAYS, -_RAYS]):
         triangles, rays, _ = mesh.ray.intersects_id(
             points, np.tile(direction, (len(points), 1)), True, return_locations=True
         )
         leaves = np.sign(mesh.face_normals[triangles] @ direction)
         votes += np.bincount(rays, leaves, len(points)) > 0
-    return votes > len(_RAYS) / 2
+    return votes > len(_RAYS)
 
 
 def _hull(points):
