@@ -3,8 +3,8 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-window pictures lint zip bench bench-coacd bench-hulls bench-ablation bench-clouds \
-  bench-speed contact-sheet clean psb venv development
+.PHONY: help demo test test-window pictures lint zip bench bench-coacd bench-hulls bench-physics bench-ablation \
+  bench-clouds bench-speed contact-sheet clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -70,6 +70,10 @@ bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
 	  coacd==1.0.14 vhacdx trimesh embreex numpy scipy
 	@PYTHONPATH=tests PYTHONDONTWRITEBYTECODE=1 .venv-hulls/bin/python \
 	  tests/benchmarks/hulls.py "$(MESHES)" build/bench_hulls "$(VENV)/bin/python"
+
+bench-physics: development ## Drop models as compounds of hulls, balls on them: FILES="chair.off elk.off"
+	@[ -n "$(FILES)" ] || { echo "Name the files of models: FILES=\"chair.off elk.off\""; exit 1; }
+	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/physics.py $(FILES)
 
 bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=directory
 	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,9 +31,6 @@ _MOST_POINTS = 2000
 _FEWEST_POINTS = 4
 # Width of a piece below which it counts as flat.
 _FLAT = 1e-6
-# Share of a part's samples among a piece's from which its seam is followed.
-_SMALLEST_PART = 0.05
-_FEWEST_SAMPLES = 8
 
 
 def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
@@ -132,30 +128,13 @@ def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _directions(cell: Cell) -> NDArray[np.float64]:
-    """Return the normals of planes worth a try, (D, 3).
+    """Return the normals of planes worth a try: axes of space and piece, (D, 3).
 
-    Across the seams between its parts, the axes of space, and those of the piece.
+    Planes along the seams of weakly convex parts measured worse as first cuts.
     """
     own = principal_axes(cell.boundary)
     found: list[NDArray[np.float64]] = []
-    for direction in (*_across_seams(cell), *np.eye(3), *own):
+    for direction in (*np.eye(3), *own):
         if all(abs(direction @ other) < _SAME for other in found):
             found.append(direction)
     return np.array(found)
-
-
-def _across_seams(cell: Cell) -> Iterator[NDArray[np.float64]]:
-    """Yield the direction that tells each part best from the others (Fisher's)."""
-    labelled = cell.parts >= 0
-    points, parts = cell.boundary[labelled], cell.parts[labelled]
-    for part in np.unique(parts):
-        one, other = points[parts == part], points[parts != part]
-        fewest = max(_FEWEST_SAMPLES, _SMALLEST_PART * len(points))
-        if min(len(one), len(other)) < fewest:
-            continue
-        scatter = sum(np.cov(side.T) for side in (one, other))
-        scatter += 1e-6 * np.trace(scatter) * np.eye(3)
-        direction = np.linalg.solve(scatter, one.mean(axis=0) - other.mean(axis=0))
-        length = np.linalg.norm(direction)
-        if length > 0:
-            yield direction / length

@@ -36,7 +36,7 @@ def best_cut(solid: Solid, cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(solid, cell, plane)
-        if not all((side.parts >= 0).any() for side in sides):
+        if not all(side.on_surface.any() for side in sides):
             continue
         if least_cost_of_sides(*sides, solid_volume) >= least:
             continue

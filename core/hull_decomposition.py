@@ -35,7 +35,7 @@ class HullDecomposition:
         CoACD's concavity of the convex hull of each piece; half of the longest side of
         the shape is 1.
     parts : (K,) int
-        Part that most of each shape is of.
+        Part that most of each shape is of, −1 where there were none.
     volume_ratio : float
         Sum of the volumes of the shapes over that of the solid, `inf` for a shape that
         has no inside.
@@ -54,10 +54,15 @@ class HullDecomposition:
         """Number of shapes K."""
         return len(self.shapes)
 
+    @property
+    def has_parts(self) -> bool:
+        """Whether shapes are of parts that were there before."""
+        return bool(self.parts.min() >= 0)
+
 
 def build_hulls(
     mesh: TriangleMesh,
-    labels: NDArray[np.int64],
+    labels: NDArray[np.int64] | None,
     parameters: HullParameters,
     seed: int,
 ) -> Steps[HullDecomposition]:
@@ -66,8 +71,9 @@ def build_hulls(
     Parameters
     ----------
     mesh : TriangleMesh
-    labels : (P,) int
-        Part of each polygon, 0-based: along the seams between them it is cut first.
+    labels : (P,) int or None
+        Part of each polygon, 0-based: for one shape a part, and to tell which part a
+        hull is of.
     parameters : HullParameters
     seed : int
         Of the samples.
@@ -91,12 +97,12 @@ def build_hulls(
     yield Progress("Solid", 0.0)
     steps = solid_of(replace(normalized, vertices=vertices), seed)
     solid = yield from within(steps, 0.0, 0.0)
-    parts = labels[mesh.polygons]
+    parts = _parts_of_triangles(mesh, labels)
     if parameters.pieces == "PARTS":
         start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
     else:
-        pieces = yield from _within_error(solid, parts, parameters)
+        pieces = yield from _within_error(solid, parameters)
     # Rounded: those of one size stay in the order in which they were cut.
     pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
     center = (high + low) / 2
@@ -104,7 +110,7 @@ def build_hulls(
     for piece in pieces:
         yield Progress("Shapes", 1.0)
         shapes.append(enclose(piece.hull, parameters, size).moved(size, center))
-        main_parts.append(_main_part(solid, parts, piece))
+        main_parts.append(-1 if labels is None else _main_part(solid, parts, piece))
     errors = np.array([piece.error for piece in pieces])
     volume = float(solid.volumes.sum()) * size**3
     total = sum(shape.volume for shape in shapes)
@@ -117,22 +123,27 @@ def build_hulls(
     )
 
 
-def _within_error(
-    solid: Solid, parts: NDArray[np.int64], parameters: HullParameters
-) -> Steps[list[Piece]]:
+def _parts_of_triangles(
+    mesh: TriangleMesh, labels: NDArray[np.int64] | None
+) -> NDArray[np.int64]:
+    """Return the part of each triangle, (T,); one for all without labels."""
+    if labels is None:
+        return np.zeros(len(mesh.triangles), dtype=np.int64)
+    return labels[mesh.polygons]
+
+
+def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]]:
     """Return pieces within the largest error, as far as so many may be."""
     most = parameters.max_hulls
     cells = yield from within(
-        _cut(solid, parts, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
+        _cut(solid, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
     )
     return (yield from within(join_pieces(cells, parameters.max_error, most), 0.9, 1.0))
 
 
-def _cut(
-    solid: Solid, parts: NDArray[np.int64], max_error: float, most: int
-) -> Steps[list[Cell]]:
+def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
     """Cut the piece that strays farthest, again and again."""
-    cells = [whole(solid, parts)]
+    cells = [whole(solid)]
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
         share = (len(cells) + len(done)) / most

@@ -42,8 +42,8 @@ class HullParameters:
                 Choice(
                     "BY_ERROR",
                     "By Error",
-                    "The solid, cut along the seams of the parts and elsewhere until"
-                    " every hull is within Largest Error",
+                    "The solid, cut by planes until every hull is within Largest"
+                    " Error; needs no parts",
                 ),
                 Choice(
                     "PARTS",

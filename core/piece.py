@@ -90,8 +90,8 @@ class Cell(Piece):
 
     Attributes
     ----------
-    parts : (N,) int
-        Part of each sample of `boundary`, −1 on cut faces.
+    on_surface : (N,) bool
+        Which samples of `boundary` are on no cut face.
     chords : (C, 3) float
         Pieces of lines through the inside.
     volumes : (C,) float
@@ -100,20 +100,20 @@ class Cell(Piece):
         n · x + d ≤ 0 within.
     """
 
-    parts: NDArray[np.int64]
+    on_surface: NDArray[np.bool_]
     chords: NDArray[np.float64]
     volumes: NDArray[np.float64]
     planes: NDArray[np.float64]
 
 
-def whole(solid: Solid, parts: NDArray[np.int64]) -> Cell:
-    """Return a solid uncut; `parts` (T,) has the part of each triangle."""
+def whole(solid: Solid) -> Cell:
+    """Return a solid uncut."""
     return Cell(
         solid.vertices,
         solid.samples,
         float(solid.volumes.sum()),
         solid.spacing,
-        parts[solid.triangles],
+        np.ones(len(solid.samples), dtype=bool),
         solid.chords,
         solid.volumes,
         np.zeros((0, 4)),
@@ -174,7 +174,7 @@ def _side(
         np.concatenate([cell.boundary[boundary], face]),
         float(cell.volumes[chords].sum()),
         cell.spacing,
-        np.concatenate([cell.parts[boundary], np.full(len(face), -1)]),
+        np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
         cell.chords[chords],
         cell.volumes[chords],
         np.concatenate([cell.planes, plane[None]]),

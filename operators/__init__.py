@@ -16,6 +16,7 @@ from .build_hulls import WCD_OT_build_hulls
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
 from .measure import WCD_OT_measure, WCD_OT_measure_selection
+from .rigid_bodies import WCD_OT_make_rigid
 from .show_picture import WCD_OT_show_picture
 from .use_preset import WCD_OT_use_preset
 
@@ -24,6 +25,7 @@ CLASSES = (
     WCD_OT_measure,
     WCD_OT_measure_selection,
     WCD_OT_build_hulls,
+    WCD_OT_make_rigid,
     WCD_OT_clear,
     modal.WCD_OT_cancel,
     WCD_OT_use_preset,

@@ -23,13 +23,13 @@ if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
 
 
 class WCD_OT_build_hulls(Computation, bpy.types.Operator):
-    """Put collision hulls around the active mesh, led by its parts."""
+    """Put collision hulls around the active mesh, or around its parts."""
 
     bl_idname = "wcd.build_hulls"
     bl_label = "Build Collision Hulls"
     bl_description = (
-        "Put collision hulls around the active mesh, along the seams of its parts; it"
-        " is decomposed with the settings of the scene if it has none"
+        "Put collision hulls around the active mesh, as few as its error allows, or"
+        " one for each part; it is decomposed for that if it has no parts"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 

@@ -19,6 +19,7 @@ _ENTRIES = (
     ("wcd.face_sets", ()),
     ("wcd.color_attribute", ()),
     ("wcd.build_hulls", HULLS),
+    ("wcd.make_rigid", "kind"),
     None,
     ("wcd.show_sight", SELECTION),
     ("wcd.hide_sight", ()),

@@ -112,6 +112,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         line(layout, "Largest Error", f"{result['largest_error']:.3f}")
         if result["volume_ratio"]:
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
+        layout.operator_menu_enum("wcd.make_rigid", "kind", icon="PHYSICS")
         box = layout.box().column(align=True)
         _columns(box.row(), None, "Hull", "Vertices", "Error")
         for hull in result["hulls"]:

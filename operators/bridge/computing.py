@@ -168,8 +168,8 @@ def build_hulls_of(
 ) -> Steps[HullDecomposition]:
     """Check and read an object; return the work of building hulls around its parts.
 
-    An object without parts is decomposed, but they are not written to it. Errors are
-    those of `decompose_object`.
+    An object without parts is decomposed only where each is to get one shape, and they
+    are not written to it. Errors are those of `decompose_object`.
     """
     reason = hull_refusal(obj)
     if reason:
@@ -180,12 +180,13 @@ def build_hulls_of(
     def work() -> Steps[HullDecomposition]:
         from ...core.hull_decomposition import build_hulls
 
-        found = labels
-        if found is None:
-            parts = yield from within(_decompose(mesh, parameters), 0, 0.4)
+        found, start = labels, 0.0
+        if found is None and hull_parameters.pieces == "PARTS":
+            start = 0.4
+            parts = yield from within(_decompose(mesh, parameters), 0, start)
             found = parts.labels
         steps = build_hulls(mesh, found, hull_parameters, parameters.seed)
-        return (yield from within(steps, 0.0 if labels is not None else 0.4, 1.0))
+        return (yield from within(steps, start, 1.0))
 
     return _prepared(reading_notes(obj), work())
 

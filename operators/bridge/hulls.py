@@ -18,6 +18,7 @@ from .materials import part_materials
 from .points import is_cloud
 from .read import stretch
 from .record import identities_of, record_of, write_hull_record
+from .rigid_bodies import soften
 from .target import refusal
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -36,6 +37,11 @@ def hull_refusal(obj: bpy.types.Object | None) -> str | None:
     if reason is None and obj.mode != "OBJECT":
         return "Hulls are objects: made in Object Mode alone; switch the mode"
     return reason
+
+
+def is_hull(obj: bpy.types.Object) -> bool:
+    """Return whether an object is a hull of its parent."""
+    return _TAG in obj and obj.parent is not None
 
 
 def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
@@ -59,13 +65,17 @@ def write_hulls(
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
     collection[_TAG] = True
-    n_parts = int(found.parts.max()) + 1
-    identities = identities_of(record_of(obj)) or usual_identities(n_parts)
+    if found.has_parts:
+        colors = found.parts
+        identities = identities_of(record_of(obj)) or usual_identities(colors.max() + 1)
+    else:
+        colors = np.arange(found.n_hulls)
+        identities = usual_identities(found.n_hulls)
     materials = part_materials(identities, [])
     scale = stretch(obj)
     hulls = []
     for row, name in enumerate(names):
-        material = materials[found.parts[row]]
+        material = materials[colors[row]]
         hull = _hull_object(name, found.shapes[row], scale, material)
         hull[_TAG] = json.dumps(_figures(found, row))
         hull.parent = obj
@@ -84,6 +94,7 @@ def erase_hulls(obj: bpy.types.Object) -> None:
             "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
             " Object Mode first."
         )
+    soften(obj, hulls)
     collections = {c for hull in hulls for c in hull.users_collection if _TAG in c}
     meshes = [hull.data for hull in hulls]
     for hull in hulls:
@@ -131,6 +142,6 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
         "kind": shape.kind,
         "error": float(found.errors[row]),
         "volume": float(shape.volume),
-        "part": int(found.parts[row]),
+        "part": int(found.parts[row]) if found.has_parts else None,
         "vertices": len(shape.outline().vertices),
     }

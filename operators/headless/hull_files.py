@@ -8,6 +8,7 @@ from pathlib import Path
 
 import bpy
 
+from .collider_marks import mark_glb, mark_usd
 from .exporting import replacing, told
 from .importing import axes
 from .quiet import quiet_blender
@@ -53,6 +54,7 @@ def _glb(file: Path, _: Path, hulls: Sequence[bpy.types.Object], _up: str) -> No
             export_materials="NONE",
             export_extras=True,
         )
+    mark_glb(file)
 
 
 def _obj(file: Path, _: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
@@ -90,6 +92,7 @@ def _usd(file: Path, _: Path, hulls: Sequence[bpy.types.Object], _up: str) -> No
             export_materials=False,
             evaluation_mode="VIEWPORT",  # hulls are not rendered
         )
+    mark_usd(file)
 
 
 def _urdf(file: Path, path: Path, hulls: Sequence[bpy.types.Object], _: str) -> None:

@@ -11,6 +11,7 @@ import addon_utils
 import bpy
 
 from ...core.errors import DecompositionError
+from ..bridge.hulls import is_hull
 from ..bridge.points import is_cloud, set_points
 from .file_checks import check_file
 from .finite_checks import check_finite
@@ -72,13 +73,16 @@ def _clean_scene() -> None:
 
 
 def mesh_objects() -> list[bpy.types.Object]:
-    """Return the meshes and point clouds that some view layer of the file shows."""
+    """Return the meshes and point clouds that some view layer of the file shows.
+
+    Hulls that an earlier run built are none of them: building anew replaces them.
+    """
     found = {
         obj
         for scene in bpy.data.scenes
         for layer in scene.view_layers
         for obj in layer.objects
-        if obj.type in {"MESH", "POINTCLOUD"}
+        if obj.type in {"MESH", "POINTCLOUD"} and not is_hull(obj)
     }
     return sorted(found, key=lambda obj: obj.name_full)
 

@@ -7,6 +7,9 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 _POINTS = 60_000
 _ON_SURFACE = 20_000
 _ON_HULL = 1000
+# Rays from a place, forwards and back; most tell whether it is inside, though open
+# meshes mislead some.
+_RAYS = np.array([[0.31, 0.17, 1], [1, 0.23, -0.41], [-0.37, 1, 0.19]])
 # What of the surface counts as within a hull: tools remesh and round a little.
 _WITHIN = 0.01
 
@@ -26,7 +29,7 @@ def scores(mesh, hulls):
     low = np.min([mesh.bounds[0], *(hull.min_bound for hull in hulls)], axis=0)
     high = np.max([mesh.bounds[1], *(hull.max_bound for hull in hulls)], axis=0)
     points = low + (high - low) * np.random.default_rng(1).random((_POINTS, 3))
-    inside = mesh.contains(points)
+    inside = _is_inside(mesh, points)
     cell = np.prod(high - low) / _POINTS
     surface = trimesh.sample.sample_surface(mesh, _ON_SURFACE, seed=1)[0]
     covered = np.zeros(_POINTS, dtype=bool)
@@ -44,6 +47,18 @@ def scores(mesh, hulls):
         "iou": (covered & inside).sum() / (covered | inside).sum(),
         "volumes": sum(hull.volume for hull in hulls) / (inside.sum() * cell),
     }
+
+
+def _is_inside(mesh, points):
+    """Return which points (M, 3) more surfaces are left from than entered, (M,)."""
+    votes = np.zeros(len(points))
+    for direction in np.concatenate([_RAYS, -_RAYS]):
+        triangles, rays, _ = mesh.ray.intersects_id(
+            points, np.tile(direction, (len(points), 1)), True, return_locations=True
+        )
+        leaves = np.sign(mesh.face_normals[triangles] @ direction)
+        votes += np.bincount(rays, leaves, len(points)) > 0
+    return votes > len(_RAYS)
 
 
 def _hull(points):
@@ -71,6 +86,6 @@ def _concavity(mesh, hull, surface, volume):
         process=False,
     )
     samples = trimesh.sample.sample_surface(soup, _ON_HULL, seed=2)[0]
-    outside = samples[~mesh.contains(samples)]
+    outside = samples[~_is_inside(mesh, samples)]
     away = cKDTree(piece).query(outside)[0].max(initial=0)
     return max(volume_term, away, -heights.min())

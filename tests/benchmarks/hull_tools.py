@@ -11,8 +11,6 @@ import numpy as np
 
 # As many as CoACD and V-HACD may give.
 MOST_VERTICES = 256
-# Lines of sight lead the cuts; a third of the usual samples does for that.
-SAMPLES = 500
 # Cut and joined down to the number of hulls asked for, whatever the error is then.
 LEAST_ERROR = 0.01
 
@@ -38,22 +36,18 @@ def vhacd(vertices, triangles, _):
 def ours(vertices, triangles, n_hulls):
     import conftest  # noqa: F401  # the checkout as a package
 
-    # Where SciPy and scikit-learn are loaded does not count for any tool.
-    from weak_convex_decomposition.core.decomposition import decompose
+    # Where SciPy is loaded does not count for any tool.
     from weak_convex_decomposition.core.hull_decomposition import build_hulls
     from weak_convex_decomposition.core.hull_parameters import HullParameters
-    from weak_convex_decomposition.core.parameters import Parameters
     from weak_convex_decomposition.core.progress import run
     from weak_convex_decomposition.core.shapes import TriangleMesh
-    from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
 
     mesh = TriangleMesh(vertices, triangles, np.arange(len(triangles)))
     parameters = HullParameters(
         max_hulls=int(n_hulls), max_error=LEAST_ERROR, max_vertices=MOST_VERTICES
     )
     started = time.process_time()
-    parts = run(decompose(mesh, Parameters(samples=SAMPLES), BvhRayCaster))
-    found = run(build_hulls(mesh, parts.labels, parameters, 0))
+    found = run(build_hulls(mesh, None, parameters, 0))
     seconds = time.process_time() - started
     return [shape.hull.vertices for shape in found.shapes], seconds
 

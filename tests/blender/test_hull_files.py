@@ -1,4 +1,5 @@
 import json
+import struct
 import xml.etree.ElementTree as ET
 
 import bpy
@@ -38,7 +39,7 @@ def hull_boxes(model):
     """Return the boxes of the hulls that the operator makes of a model."""
     (suzanne,) = load(model)
     bpy.context.view_layer.objects.active = suzanne
-    bpy.context.scene.wcd.samples, bpy.context.scene.wcd.parts = 100, 2
+    bpy.ops.wcd.decompose(samples=100, parts=2)
     bpy.ops.wcd.build_hulls(max_hulls=3, naming="UNREAL")
     return boxes(hulls_of(suzanne))
 
@@ -70,6 +71,40 @@ def test_usd_comes_back(tmp_path, model):
     assert sorted(name[: len(NAMES[0])] for name in read) == NAMES
     for name, box in read.items():
         assert box == pytest.approx(expected[name[: len(NAMES[0])]], abs=1e-4)
+
+
+def test_glb_marks_convex_colliders(tmp_path, model):
+    path = tmp_path / "hulls.glb"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    data = path.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    scene = json.loads(data[20 : 20 + length])
+    assert struct.unpack_from("<I", data, 8) == (len(data),)
+    assert scene["extensionsUsed"].count("KHR_physics_rigid_bodies") == 1
+    nodes = scene["nodes"]
+    assert sorted(node["name"] for node in nodes) == NAMES
+    for number, node in enumerate(nodes):
+        collider = node["extensions"]["KHR_physics_rigid_bodies"]["collider"]
+        assert collider == {"geometry": {"node": number, "convexHull": True}}
+
+
+@pytest.mark.skipif(
+    not hasattr(bpy.utils, "expose_bundled_modules"),
+    reason="this Blender lends no USD to Python",
+)
+def test_usd_marks_convex_colliders(tmp_path, model):
+    path = tmp_path / "hulls.usd"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    bpy.utils.expose_bundled_modules()
+    from pxr import Usd, UsdGeom, UsdPhysics
+
+    stage = Usd.Stage.Open(str(path))
+    meshes = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert len(meshes) == 3
+    for mesh in meshes:
+        assert mesh.HasAPI(UsdPhysics.CollisionAPI)
+        marked = UsdPhysics.MeshCollisionAPI(mesh)
+        assert marked.GetApproximationAttr().Get() == "convexHull"
 
 
 def test_stl_holds_all_hulls(tmp_path, model):
@@ -137,3 +172,13 @@ def test_wrong_usage(tmp_path, model, capsys):
     words = ["--naming=template", "--template={name}"]
     assert run(model, "--hulls", tmp_path / "a.glb", *words) == 2
     assert "gives all hulls one name" in capsys.readouterr().err
+
+
+def test_hulls_of_a_model_are_built_anew(tmp_path, model):
+    (suzanne,) = load(model)
+    bpy.context.view_layer.objects.active = suzanne
+    bpy.ops.wcd.build_hulls(max_hulls=2, naming="UNREAL")
+    bpy.ops.wm.save_as_mainfile(filepath=str(model))
+    path, output = tmp_path / "hulls.obj", tmp_path / "parts.blend"
+    assert run(model, "--hulls", path, "--output", output, *QUICK) == 0
+    assert_same(boxes(load(path, "Z")), hull_boxes(model))

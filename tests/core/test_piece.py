@@ -15,7 +15,7 @@ PLANES = [np.array([*normal, 0.1]) for normal in np.eye(3)]
 
 
 def cell_of(solid):
-    return whole(solid, np.zeros(len(solid.corners), dtype=np.int64))
+    return whole(solid)
 
 
 def test_a_corner_inside_the_solid_is_kept():
