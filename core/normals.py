@@ -33,20 +33,33 @@ def estimate_normals(
 
     Where points are a surface, normals are those of planes through the nearest, and
     neighbors agree about the side. Where noise is as large as the distances of points,
-    normals are what makes a closed shape of the whole.
+    normals are what makes a closed shape of the whole; as these tell the two sides of
+    thin limbs apart, planes are then fitted to each side again.
 
     Parameters
     ----------
     points : (N, 3) float
     """
     n_neighbors = enough_neighbors(points)
-    planes = yield from within(fit_planes(points, n_neighbors), 0.0, 0.3)
-    if n_neighbors > FEWEST:
-        points = planes.feet(points)
+    planes = yield from within(fit_planes(points, n_neighbors), 0.0, 0.2)
+    if n_neighbors == FEWEST:
+        normals = yield from within(_faced(points, planes, _DRAWN), 0.2, 1.0)
+        return points, normals
+    n_drawn = _DRAWN if n_neighbors < MOST else _DRAWN_FROM_NOISE
+    rough = _faced(planes.feet(points), planes, n_drawn)
+    guides = yield from within(rough, 0.2, 0.9)
+    planes = yield from within(fit_planes(points, n_neighbors, guides), 0.9, 1.0)
+    turns = np.where((planes.axes * guides).sum(axis=1) < 0, -1.0, 1.0)
+    return planes.feet(points), turns[:, None] * planes.axes
+
+
+def _faced(
+    points: NDArray[np.float64], planes: Planes, n_drawn: int
+) -> Steps[NDArray[np.float64]]:
+    """Return outward unit normals (N, 3) along planes, or what the whole shape says."""
     kept, _, _ = thinned_splats(points, planes.axes)
     few, few_planes = points[kept], planes.of(kept)
-    n_drawn = _DRAWN if n_neighbors < MOST else _DRAWN_FROM_NOISE
-    outward = yield from within(outward_directions(few, n_drawn), 0.3, 1.0)
+    outward = yield from outward_directions(few, n_drawn)
     signs = agreed_signs(few, few_planes, outward)
     trust = few_planes.trust[:, None]
     guides = trust * signs[:, None] * few_planes.axes + (1 - trust) * outward
@@ -54,7 +67,7 @@ def estimate_normals(
     guides = guides[nearest]
     # Planes are more exact, as long as they do not cut across a thin limb.
     along = np.einsum("nd,nd->n", guides, planes.axes)[:, None] * planes.axes
-    return points, unit(guides + _EXACTNESS * along)
+    return unit(guides + _EXACTNESS * along)
 
 
 def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:

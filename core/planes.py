@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .progress import Progress, Steps
+from .splats import placed, spacing_of
 
 # Points that a plane is fitted to where there is no noise, some, and much of it: more
 # average it, fewer see thin walls.
@@ -61,20 +62,35 @@ class Planes:
 def enough_neighbors(points: NDArray[np.float64]) -> int:
     """Return how many nearest points show planes through the noise."""
     probes = points[:: -(-len(points) // _PROBES)]
-    planes = _fitted(cKDTree(points), probes, FEWEST)
+    planes = _fitted(points, cKDTree(points), probes, FEWEST)
     thickness = np.quantile(planes.thickness, _FLATTEST)  # others may be at edges
     if thickness < _SOME:
         return FEWEST
     return _MORE if thickness < _MUCH else MOST
 
 
-def fit_planes(points: NDArray[np.float64], n_neighbors: int) -> Steps[Planes]:
-    """Return the planes through the points around each, by principal components."""
-    tree, found = cKDTree(points), []
+def fit_planes(
+    points: NDArray[np.float64],
+    n_neighbors: int,
+    normals: NDArray[np.float64] | None = None,
+) -> Steps[Planes]:
+    """Return the planes through the points around each, by principal components.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+    n_neighbors : int
+    normals : (N, 3) float, optional
+        With them the far side of a thin wall does not count as near.
+    """
+    places = points
+    if normals is not None:
+        places = placed(points, normals, spacing_of(points))
+    tree, found = cKDTree(places), []
     for start in range(0, len(points), _FITS_PER_STEP):
         yield Progress("Normals", start / len(points))
         rows = slice(start, start + _FITS_PER_STEP)
-        found.append(_fitted(tree, points[rows], n_neighbors))
+        found.append(_fitted(points, tree, places[rows], n_neighbors))
     return Planes(
         np.concatenate([planes.centers for planes in found]),
         np.concatenate([planes.axes for planes in found]),
@@ -82,10 +98,15 @@ def fit_planes(points: NDArray[np.float64], n_neighbors: int) -> Steps[Planes]:
     )
 
 
-def _fitted(tree: cKDTree, places: NDArray[np.float64], n_neighbors: int) -> Planes:
-    """Return the planes through the points of a tree nearest to places."""
+def _fitted(
+    points: NDArray[np.float64],
+    tree: cKDTree,
+    places: NDArray[np.float64],
+    n_neighbors: int,
+) -> Planes:
+    """Return the planes through the points that a tree of them has near places."""
     _, nearest = tree.query(places, min(n_neighbors, tree.n))
-    near = tree.data[nearest]
+    near = points[nearest]
     centers = near.mean(axis=1)
     spread = near - centers[:, None]
     covariances = np.einsum("nki,nkj->nij", spread, spread)

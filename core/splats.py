@@ -50,10 +50,24 @@ def nearest_points(
     n_nearest : int
         Not above N.
     """
-    weight = _NORMAL_WEIGHT / 2 * spacing_of(points)
-    tree = cKDTree(np.hstack([points, weight * normals]))
-    _, nearest = tree.query(np.hstack([queries[0], weight * queries[1]]), n_nearest)
+    spacing = spacing_of(points)
+    tree = cKDTree(placed(points, normals, spacing))
+    _, nearest = tree.query(placed(*queries, spacing), n_nearest)
     return nearest.reshape(len(queries[0]), n_nearest).astype(np.int64)
+
+
+def placed(
+    points: NDArray[np.float64], normals: NDArray[np.float64], spacing: float
+) -> NDArray[np.float64]:
+    """Return coordinates (N, 6) whose distances count positions and normals.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+    spacing : float
+        Of the cloud.
+    """
+    return np.hstack([points, _NORMAL_WEIGHT / 2 * spacing * normals])
 
 
 def areas_of_points(

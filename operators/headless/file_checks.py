@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import struct
 from pathlib import Path
 
@@ -18,6 +19,8 @@ _SIGNATURES = {
 }
 _STL_HEADER = 84
 _STL_TRIANGLE = 50
+# What is in no number, be it "1e-5" or "-inf".
+_NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
 _FIELDS_OF_OBJ = {"v": 3, "vn": 3, "vt": 1, "f": 3}
 
 
@@ -90,11 +93,19 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
 
 
 def _check_ply(path: Path) -> None:
-    """Raise for binary PLY that is cut, which Blender may read up to there."""
+    """Raise for PLY that Blender would read up to where it is cut, or crash on."""
     data = path.read_bytes()
     header = read_header(data)
-    if header and header.order and header.end(data) > len(data):
+    if header is None:
+        raise DecompositionError(
+            f"{path.name} cannot be read: its header is not one of a .ply file."
+        )
+    if not header.is_whole(data):
         raise DecompositionError(f"{path.name} is truncated: it lacks its end.")
+    if not header.order and _NO_NUMBER.search(data, header.size):
+        raise DecompositionError(
+            f"{path.name} has words where numbers should be; it is damaged."
+        )
 
 
 def _check_last_line(path: Path, tail: bytes) -> None:

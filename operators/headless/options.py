@@ -153,8 +153,8 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
         "--up",
         type=str.upper,
         choices=("Y", "Z"),
-        help="axis that points up in .obj .off .ply .stl files, in and out"
-        " (default: Y in .obj and .off, Z in .ply and .stl; the output keeps the"
+        help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files, in and"
+        " out (default: Y in .obj and .off, Z in the others; the output keeps the"
         " axes of the input)",
     )
     parser.add_argument(

@@ -33,6 +33,16 @@ class Element:
         """Whether the size of an element varies."""
         return any(len(codes) > 1 for codes in self.properties.values())
 
+    def fits(self, words: list[bytes]) -> bool:
+        """Return whether the words of a line hold all properties."""
+        n_words = 0
+        for codes in self.properties.values():
+            if len(codes) > 1:  # a list, its length ahead
+                length = words[n_words] if n_words < len(words) else b""
+                n_words += int(length) if length.isdigit() else len(words)
+            n_words += 1
+        return n_words <= len(words)
+
 
 @dataclass(frozen=True)
 class Header:
@@ -51,7 +61,19 @@ class Header:
     elements: tuple[Element, ...]
     size: int
 
-    def end(self, data: bytes) -> int:
+    def is_whole(self, data: bytes) -> bool:
+        """Return whether a file has all that its header promises."""
+        if self.order:
+            return self._end(data) <= len(data)
+        body = data[self.size :].strip()
+        n_lines = max(body.count(b"\n"), body.count(b"\r")) + bool(body)
+        n_promised = sum(element.count for element in self.elements)
+        if n_lines != n_promised:
+            return n_lines > n_promised  # blank lines do no harm
+        last = [element for element in self.elements if element.count]
+        return not last or last[-1].fits(body.splitlines()[-1].split())
+
+    def _end(self, data: bytes) -> int:
         """Return where binary data ends, if need be beyond what there is."""
         offset = self.size
         for element in self.elements:
@@ -99,6 +121,7 @@ def read_header(data: bytes) -> Header | None:
                     elements[-1].properties[name] = _TYPES[kind]
     except (KeyError, ValueError, IndexError):
         return None
-    if not mark or order is None:
+    negative = any(element.count < 0 for element in elements)
+    if not mark or order is None or negative:
         return None
     return Header(order, tuple(elements), len(text) + len(mark) + newline)

@@ -55,6 +55,31 @@ def test_running_again_replaces_the_mesh():
     assert len(json.loads(bpy.context.active_object["wcd"])["parts"]) == 2
 
 
+@pytest.mark.parametrize("runs", [1, 2])
+def test_one_undo_takes_back_what_a_run_made(runs):
+    """Blocks that undo leaves without a user are kept until the file is saved."""
+    hand_curve()
+    for _ in range(runs):
+        activate(bpy.data.objects["Hand"])
+        before = _in_scene()
+        bpy.ops.ed.undo_push(message="before")
+        bpy.ops.wcd.decompose("EXEC_DEFAULT", True, samples=200, parts=runs + 1)
+        after = _in_scene()
+    assert after != before
+    bpy.ops.ed.undo()
+    assert _in_scene() == before
+    bpy.ops.ed.redo()
+    assert _in_scene() == after
+
+
+def _in_scene():
+    """Return the objects, whether they are selected, and their records."""
+    return sorted(
+        (obj.name, obj.select_get(), obj.get("wcd"), len(obj.data.materials))
+        for obj in bpy.context.scene.objects
+    )
+
+
 def test_outlines_are_filled_however_they_are_turned():
     area = sum(face.area for face in converted(hand_curve()).polygons)
     hand = hand_curve()

@@ -59,7 +59,12 @@ def test_other_columns_are_no_normals(tmp_path, extra):
     assert normals_of(obj) is None
 
 
-BAD = {
+def headed(text, header, to):
+    """Return a .ply file with something else in its header."""
+    return ply(TABLE, text).replace(header, to, 1)
+
+
+BAD_FILES = {
     "empty.xyz": (b"", "is empty"),
     "words.xyz": (b"1 2 3\n1 2 three\n", "does not have numbers"),
     "ragged.xyz": (b"1 2 3\n1 2\n", "does not have numbers"),
@@ -67,15 +72,24 @@ BAD = {
     "nan.xyz": (b"1 2 3\n1 nan 3\n", "not finite"),
     "short.pts": (b"9\n1 2 3\n", "promises 9 points"),
     "blank.xyz": (b"\n\n", "has no points"),
-    "cut.ply": (ply(TABLE, "binary_little_endian")[:-100], "truncated"),
-    "header.ply": (b"ply\nformat nonsense 1.0\nend_header\n", "cannot be read"),
     "many.pwn": (f"600\n{rows(TABLE)}{rows(TABLE[:9])}".encode(), "promises 600"),
+    "few.pwn": (f"600\n{rows(POINTS)}{rows(NORMALS[:-1])}".encode(), "promises 600"),
+    "cut.ply": (ply(TABLE, "binary_little_endian")[:-100], "truncated"),
+    "lines.ply": (ply(TABLE)[:-3000], "truncated"),
+    "words.ply": (ply(TABLE)[:-30], "truncated"),
+    "more.ply": (headed("ascii", b"vertex 600", b"vertex 99999999999"), "truncated"),
+    "letters.ply": (ply(TABLE) + b"1 2 three 4 5 6\n", "words where numbers"),
+    "format.ply": (headed("ascii", b"ascii", b"nonsense"), "header is not one"),
+    "type.ply": (headed("ascii", b"float x", b"real x"), "header is not one"),
+    "negative.ply": (headed("ascii", b"vertex 6", b"vertex -6"), "header is not one"),
+    "endless.ply": (headed("ascii", b"end_header", b""), "header is not one"),
+    "places.ply": (headed("ascii", b"float x", b"float u"), "cannot be read"),
 }
 
 
-@pytest.mark.parametrize("name", BAD)
+@pytest.mark.parametrize("name", BAD_FILES)
 def test_bad_files_have_their_sentence_and_leave_the_output(tmp_path, name, capsys):
-    content, match = BAD[name]
+    content, match = BAD_FILES[name]
     path, output = tmp_path / name, tmp_path / "out.ply"
     path.write_bytes(content)
     output.write_text("mine")
@@ -86,12 +100,28 @@ def test_bad_files_have_their_sentence_and_leave_the_output(tmp_path, name, caps
     assert output.read_text() == "mine"
 
 
-def test_bad_points_fail_on_the_command_line(tmp_path, capsys):
-    path, output = tmp_path / "a.xyz", tmp_path / "out.ply"
-    path.write_text(rows(np.c_[POINTS, 0 * NORMALS]))
+BAD_POINTS = {
+    "one point": (TABLE[:1], "too few points"),
+    "coincident": (np.ones((50, 3)), "at one place"),
+    "collinear": (POINTS * (1, 0, 0), "in a line"),
+    "zero normals": (np.c_[POINTS, 0 * NORMALS], "zero or not finite"),
+    "NaN normals": (np.c_[POINTS, np.nan * NORMALS], "zero or not finite"),
+}
+
+
+@pytest.mark.parametrize("ending", [".xyz", ".ply"])
+@pytest.mark.parametrize("case", BAD_POINTS)
+def test_bad_points_fail_on_the_command_line(tmp_path, case, ending, capsys):
+    table, match = BAD_POINTS[case]
+    path, output = tmp_path / f"a{ending}", tmp_path / "out.ply"
+    columns = ("x", "y", "z", "nx", "ny", "nz")[: table.shape[1]]
+    content = rows(table).encode() if ending == ".xyz" else ply(table, columns=columns)
+    path.write_bytes(content)
     output.write_text("mine")
     assert main([str(path), "--output", str(output), *FAST]) == 1
-    assert "zero or not finite" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert match in said
+    assert "Traceback" not in said
     assert output.read_text() == "mine"
 
 
