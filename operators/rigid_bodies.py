@@ -8,11 +8,10 @@ import bpy
 
 from .bridge.hulls import hull_refusal, hulls_of
 from .bridge.rigid_bodies import make_rigid
-from .bridge.target import chosen
-from .each import do_each
+from .on_objects import OnEach
 
 
-class WCD_OT_make_rigid(bpy.types.Operator):
+class WCD_OT_make_rigid(OnEach, bpy.types.Operator):
     """Make rigid bodies of objects with hulls."""
 
     bl_idname = "wcd.make_rigid"
@@ -32,25 +31,12 @@ class WCD_OT_make_rigid(bpy.types.Operator):
         ),
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there are hulls."""
-        reason = _refusal(chosen(context, _refusal)[0])
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        reason = hull_refusal(obj)
+        if reason is None and not hulls_of(obj):
+            return f"{obj.name} has no hulls; build them first"
+        return reason
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Work on the selected objects."""
-        return do_each(self, chosen(context, _refusal), self._work)
-
-    def _work(self, obj: bpy.types.Object) -> None:
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         make_rigid(obj, hulls_of(obj), self.kind)
-
-
-def _refusal(obj: bpy.types.Object | None) -> str | None:
-    """Return why an object cannot be a rigid body of hulls, None if it can."""
-    reason = hull_refusal(obj)
-    if reason is None and not hulls_of(obj):
-        return f"{obj.name} has no hulls; build them first"
-    return reason
