@@ -1,11 +1,13 @@
 """What each stage is good for: the Rand Index error with it switched off.
 
-    make bench-ablation PSB=DIRECTORY [BENCH="--jobs 2"]
+    make bench-ablation PSB=DIRECTORY [BENCH="--jobs 2 --line 'no graph cut'"]
 
-One line for each; errors are those of rand_index.py. Psi is counted for all of them as
-the full method counts it, by its own samples.
+One line for each, and for what is not on by default; errors are those of
+rand_index.py. Psi is counted for all of them as the full method counts it, by its own
+samples.
 """
 
+import shlex
 import statistics
 import sys
 from collections.abc import Callable, Hashable, Iterator, Sequence
@@ -19,8 +21,9 @@ import numpy as np
 from over_models import add_jobs, measured, parse, parser
 from princeton import category, mean_error, median_count, read_humans, read_model
 from weak_convex_decomposition.core import part_count, partition, visibility
+from weak_convex_decomposition.core.decomposition import decompose_seen
 from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.parts import find_parts
+from weak_convex_decomposition.core.presets import preset
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.spectral import embed
 from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
@@ -47,6 +50,8 @@ CHANGES: dict[str, dict[str, object]] = {
     "no graph cut": {"smoothness": 0.0},
     "no tolerance in the search for k": {},
     "no comparison with loose clusters": {},
+    "two levels": {"levels": 2},
+    "preset of the paper": preset("PAPER").changes,
 }
 # What lines replace in the code, where no parameter does: module, name, replacement.
 PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
@@ -67,7 +72,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
 # What comes after lines of sight: lines that differ in these alone share them.
 AFTERWARDS = {
     "parts", "alpha", "containers", "normalization", "min_parts", "max_parts",
-    "refinement", "smoothness", "smallest_part",
+    "refinement", "smoothness", "smallest_part", "levels",
 }  # fmt: skip
 
 
@@ -83,21 +88,24 @@ class Outcome:
     psi: float
 
 
-def outcomes(directory: Path, model: int, parameters: Parameters) -> list[Outcome]:
-    """Return what comes of one model on every line."""
+def outcomes(
+    directory: Path, model: int, parameters: Parameters, lines: Sequence[str]
+) -> list[Outcome]:
+    """Return what comes of one model on some lines."""
     mesh, humans = read_model(directory, model), read_humans(directory, model)
     n_humans = median_count(humans)
     found = []
     with shared_sight():
         full = run(visibility.see(mesh, parameters, BvhRayCaster))
-        for line, changes in CHANGES.items():
-            settings = replace(parameters, **changes)
+        for line in lines:
+            settings = replace(parameters, **CHANGES[line])
             given_settings = replace(settings, parts=n_humans)
             with patched(PATCHES.get(line, ())):
-                # With as many eigenvectors as parts are asked for.
-                seen = run(visibility.see(mesh, given_settings, BvhRayCaster))
-                auto = run(find_parts(seen, settings))
-                given = run(find_parts(seen, given_settings))
+                seen = run(visibility.see(mesh, settings, BvhRayCaster))
+                auto, given = (
+                    run(decompose_seen(mesh, seen, asked, BvhRayCaster))
+                    for asked in (settings, given_settings)
+                )
             samples = full.transfer.to_samples(auto.labels)
             tally = full.pairs.tally(samples, auto.n_parts)
             found.append(
@@ -126,7 +134,11 @@ def patched(replacements: Sequence[tuple[Any, str, Any]]) -> Iterator[None]:
 def shared_sight() -> Iterator[None]:
     """Look once for all lines that see the same: that takes longest."""
 
-    def looked_at(_mesh: object, parameters: Parameters, _caster: object) -> Hashable:
+    def looked_at(
+        _mesh: object, parameters: Parameters, _caster: object, members: object = None
+    ) -> Hashable:
+        if members is not None:
+            return object()  # samples of a part alone are nobody else's
         named = vars(parameters).items()
         return frozenset(item for item in named if item[0] not in AFTERWARDS)
 
@@ -144,14 +156,15 @@ def once(steps: Callable[..., Any], key: Callable[..., Hashable]) -> Callable[..
     kept: dict[Hashable, Any] = {}
 
     def steps_or_value(*arguments: Any) -> Iterator[Any]:
-        if key(*arguments) not in kept:
-            kept[key(*arguments)] = yield from steps(*arguments)
-        return kept[key(*arguments)]
+        asked = key(*arguments)
+        if asked not in kept:
+            kept[asked] = yield from steps(*arguments)
+        return kept[asked]
 
     return steps_or_value
 
 
-def report(found: Sequence[Outcome]) -> str:
+def report(found: Sequence[Outcome], lines: Sequence[str]) -> str:
     """Return the table, one line for each stage switched off."""
     dry = [outcome for outcome in found if category(outcome.model) != "Cup"]
     n_models = len({outcome.model for outcome in found})
@@ -161,7 +174,7 @@ def report(found: Sequence[Outcome]) -> str:
         f"{'':34}{'':14}{'without cups':>15}",
         f"{'':34}{'given':>7}{'auto':>7}{'given':>8}{'auto':>7}{'k auto':>8}{'psi':>7}",
     ]
-    for line in CHANGES:
+    for line in lines:
         cells = (
             format(_mean(some, line, field), form)
             for some, field, form in (
@@ -187,14 +200,18 @@ def main() -> int:
     """Measure every model of a directory on every line and print the table."""
     options = parser(__doc__)
     add_jobs(options)
+    options.add_argument(
+        "--line", action="append", choices=tuple(CHANGES), help="measure this one alone"
+    )
     arguments = parse(options)
+    lines = arguments.line or tuple(CHANGES)
 
     def measure(model: int) -> list[Outcome]:
         print(model, file=sys.stderr)
-        return outcomes(arguments.directory, model, arguments.parameters)
+        return outcomes(arguments.directory, model, arguments.parameters, lines)
 
     found = measured(arguments, measure, Outcome)
-    print(f"$ {' '.join(['python', *sys.argv])}\n\n{report(found)}")
+    print(f"$ {shlex.join(['python', *sys.argv])}\n\n{report(found, lines)}")
     return 0
 
 

@@ -21,8 +21,9 @@ from over_models import add_jobs, measured, parse, parser
 from princeton import mean_error, median_count, read_humans, read_model
 from score_table import Score, report
 from symmetry import find_mirror
+from weak_convex_decomposition.core.decomposition import decompose_seen
 from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.parts import Decomposition, find_parts
+from weak_convex_decomposition.core.parts import Decomposition
 from weak_convex_decomposition.core.progress import run
 from weak_convex_decomposition.core.shapes import TriangleMesh
 from weak_convex_decomposition.core.visibility import Visibility, look, see
@@ -42,12 +43,11 @@ def score(
     n_humans = median_count(humans)
     given_parameters = replace(parameters, parts=n_humans)
     started, processor_started = time.perf_counter(), time.process_time()
-    # With as many eigenvectors as parts are asked for.
-    visibility = run(see(mesh, given_parameters, BvhRayCaster))
-    auto = run(find_parts(visibility, parameters))
+    visibility = run(see(mesh, parameters, BvhRayCaster))
+    auto = run(decompose_seen(mesh, visibility, parameters, BvhRayCaster))
     seconds = time.perf_counter() - started
     processor_seconds = time.process_time() - processor_started
-    given = run(find_parts(visibility, given_parameters))
+    given = run(decompose_seen(mesh, visibility, given_parameters, BvhRayCaster))
     return Score(
         model=model,
         given=mean_error(given.labels, humans),
