@@ -165,7 +165,7 @@ def test_parts_that_are_no_solids_have_hulls():
     labels = np.minimum(np.arange(mesh.n_polygons), 3)
     for shape in ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE"):
         found = hulls_of(mesh, labels, pieces="PARTS", shape=shape)
-        assert sorted(found.parts) == [0, 1, 2, 3]
+        assert found.n_hulls == 4
         assert all(enclosure.volume > 0 for enclosure in found.shapes)
         assert covered(found, mesh.vertices).all()
         for enclosure in found.shapes:
