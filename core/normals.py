@@ -22,8 +22,14 @@ _AGREEMENT = 30.0
 _SHARPNESS = 4
 # Weight of the nearest plane beside the side that it faces to.
 _EXACTNESS = 3.0
-# A flux through the surface below this share of the greatest one is an inward one.
-_CLEARLY_INWARDS = 0.1
+# Times that planes are fitted to noisy points once their sides are known: lines of
+# sight along a thin board need it smooth. Clouds of fewer points would lose limbs.
+_FITS = 3
+_DENSE = 3000
+# A flux through the surface below this share of the greatest one is an inward one, and
+# what is added to that share for each share of the surface that is missing.
+_CLEARLY_INWARDS = 0.05
+_FOR_MISSING = 0.25
 
 
 def estimate_normals(
@@ -42,44 +48,68 @@ def estimate_normals(
     """
     n_neighbors = enough_neighbors(points)
     planes = yield from within(fit_planes(points, n_neighbors), 0.0, 0.2)
-    if n_neighbors == FEWEST:
-        normals = yield from within(_faced(points, planes, _DRAWN), 0.2, 1.0)
-        return points, normals
+    noisy = n_neighbors > FEWEST
+    feet = planes.feet(points) if noisy else points
+    kept, _, _ = thinned_splats(feet, planes.axes)
     n_drawn = _DRAWN if n_neighbors < MOST else _DRAWN_FROM_NOISE
-    rough = _faced(planes.feet(points), planes, n_drawn)
-    guides = yield from within(rough, 0.2, 0.9)
-    planes = yield from within(fit_planes(points, n_neighbors, guides), 0.9, 1.0)
-    turns = np.where((planes.axes * guides).sum(axis=1) < 0, -1.0, 1.0)
-    return planes.feet(points), turns[:, None] * planes.axes
+    guides = yield from within(_guides(feet[kept], planes.of(kept), n_drawn), 0.2, 0.9)
+    _, nearest = cKDTree(feet[kept]).query(feet)
+    if not noisy:
+        return points, _sharpened(guides[nearest], planes)
+    normals = _sharpened(guides, planes.of(kept))
+    refined = _refined(points[kept], normals, n_neighbors)
+    planes, normals = yield from within(refined, 0.9, 1.0)
+    return planes.of(nearest).feet(points), normals[nearest]
 
 
-def _faced(
+def _guides(
     points: NDArray[np.float64], planes: Planes, n_drawn: int
 ) -> Steps[NDArray[np.float64]]:
-    """Return outward unit normals (N, 3) along planes, or what the whole shape says."""
-    kept, _, _ = thinned_splats(points, planes.axes)
-    few, few_planes = points[kept], planes.of(kept)
-    outward = yield from outward_directions(few, n_drawn)
-    signs = agreed_signs(few, few_planes, outward)
-    trust = few_planes.trust[:, None]
-    guides = trust * signs[:, None] * few_planes.axes + (1 - trust) * outward
-    _, nearest = cKDTree(few).query(points)
-    guides = guides[nearest]
-    # Planes are more exact, as long as they do not cut across a thin limb.
+    """Return what planes and the whole shape say about normals, by trust, (N, 3)."""
+    outward = yield from outward_directions(points, n_drawn)
+    signs = agreed_signs(points, planes, outward)
+    trust = planes.trust[:, None]
+    return trust * signs[:, None] * planes.axes + (1 - trust) * outward
+
+
+def _sharpened(guides: NDArray[np.float64], planes: Planes) -> NDArray[np.float64]:
+    """Return unit normals (N, 3): planes are more exact than guides.
+
+    As long as they do not cut across a thin limb.
+    """
     along = np.einsum("nd,nd->n", guides, planes.axes)[:, None] * planes.axes
     return unit(guides + _EXACTNESS * along)
+
+
+def _refined(
+    points: NDArray[np.float64], normals: NDArray[np.float64], n_neighbors: int
+) -> Steps[tuple[Planes, NDArray[np.float64]]]:
+    """Return planes fitted to each side of thin limbs, and their normals (N, 3)."""
+    n_fits = 1
+    if len(points) >= _DENSE:
+        n_neighbors, n_fits = MOST, _FITS
+    for step in range(n_fits):
+        fit = fit_planes(points, n_neighbors, normals)
+        planes = yield from within(fit, step / n_fits, (step + 1) / n_fits)
+        points = planes.feet(points)
+        turns = np.where((planes.axes * normals).sum(axis=1) < 0, -1.0, 1.0)
+        normals = turns[:, None] * planes.axes
+    return planes, normals
 
 
 def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
     """Return whether normals point into what the points enclose, by its volume.
 
-    Open surfaces enclose little for certain and count as facing outwards.
+    Open surfaces enclose little for certain, the less the more is missing, and count as
+    facing outwards: a single scan may show the hollow side of a bent board.
     """
     areas = areas_of_points(points, normals)
     arms = points - np.average(points, axis=0, weights=areas)
     fluxes = np.einsum("nd,nd->n", arms, normals)
     size = areas @ np.linalg.norm(arms, axis=1)
-    return bool(areas @ fluxes < -_CLEARLY_INWARDS * size)
+    # The normals of a closed surface add up to nothing.
+    missing = np.linalg.norm(areas @ normals) / areas.sum()
+    return bool(areas @ fluxes < -(_CLEARLY_INWARDS + _FOR_MISSING * missing) * size)
 
 
 def agreed_signs(

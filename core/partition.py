@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,8 @@ _MORE_CLUSTERS = (0, 1, 2, 4, 8)
 _SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 # Tallies that are remembered: candidates of one k after the other differ little.
 _TALLIES = 64
+# Labels whose connected pieces are remembered: k-means' clusters, whatever alpha is.
+_PIECES = 24
 # Seams that are remembered: those of the best k are asked for with every other.
 _SEAMS = 32
 
@@ -57,6 +60,7 @@ class Partitioner:
         clusters = parameters.normalization, parameters.seed
         parts = parameters.refinement, parameters.alpha, parameters.smallest_part
         self._tallies = visibility.memory.recall("tallies", lambda: Memory(_TALLIES))
+        self._of_pieces = visibility.memory.recall("pieces", lambda: Memory(_PIECES))
         self._of_clusters = visibility.memory.recall(("clusters", clusters), Memory)
         self._of_parts = visibility.memory.recall(("parts", clusters, parts), Memory)
         self._of_seams = self._of_parts.recall("seams", lambda: Memory(_SEAMS))
@@ -132,7 +136,11 @@ class Partitioner:
                 break
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self.transfer.to_polygons(labels, n_clusters)
-            split = self._tidied(parts * n_clusters + clusters, n_parts)
+            finer = parts * n_clusters + clusters
+            pieces = self._of_pieces.recall(
+                (self.smallest_area, finer.tobytes()), partial(self._pieces, finer)
+            )
+            split = self._at_most(n_parts, pieces)
             if count(split) > count(most):
                 most = split
         return most
@@ -196,7 +204,14 @@ class Partitioner:
 
     def _tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return at most `n_parts` parts, connected where that many allow it."""
-        parts = connected_parts(self.surface, labels, self.smallest_area)
+        return self._at_most(n_parts, self._pieces(labels))
+
+    def _pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return connected parts, however many."""
+        return connected_parts(self.surface, labels, self.smallest_area)
+
+    def _at_most(self, n_parts: int, parts: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return parts, merged if there are too many."""
         return parts if count(parts) <= n_parts else self.merged(parts, n_parts)
 
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:

@@ -77,7 +77,7 @@ class Surface:
         whole[one[one != other]] = whole[other[one != other]] = False
         tied = (firm | whole)[pieces][self.links].all(axis=1)
         tied &= labels[self.links[:, 0]] == labels[self.links[:, 1]]
-        return _components(np.concatenate([alike, self.links[tied]]), self.n_polygons)
+        return _components(pieces[self.links[tied]], len(firm))[pieces]
 
     def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
         """Return the length of the border between every two labels, (K, K)."""

@@ -16,6 +16,7 @@ from ..ui.properties import SELECTION, annotations, parameters_from
 from ..ui.sight_overlay import Overlay
 from . import modal
 from .bridge.computing import look_out_of
+from .bridge.points import vertices_now
 from .bridge.read import stretch
 from .bridge.target import refusal
 from .computation import Computation
@@ -85,7 +86,10 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         ray = None if self.face < 0 else _above_face(obj, self.face)
         self._lookout = value
         self._overlay = Overlay(
-            obj.session_uid, stretch(obj), bpy.context.workspace.name
+            obj.session_uid,
+            stretch(obj),
+            bpy.context.workspace.name,
+            vertices_now(obj),
         )
         sight_overlay.show(self._overlay)
         if ray is not None:
@@ -163,13 +167,33 @@ def stop(*_: object) -> None:
         modal.show_status(overlay.workspace, None)
 
 
+@bpy.app.handlers.persistent
+def _stop_if_stale(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
+    """Hide the overlay as soon as the shape is another than the one it was made of."""
+    overlay = sight_overlay.current
+    if overlay is None:
+        return
+    for update in graph.updates:
+        obj = update.id.original
+        if (
+            update.is_updated_geometry
+            and isinstance(obj, bpy.types.Object)
+            and obj.session_uid == overlay.object_uid
+            and not np.array_equal(vertices_now(obj), overlay.vertices)
+        ):
+            stop()
+            return
+
+
 def register() -> None:
-    """Hide overlays at each file load."""
+    """Hide overlays at each file load, and when the mesh changes."""
     bpy.app.handlers.load_pre.append(stop)
+    bpy.app.handlers.depsgraph_update_post.append(_stop_if_stale)
 
 
 def unregister() -> None:
     """Undo `register`, and hide."""
+    bpy.app.handlers.depsgraph_update_post.remove(_stop_if_stale)
     bpy.app.handlers.load_pre.remove(stop)
     stop()
 

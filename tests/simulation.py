@@ -22,15 +22,22 @@ def on_the_ground(mesh):
     return TriangleMesh(places, mesh.triangles, mesh.polygons)
 
 
-def hulls_in_mujoco(folder, name, mesh, *words, loose):
-    """Return what MuJoCo reads of a mesh's hulls: a body that may fall, or stays."""
-    model, file = folder / f"{name}.blend", folder / f"{name}.xml"
+def hull_file(folder, name, mesh, *words):
+    """Return the file of a mesh's hulls, `name` in a folder."""
+    file = folder / name
+    model = file.with_suffix(".blend")
     with quiet_blender():
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        mesh_object(name, mesh.vertices.tolist(), mesh.triangles.tolist())
+        mesh_object(file.stem, mesh.vertices.tolist(), mesh.triangles.tolist())
         bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     words = [model, "--hulls", file, "--samples=200", "--parts=4", "--quiet", *words]
     assert main([str(word) for word in words]) == 0
+    return file
+
+
+def hulls_in_mujoco(folder, name, mesh, *words, loose):
+    """Return what MuJoCo reads of a mesh's hulls: a body that may fall, or stays."""
+    file = hull_file(folder, f"{name}.xml", mesh, *words)
     spec = mujoco.MjSpec.from_file(str(file))
     if not loose:
         spec.delete(spec.worldbody.first_body().first_joint())

@@ -44,6 +44,8 @@ class Overlay:
         What coordinates of the object are multiplied by in those of the view.
     workspace : str
         Name of the workspace whose status bar says what can be done.
+    vertices : (V, 3) float
+        Where the object's vertices or points were when its samples were taken.
     view : View, optional
         What the point sees that was picked last.
     """
@@ -51,6 +53,7 @@ class Overlay:
     object_uid: int
     scale: NDArray[np.float64]
     workspace: str
+    vertices: NDArray[np.float32]
     view: View | None = None
     batches: list[tuple[Any, tuple[float, ...], str]] = field(default_factory=list)
 

@@ -5,6 +5,7 @@ The latter is what Blender makes of a scan in a .ply file.
 
 from __future__ import annotations
 
+import bmesh
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,14 @@ def positions_of(obj: bpy.types.Object) -> NDArray[np.float32]:
     if attribute is not None:  # there is none without points
         attribute.data.foreach_get("vector", values)
     return values.reshape(-1, 3)
+
+
+def vertices_now(obj: bpy.types.Object) -> NDArray[np.float32]:
+    """Return `positions_of` an object, as they are in Edit Mode if it is edited."""
+    if obj.mode != "EDIT" or obj.type != "MESH":
+        return positions_of(obj)
+    vertices = bmesh.from_edit_mesh(obj.data).verts
+    return np.array([v.co for v in vertices], dtype=np.float32).reshape(-1, 3)
 
 
 def normals_of(obj: bpy.types.Object) -> NDArray[np.float32] | None:

@@ -97,6 +97,8 @@ def _usd(file: Path, _: Path, hulls: Sequence[bpy.types.Object], _up: str) -> No
 
 def _urdf(file: Path, path: Path, hulls: Sequence[bpy.types.Object], _: str) -> None:
     robot = ET.Element("robot", name=path.stem)
+    # MuJoCo looks for meshes beside the file otherwise; others ignore it.
+    ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", strippath="false")
     link = ET.SubElement(robot, "link", name="base")
     for name, mesh in _hull_files(path, hulls):
         collision = ET.SubElement(link, "collision", name=name)

@@ -87,6 +87,15 @@ def test_parts_lead_the_cuts(suzanne):
     assert colors == {"Part 01", "Part 02", "Part 03"}
 
 
+def test_without_parts_each_hull_has_a_color_of_its_own(suzanne):
+    build()
+    hulls = hulls_of(suzanne)
+    assert len({hull.data.materials[0].name for hull in hulls}) == len(hulls) > 1
+    record = json.loads(suzanne["wcd"])["hulls"]
+    assert [entry["part"] for entry in record["hulls"]] == [None] * len(hulls)
+    assert "parts" not in json.loads(suzanne["wcd"])
+
+
 def test_running_again_replaces_and_clear_removes(suzanne):
     before = snapshot(suzanne)
     counts = [len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.collections)]

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 import shapes
 
-pytest.importorskip("mujoco", reason="MuJoCo is missing; make test installs it")
+mujoco = pytest.importorskip(
+    "mujoco", reason="MuJoCo is missing; make test installs it"
+)
 
-import simulation
+import simulation  # noqa: E402  # needs MuJoCo
 
 ERROR = 0.05
 MODELS = {
@@ -51,3 +53,27 @@ def test_vessels_hold_a_ball(tmp_path, name, floor):
     ball.add_freejoint()
     data = simulation.run(spec, 2)
     assert data.qpos[2] == pytest.approx(radius + floor, abs=0.12)
+
+
+@pytest.mark.parametrize("ending", ["xml", "urdf"])
+def test_simulators_read_names_and_places(tmp_path, ending):
+    mesh = simulation.on_the_ground(shapes.chair())
+    file = simulation.hull_file(tmp_path, f"chair.{ending}", mesh)
+    model = mujoco.MjModel.from_xml_path(str(file))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert [model.geom(n).name for n in range(model.ngeom)] == [
+        f"chair hull {n:02d}" for n in range(1, model.ngeom + 1)
+    ]
+    assert model.ngeom >= 2
+    places = []
+    for geom in range(model.ngeom):
+        start = model.mesh_vertadr[model.geom_dataid[geom]]
+        count = model.mesh_vertnum[model.geom_dataid[geom]]
+        turn = data.geom_xmat[geom].reshape(3, 3)
+        local = model.mesh_vert[start : start + count]
+        places.append(local @ turn.T + data.geom_xpos[geom])
+    places = np.concatenate(places)
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    assert places.min(axis=0) == pytest.approx(low, abs=0.02)
+    assert places.max(axis=0) == pytest.approx(high, abs=0.02)

@@ -3,6 +3,7 @@
 import json
 from types import SimpleNamespace
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -67,6 +68,34 @@ def test_overlays_end_with_the_file_and_with_the_extension(cube, tmp_path):
     assert sight_overlay.current is None
     assert show_sight.stop not in bpy.app.handlers.load_pre
     package.register()
+
+
+def nudge(cube, mode):
+    """Move a vertex of the cube, and let Blender notice."""
+    if mode == "OBJECT":
+        cube.data.vertices[0].co.x += 0.1
+        cube.data.update()
+    else:
+        bm = bmesh.from_edit_mesh(cube.data)
+        bm.verts.ensure_lookup_table()
+        bm.verts[0].co.x += 0.1
+        bmesh.update_edit_mesh(cube.data)
+    bpy.context.view_layer.update()
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_overlays_end_when_the_mesh_changes(cube, mode):
+    bpy.ops.wcd.show_sight(face=0, **FAST)
+    cube.location.x += 1.0
+    cube.modifiers.new("Bevel", "BEVEL")
+    in_mode(cube, mode)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.context.view_layer.update()
+    assert sight_overlay.current is not None
+    nudge(cube, mode)
+    assert sight_overlay.current is None
 
 
 def clicking(cube):

@@ -153,6 +153,25 @@ def test_shapes_that_are_no_solids_have_hulls(make):
     assert covered(found, mesh.vertices[mesh.triangles].reshape(-1, 3)).all()
 
 
+def test_parts_that_are_no_solids_have_hulls():
+    flat = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    line = [(5, 0, 0), (6, 0, 0), (7, 0, 0)]
+    mesh = shapes.joined(
+        shapes.mesh_of(flat, [(0, 1, 2)]),
+        shapes.mesh_of(line, [(0, 1, 2)]),
+        shapes.mesh_of([(9, 9, 9)] * 3, [(0, 1, 2)]),
+        shapes.sheet(),
+    )
+    labels = np.minimum(np.arange(mesh.n_polygons), 3)
+    for shape in ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE"):
+        found = hulls_of(mesh, labels, pieces="PARTS", shape=shape)
+        assert found.n_hulls == 4
+        assert all(enclosure.volume > 0 for enclosure in found.shapes)
+        assert covered(found, mesh.vertices).all()
+        for enclosure in found.shapes:
+            assert_convex(enclosure.outline())
+
+
 def test_points_have_no_hull():
     flat = shapes.mesh_of([(0, 0, 0)] * 3, [(0, 1, 2)])
     with pytest.raises(DecompositionError, match="no area"):

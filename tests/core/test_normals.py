@@ -49,3 +49,19 @@ def test_a_sheet_faces_nowhere():
     points, normals = clouds.drawn(shapes.sheet(), 800)
     assert not face_inwards(points, normals)
     assert not face_inwards(points, -normals)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_either_side_of_a_bent_board_may_have_been_scanned(side):
+    rng = np.random.default_rng(0)
+    angles = rng.uniform(-0.4, 0.4, 800)
+    normals = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    points = normals + rng.uniform(0, 0.2, 800)[:, None] * (0, 0, 1)
+    assert not face_inwards(points, side * normals)
+
+
+def test_a_scan_of_one_side_that_faces_inwards_is_noticed():
+    points, normals = clouds.drawn(shapes.sphere(3), 800)
+    seen = normals[:, 1] > 0.2
+    assert not face_inwards(points[seen], normals[seen])
+    assert face_inwards(points[seen], -normals[seen])
