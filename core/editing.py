@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from .errors import DecompositionError
+from .progress import Steps
 from .surface import Surface
+from .symmetry import Plane, side_of
 
-# A polygon's mirror image is within this distance of a polygon, in diagonals, ...
-_MIRRORED_WITHIN = 0.03
-# ... that of at least this share of them, where a shape is symmetric.
+# Share of the polygons on one side that are images of the other, where parts can be
+# mirrored.
 _SYMMETRIC = 0.5
 
 
@@ -53,8 +53,8 @@ def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Chan
 
 def mirror(
     labels: NDArray[np.int64], surface: Surface, middle: float, to_negative: bool
-) -> Change:
-    """Copy the parts on one side of X to the other side.
+) -> Steps[Change]:
+    """Copy the parts on one side of X to the other side, as `Side.copied` does.
 
     Parameters
     ----------
@@ -68,37 +68,23 @@ def mirror(
 
     Returns
     -------
-    Change
-        A part that crosses the plane goes on on the other side; the mirror image of one
-        that does not is a part of its own.
+    Steps of Change
 
     Raises
     ------
     DecompositionError
         If the shape is not symmetric.
     """
-    side = np.sign(surface.centers[:, 0] - middle) * (1 if to_negative else -1)
-    sources, targets = np.flatnonzero(side >= 0), np.flatnonzero(side < 0)
-    images = surface.centers[targets] * [-1, 1, 1] + [2 * middle, 0, 0]
-    if len(sources) == 0 or len(targets) == 0:
+    plane = Plane(np.array([1.0, 0.0, 0.0]), middle)
+    side, share = yield from side_of(surface, plane, to_negative)
+    if share < _SYMMETRIC:
         raise _not_symmetric()
-    distances, nearest = cKDTree(surface.centers[sources]).query(images)
-    found = distances <= _MIRRORED_WITHIN
-    if found.mean() < _SYMMETRIC:
-        raise _not_symmetric()
-    labels = labels.copy()
     n_parts = int(labels.max()) + 1
-    targets = targets[found]
-    labels[targets] = n_parts + labels[sources[nearest[found]]]
-    one, other = labels[surface.neighbors].T
-    # A part and its mirror image that touch are one.
-    crossing = np.unique(np.minimum(one, other)[np.abs(one - other) == n_parts])
-    joined = np.isin(labels, crossing + n_parts)
-    labels[joined] -= n_parts
-    images_left = np.unique(labels[labels >= n_parts])
+    copied = side.copied(labels, surface)
+    images = np.unique(copied[copied >= n_parts])
     return Change(
-        labels,
-        mirrored={int(image): int(image) - n_parts for image in images_left},
+        copied,
+        mirrored={int(image): int(image) - n_parts for image in images},
         side="L" if to_negative else "R",
     )
 

@@ -10,10 +10,8 @@ from numpy.typing import NDArray
 from .partition import Candidate, Partitioner, count
 from .progress import Progress, Steps, within
 
-# Psi of two sets of samples of one shape differs by about this much, over the square
-# root of their number: a gain below it is no reason for one more part, ...
-_PSI_TOLERANCE = 0.2
-# ... nor are the last hundredths of all there is to gain: psi saturates.
+# The last hundredths of all there is to gain are no reason for one more part, as the
+# sampling error of psi is none: psi saturates.
 _GAIN_TOLERANCE = 0.035
 
 
@@ -47,9 +45,11 @@ def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Se
     tried = yield from within(_tried(partitioner, low, high), 0.0, 0.7)
     psi_by_k = {k: candidate.psi for k, candidate in tried.items()}
     most = max(psi_by_k.values())
-    noise = _PSI_TOLERANCE / np.sqrt(len(partitioner.visibility.samples))
+    noise = 2 * partitioner.negligible
     enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
     good = sorted(k for k, psi in psi_by_k.items() if psi >= enough)
+    # Parts that lack their image on the other side are too few: at most by half.
+    good = [k for k in good if tried[k].even and k <= 2 * good[0]] or good
     for number, k in enumerate(good):
         # Seldom more than one: each reports half of the progress that is left.
         begin, end = (1.0 - 0.3 * 0.5**n for n in (number, number + 1))
@@ -60,7 +60,7 @@ def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Se
         if not partitioner.by_psi:
             return found
         shortfall = partitioner.psi_of_clusters(k) - partitioner.psi(found.parts)
-        if shortfall <= noise / 2:
+        if shortfall <= partitioner.negligible:
             return found
     return fewest
 
@@ -75,7 +75,8 @@ def given_part_count(
     """
     searched = yield from within(search_part_count(partitioner, low, high), 0.0, 0.6)
     most = max(n_parts, high) if partitioner.by_psi else n_parts
-    tried = yield from within(_tried(partitioner, n_parts, most), 0.6, 0.8)
+    fewest = min(n_parts, low)
+    tried = yield from within(_tried(partitioner, fewest, most), 0.6, 0.8)
     seamed = partitioner.seamed(tried[min(n_parts, max(tried))].parts)
     parts = yield from within(seamed, 0.8, 1.0)
     own = {k: candidate.psi for k, candidate in tried.items()}
@@ -100,6 +101,25 @@ def _tried(
     most = max(tried)
     for n_parts in range(most - 1, low - 1, -1):
         done = (most - n_parts) / (most + 1 - low)
-        yield Progress("Number of parts", 0.8 + 0.2 * done)
+        yield Progress("Number of parts", 0.8 + 0.1 * done)
         tried[n_parts] = partitioner.better(n_parts, most)
+    if partitioner.by_psi:
+        yield from within(_even(partitioner, tried), 0.9, 1.0)
     return tried
+
+
+def _even(partitioner: Partitioner, tried: dict[int, Candidate]) -> Steps[None]:
+    """Put symmetric candidates in the place of others that are hardly better."""
+    found: dict[int, Candidate] = {}
+    for number, candidate in enumerate(list(tried.values())):
+        steps = partitioner.symmetric(candidate.parts)
+        begin, end = number / len(tried), (number + 1) / len(tried)
+        for even in (yield from within(steps, begin, end)):
+            n_parts = count(even.parts)
+            if n_parts not in tried:
+                continue
+            rival = found.get(n_parts, tried[n_parts])
+            slack = 0.0 if n_parts in found else 2 * partitioner.negligible
+            if even.psi >= rival.psi - slack:
+                found[n_parts] = even
+    tried.update(found)

@@ -14,14 +14,18 @@ from .graph_cut import cut_seams, distances_to_parts
 from .memory import Memory
 from .moves import Pulls, raise_psi
 from .parameters import Parameters
-from .progress import Steps
+from .progress import Progress, Steps, within
 from .refinement import connected_parts, merge_to
+from .symmetry import Side, find_sides
 from .visibility import Visibility
 
 # Weight of positions, in diagonals, beside the embedding.
 _PLACE_WEIGHT = 1e-3
 # How many more clusters are tried when k of them make fewer than k parts.
 _MORE_CLUSTERS = (0, 1, 2, 4, 8)
+# Psi of two sets of samples of one shape differs by about twice this, over the root of
+# their number: less says nothing.
+_NEGLIGIBLE = 0.1
 # Seams that would cost too much are cut again with these shares of lambda.
 _SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 # Tallies that are remembered: candidates of one k after the other differ little.
@@ -33,10 +37,14 @@ _SEAMS = 32
 
 
 class Candidate(NamedTuple):
-    """Parts (P,) int before their seams are cut, and their psi."""
+    """Parts (P,) int before their seams are cut, their psi, and their symmetry.
+
+    Even parts are alike on both sides of a shape that is its own mirror image.
+    """
 
     parts: NDArray[np.int64]
     psi: float
+    even: bool = False
 
 
 class Partitioner:
@@ -56,6 +64,7 @@ class Partitioner:
         self.transfer = visibility.transfer
         self.surface = visibility.transfer.surface
         self.by_psi = parameters.refinement == "PSI"
+        self.negligible = _NEGLIGIBLE / np.sqrt(len(visibility.samples))
         self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
         clusters = parameters.normalization, parameters.seed
         parts = parameters.refinement, parameters.alpha, parameters.smallest_part
@@ -90,6 +99,25 @@ class Partitioner:
             return found if few or found.psi > own.psi else own
 
         return self._of_parts.recall((n_parts, most), make)
+
+    def symmetric(self, parts: NDArray[np.int64]) -> Steps[list[Candidate]]:
+        """Return what each side of a symmetric shape makes of both: two, or none."""
+        sides = yield from self.visibility.memory.recall_steps(
+            "sides", lambda: find_sides(self.surface)
+        )
+        found = []
+        for number, side in enumerate(sides):
+            yield Progress("Symmetry", 0.0)
+            key = "symmetric", number, parts.tobytes()
+            make = partial(self._mirrored, parts, side)
+            found.append(self._of_parts.recall(key, make))
+        return found
+
+    def _mirrored(self, parts: NDArray[np.int64], side: Side) -> Candidate:
+        """Return the candidate that the parts on one side make of both sides."""
+        copied = side.copied(parts, self.surface)
+        mirrored = connected_parts(self.surface, copied, self.smallest_area)
+        return Candidate(mirrored, self.psi(mirrored), True)
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Return the pairs of samples counted by the parts of the polygons."""
@@ -183,13 +211,26 @@ class Partitioner:
         labels = self.transfer.to_samples(parts)
         costs = self.transfer.shares @ self._dislikes(labels, n_parts)
         for share in _SOFTER:
-            cut = yield from cut_seams(
+            steps = cut_seams(
                 self.surface, parts, costs, share * self.parameters.smoothness
             )
+            cut = yield from within(steps, 0.0, 0.9)
             cut = self._tidied(cut, n_parts)
             if count(cut) == n_parts and self.psi(cut) >= enough:
-                return cut
+                return (yield from within(self._evened(cut, enough), 0.9, 1.0))
         return parts
+
+    def _evened(
+        self, parts: NDArray[np.int64], enough: float
+    ) -> Steps[NDArray[np.int64]]:
+        """Return parts with seams alike on both sides, where psi stays enough."""
+        if not self.by_psi:
+            return parts
+        even = yield from self.symmetric(parts)
+        fit = [each for each in even if count(each.parts) == count(parts)]
+        best = max(fit, key=lambda each: each.psi, default=None)
+        least = max(enough, self.psi(parts) - 2 * self.negligible)
+        return parts if best is None or best.psi < least else best.parts
 
     def _dislikes(
         self, labels: NDArray[np.int64], n_labels: int

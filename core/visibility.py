@@ -26,9 +26,9 @@ _MOST_FOR_ALL_PAIRS = 10_000
 # Eigenvectors are looked for by this many: as many as a search of default settings
 # needs.
 _COORDINATES = 13
-# What is remembered: two embeddings, their clusters, pieces of these, tallies, the parts
-# of three cuts.
-_KEPT = 8
+# What is remembered: two embeddings, their clusters, pieces of these, tallies, the
+# sides of a symmetric shape, the parts of three cuts.
+_KEPT = 9
 
 
 @dataclass(frozen=True, eq=False)

@@ -108,9 +108,8 @@ def mirroring(to_negative: bool) -> MakeChange:
     def change(shape: Shape, seen: Visibility, parts: PresentParts) -> Steps[Change]:
         from ...core.editing import mirror
 
-        yield Progress("Mirror", 0.0)
         nodes = seen.form.labels_of_nodes(parts.labels)
-        found = mirror(
+        found = yield from mirror(
             nodes,
             seen.transfer.surface,
             -float(shape.center[0]) / shape.diagonal,

@@ -35,6 +35,12 @@ def of_equal_length(embedding: np.ndarray) -> np.ndarray:
     return embedding / lengths * np.sqrt(len(embedding))
 
 
+def no_sides(_surface: object) -> Iterator[None]:
+    """Return, as steps, that a shape has no mirror plane."""
+    yield from ()
+    return ()
+
+
 FULL = "full"
 CONE = {"sight": "CONE", "samples": 3000}
 # What each line changes of the parameters.
@@ -48,6 +54,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "no psi-raising moves": {},
     "no psi in moves and seams": {"refinement": "EMBEDDING"},
     "no graph cut": {"smoothness": 0.0},
+    "no symmetry": {},
     "no tolerance in the search for k": {},
     "no comparison with loose clusters": {},
     "two levels": {"levels": 2},
@@ -62,9 +69,10 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],
     "no tolerance in the search for k": [
-        (part_count, "_PSI_TOLERANCE", 0.0),
+        (partition, "_NEGLIGIBLE", 0.0),
         (part_count, "_GAIN_TOLERANCE", 0.0),
     ],
+    "no symmetry": [(partition, "find_sides", no_sides)],
     "no comparison with loose clusters": [
         (partition.Partitioner, "psi_of_clusters", lambda *_: -np.inf)
     ],

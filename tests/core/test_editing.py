@@ -41,7 +41,7 @@ def test_a_part_that_crosses_the_plane_goes_on_and_others_get_images(to_negative
     # The bar is one part throughout; the target side's cube is cut in two.
     labels = np.where(sign * x > 0.17, 1, 0)
     labels[sign * x < -0.3] = 2
-    change = mirror(labels, surface, 0.0, to_negative)
+    change = run(mirror(labels, surface, 0.0, to_negative))
     (image,) = change.mirrored
     assert change.mirrored == {image: 1}
     assert change.side == ("L" if to_negative else "R")
@@ -54,9 +54,9 @@ def test_what_has_no_mirror_image_is_refused():
     surface = normalized(shapes.l_shape())
     labels = np.zeros(surface.n_polygons, dtype=np.int64)
     with pytest.raises(DecompositionError, match="not symmetric"):
-        mirror(labels, surface, 0.3, True)
+        run(mirror(labels, surface, 0.3, True))
     with pytest.raises(DecompositionError, match="not symmetric"):
-        mirror(labels, surface, 5.0, True)
+        run(mirror(labels, surface, 5.0, True))
 
 
 @pytest.fixture(scope="module")
