@@ -26,8 +26,8 @@ _MOST_FOR_ALL_PAIRS = 10_000
 # Eigenvectors are looked for by this many: as many as a search of default settings
 # needs.
 _COORDINATES = 13
-# What is remembered: two embeddings, their clusters, pieces of these, tallies, the parts
-# of three cuts.
+# What is remembered: two embeddings, clusters, pieces of these, tallies, the parts of
+# three cuts.
 _KEPT = 8
 
 
