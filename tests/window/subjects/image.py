@@ -23,6 +23,7 @@ def steps(hands):
     yield lambda: running.current is None and editor.spaces.active.image
     yield 0.5
     space = editor.spaces.active
+    image = space.image.name
     region = next(each for each in editor.regions if each.type == "WINDOW")
     shown = np.array(space.image.size) * space.zoom[0]
     assert (shown <= (region.width, region.height)).all(), shown
@@ -30,4 +31,4 @@ def steps(hands):
     hands.picture("editor")
     assert leftovers() == []
     yield from hands.undo()
-    yield lambda: not bpy.data.images
+    yield lambda: image not in bpy.data.images
