@@ -41,9 +41,12 @@ test-window: development ## Drive a Blender that has a window: BLENDER=command t
 	@BLENDER="$(BLENDER)" $(PYTHON_HERE) -m pytest tests/window $(PYTEST)
 
 pictures: ## Take the README's pictures of the window anew: BLENDER=command
-	@$(BLENDER) --python tests/window/drive.py -- looks
+	@for subject in looks sight explode; do \
+	  $(BLENDER) --python tests/window/drive.py -- $$subject; done
 	@cp build/window/looks-before.png .pictures/sidebar.png
 	@cp build/window/looks-after.png .pictures/parts.png
+	@cp build/window/sight-clicked.png .pictures/sight.png
+	@cp build/window/explode-exploded.png .pictures/exploded.png
 
 lint: development ## Check the format, the rules of the code and the types of core
 	$(VENV)/bin/ruff format --check .

@@ -69,13 +69,16 @@ def _chosen_picture(properties: bpy.types.OperatorProperties) -> Choice:
 
 
 def _show(image: bpy.types.Image) -> bool:
-    """Show an image in open Image Editors; return whether there are any."""
+    """Show all of an image in open Image Editors; return whether there are any."""
     editors = [
-        area.spaces.active
+        (window, area)
         for window in bpy.context.window_manager.windows
         for area in window.screen.areas
         if area.type == "IMAGE_EDITOR"
     ]
-    for editor in editors:
-        editor.image = image
+    for window, area in editors:
+        area.spaces.active.image = image
+        region = next(each for each in area.regions if each.type == "WINDOW")
+        with bpy.context.temp_override(window=window, area=area, region=region):
+            bpy.ops.image.view_all(fit_view=True)
     return bool(editors)

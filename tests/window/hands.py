@@ -5,6 +5,7 @@ import os
 import subprocess
 from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -200,6 +201,17 @@ class Hands:
         bpy.data.images.remove(image)
         return rgba.reshape(height, width, 4)[:, :, :3]
 
+    def cutout(self):
+        """Return the part of the 3D view that has the object and the sidebar in it."""
+        area = self.area
+        left, bottom = int(0.3 * area.width), int(0.15 * area.height)
+        return SimpleNamespace(
+            x=area.x + left,
+            y=area.y + bottom,
+            width=area.width - left,
+            height=area.height - bottom - 40,
+        )
+
     def picture(self, name, crop=None, height=None):
         """Save what the screen shows, or a region of it, or the top of that."""
         with self.context():
@@ -211,7 +223,7 @@ class Hands:
             top = self.window.height - crop.y - crop.height
             area = ["-crop", f"{crop.width}x{height or crop.height}+{crop.x}+{top}"]
         few = ["+dither", "-colors", "96"]  # small files
-        command = ["import", "-window", "root", *area, "+repage", *few, str(path)]
+        command = ["import", "-window", "root", *area, "+repage", *few, f"png8:{path}"]
         subprocess.run(command, check=True, env={**os.environ, "HOME": "/tmp"})
         shown = subprocess.run(
             ["identify", "-format", "%[fx:standard_deviation]", str(path)],

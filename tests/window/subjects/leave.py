@@ -1,9 +1,9 @@
-"""Another file, ten registrations: nothing of the extension stays where it was."""
+"""Another file, ten registrations: no run and no overlay stays where it was."""
 
 import bpy
 import weak_convex_decomposition as package
 from leftovers import handlers, leftovers, remembered
-from weak_convex_decomposition.ui import running
+from weak_convex_decomposition.ui import running, sight_overlay
 
 
 def steps(hands):
@@ -13,9 +13,11 @@ def steps(hands):
     with hands.context():
         bpy.ops.wcd.decompose(samples=100)
         assert remembered() == 1
+        bpy.ops.wcd.show_sight(face=0, samples=100)
         bpy.ops.wcd.decompose("INVOKE_DEFAULT", samples=5000)
     yield 0.5
     assert running.current is not None
+    assert sight_overlay.current is not None
     there = handlers()
     with hands.context():
         bpy.ops.wm.read_homefile()
@@ -38,9 +40,11 @@ def steps(hands):
 
     hands.suzanne(1)
     with hands.context():
+        bpy.ops.wcd.show_sight(face=0, samples=100)
         bpy.ops.wcd.decompose("INVOKE_DEFAULT", samples=5000)
     yield 0.5
     assert running.current is not None
+    assert sight_overlay.current is not None
     package.unregister()
     assert leftovers() == handlers() == []
     assert remembered() == 0

@@ -42,7 +42,7 @@ def shown_at(hands, obj):
 
 
 def click_button(hands, wanted):
-    place = yield from hands.find(wanted)
+    place = yield from hands.find(wanted, columns=(0.5,))
     yield from hands.click(place)
 
 
@@ -69,7 +69,7 @@ def steps(hands):
         green, blue = drawn(hands.pixels(name))
         assert green > plain[0] + 500, name
         assert blue > plain[1] + 500, name
-    hands.picture("clicked", hands.area)
+    hands.picture("clicked", hands.cutout())
 
     yield from hands.press("Escape")
     yield lambda: sight_overlay.current is None

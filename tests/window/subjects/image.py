@@ -1,0 +1,34 @@
+"""The matrix of lines of sight in the Image Editor, all of it; undo takes it away."""
+
+import bpy
+import numpy as np
+from leftovers import leftovers
+from weak_convex_decomposition.ui import running
+
+
+def steps(hands):
+    editor = max(
+        (area for area in hands.window.screen.areas if area.type != "VIEW_3D"),
+        key=lambda area: area.width * area.height,
+    )
+    editor.type = "IMAGE_EDITOR"
+    yield from hands.open_sidebar()
+    hands.suzanne(1)
+    with hands.context():
+        bpy.ops.wcd.decompose(samples=300)
+        bpy.ops.ed.undo_push(message="Decompose")
+    yield 0.5
+    with hands.context():
+        bpy.ops.wcd.show_picture("INVOKE_DEFAULT", picture="SIGHT")
+    yield lambda: running.current is None and editor.spaces.active.image
+    yield 0.5
+    space = editor.spaces.active
+    image = space.image.name
+    region = next(each for each in editor.regions if each.type == "WINDOW")
+    shown = np.array(space.image.size) * space.zoom[0]
+    assert (shown <= (region.width, region.height)).all(), shown
+    assert shown.max() > 0.5 * min(region.width, region.height), shown
+    hands.picture("editor")
+    assert leftovers() == []
+    yield from hands.undo()
+    yield lambda: image not in bpy.data.images
