@@ -12,10 +12,9 @@ from .extremes import reaches_of, volumes_beside
 from .piece import Cell
 from .progress import Progress, Steps
 
-# Planes along each direction, and between the best ones of these in a second look.
+# Planes along each direction, and around the best one of these in a second look.
 _PLANES = 7
 _BETWEEN = np.array([-2, -1, 1, 2]) / 3
-_LOOKED_AT_TWICE = 4
 # Digits to which added volumes are compared.
 _DIGITS = 7
 # Directions closer than this cosine are one.
@@ -46,8 +45,10 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         offsets = np.linspace(heights.min(), heights.max(), _PLANES + 2)[1:-1]
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += sketch.added_volumes(direction, offsets)
-    # Rounded, so that noise does not choose between planes that are alike.
-    for row in np.argsort(np.round(added, _DIGITS), kind="stable")[:_LOOKED_AT_TWICE]:
+    # Rounded, so that noise does not choose between planes that are alike. A step of
+    # what is built may lie between planes along any direction.
+    best = np.round(added, _DIGITS).reshape(-1, _PLANES).argmin(axis=1)
+    for row in best + _PLANES * np.arange(len(best)):
         direction, offset = planes[row][:3], -planes[row][3]
         step = np.ptp(sketch.points @ direction) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)

