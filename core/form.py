@@ -110,7 +110,7 @@ def _form_of_cloud(cloud: PointCloud) -> Steps[Form]:
     points, normals = cloud.points, cloud.normals
     notes: tuple[str, ...] = ()
     if normals is None:
-        points, normals = yield from within(estimate_normals(points), 0.0, 0.6)
+        normals = yield from within(estimate_normals(points), 0.0, 0.6)
         notes = ("The points have no normals; they were estimated.",)
     elif face_inwards(points, normals):
         normals = -normals

@@ -34,8 +34,8 @@ _FOR_MISSING = 0.25
 
 def estimate_normals(
     points: NDArray[np.float64],
-) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Return points with less noise (N, 3), and outward unit normals there (N, 3).
+) -> Steps[NDArray[np.float64]]:
+    """Return outward unit normals at points, (N, 3).
 
     Where points are a surface, normals are those of planes through the nearest, and
     neighbors agree about the side. Where noise is as large as the distances of points,
@@ -55,11 +55,11 @@ def estimate_normals(
     guides = yield from within(_guides(feet[kept], planes.of(kept), n_drawn), 0.2, 0.9)
     _, nearest = cKDTree(feet[kept]).query(feet)
     if not noisy:
-        return points, _sharpened(guides[nearest], planes)
+        return _sharpened(guides[nearest], planes)
     normals = _sharpened(guides, planes.of(kept))
     refined = _refined(points[kept], normals, n_neighbors)
-    planes, normals = yield from within(refined, 0.9, 1.0)
-    return planes.of(nearest).feet(points), normals[nearest]
+    normals = yield from within(refined, 0.9, 1.0)
+    return normals[nearest]
 
 
 def _guides(
@@ -83,8 +83,8 @@ def _sharpened(guides: NDArray[np.float64], planes: Planes) -> NDArray[np.float6
 
 def _refined(
     points: NDArray[np.float64], normals: NDArray[np.float64], n_neighbors: int
-) -> Steps[tuple[Planes, NDArray[np.float64]]]:
-    """Return planes fitted to each side of thin limbs, and their normals (N, 3)."""
+) -> Steps[NDArray[np.float64]]:
+    """Return normals of planes that are fitted to each side of thin limbs, (N, 3)."""
     n_fits = 1
     if len(points) >= _DENSE:
         n_neighbors, n_fits = MOST, _FITS
@@ -94,7 +94,7 @@ def _refined(
         points = planes.feet(points)
         turns = np.where((planes.axes * normals).sum(axis=1) < 0, -1.0, 1.0)
         normals = turns[:, None] * planes.axes
-    return planes, normals
+    return normals
 
 
 def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
