@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .partition import Candidate, Partitioner, count
 from .progress import Progress, Steps, within
+from .seams import seamed
 
 # The last hundredths of all there is to gain are no reason for one more part, as the
 # sampling error of psi is none: psi saturates.
@@ -53,8 +54,8 @@ def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Se
     for number, k in enumerate(good):
         # Seldom more than one: each reports half of the progress that is left.
         begin, end = (1.0 - 0.3 * 0.5**n for n in (number, number + 1))
-        seamed = partitioner.seamed(tried[k].parts)
-        found = Search((yield from within(seamed, begin, end)), psi_by_k, k)
+        steps = seamed(partitioner, tried[k].parts)
+        found = Search((yield from within(steps, begin, end)), psi_by_k, k)
         if number == 0:
             fewest = found
         if not partitioner.by_psi:
@@ -77,8 +78,8 @@ def given_part_count(
     most = max(n_parts, high) if partitioner.by_psi else n_parts
     fewest = min(n_parts, low)
     tried = yield from within(_tried(partitioner, fewest, most), 0.6, 0.8)
-    seamed = partitioner.seamed(tried[min(n_parts, max(tried))].parts)
-    parts = yield from within(seamed, 0.8, 1.0)
+    steps = seamed(partitioner, tried[min(n_parts, max(tried))].parts)
+    parts = yield from within(steps, 0.8, 1.0)
     own = {k: candidate.psi for k, candidate in tried.items()}
     psi_by_k = dict(sorted((own | searched.psi_by_k).items()))
     return Search(parts, psi_by_k, searched.best_k)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from hashlib import blake2b
 from typing import NamedTuple
 
 import numpy as np
@@ -10,11 +11,10 @@ from numpy.typing import NDArray
 
 from .clustering import cluster
 from .convexity import PairTally
-from .graph_cut import cut_seams, distances_to_parts
 from .memory import Memory
-from .moves import Pulls, raise_psi
+from .moves import raise_psi
 from .parameters import Parameters
-from .progress import Progress, Steps, within
+from .progress import Progress, Steps
 from .refinement import connected_parts, merge_to
 from .symmetry import Side, find_sides
 from .visibility import Visibility
@@ -26,12 +26,12 @@ _MORE_CLUSTERS = (0, 1, 2, 4, 8)
 # Psi of two sets of samples of one shape differs by about twice this, over the root of
 # their number: less says nothing.
 _NEGLIGIBLE = 0.1
-# Seams that would cost too much are cut again with these shares of lambda.
-_SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 # Tallies that are remembered: candidates of one k after the other differ little.
 _TALLIES = 64
 # Labels whose connected pieces are remembered: k-means' clusters, whatever alpha is.
 _PIECES = 24
+# Even parts that are remembered: for every k of a search, of both sides.
+_EVEN = 64
 # Seams that are remembered: those of the best k are asked for with every other.
 _SEAMS = 32
 
@@ -72,7 +72,8 @@ class Partitioner:
         self._of_pieces = visibility.memory.recall("pieces", lambda: Memory(_PIECES))
         self._of_clusters = visibility.memory.recall(("clusters", clusters), Memory)
         self._of_parts = visibility.memory.recall(("parts", clusters, parts), Memory)
-        self._of_seams = self._of_parts.recall("seams", lambda: Memory(_SEAMS))
+        self._of_sides = self._of_parts.recall("sides", lambda: Memory(_EVEN))
+        self.of_seams = self._of_parts.recall("seams", lambda: Memory(_SEAMS))
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts, or as many as can be, and their psi."""
@@ -108,15 +109,14 @@ class Partitioner:
         found = []
         for number, side in enumerate(sides):
             yield Progress("Symmetry", 0.0)
-            key = "symmetric", number, parts.tobytes()
             make = partial(self._mirrored, parts, side)
-            found.append(self._of_parts.recall(key, make))
+            found.append(self._of_sides.recall((number, digest(parts)), make))
         return found
 
     def _mirrored(self, parts: NDArray[np.int64], side: Side) -> Candidate:
         """Return the candidate that the parts on one side make of both sides."""
         copied = side.copied(parts, self.surface)
-        mirrored = connected_parts(self.surface, copied, self.smallest_area)
+        mirrored = self._pieces(copied)
         return Candidate(mirrored, self.psi(mirrored), True)
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
@@ -145,7 +145,7 @@ class Partitioner:
         raised = raise_psi(
             self.visibility.pairs, labels, n_clusters, self.parameters.alpha
         )
-        parts = self._tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
+        parts = self.tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
         # Psi may be better with fewer parts: they are split where it loses least.
         moved = self._split(parts, n_parts)
         return max(moved, plain, key=lambda parts: (count(parts), self.psi(parts)))
@@ -176,7 +176,7 @@ class Partitioner:
     def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, NDArray[np.int64]]:
         """Return clusters of samples to make parts of: their number, labels (N,)."""
         n_clusters = min(n_clusters, len(self.visibility.samples))
-        embedding = self._embedding(n_parts)[:, :n_clusters]
+        embedding = self.embedding(n_parts)[:, :n_clusters]
 
         def make() -> NDArray[np.int64]:
             # Samples that see the same, as in a convex shape, are told apart by place.
@@ -187,63 +187,12 @@ class Partitioner:
         key = n_clusters, embedding.shape[1]
         return n_clusters, self._of_clusters.recall(key, make)
 
-    def _embedding(self, n_parts: int) -> NDArray[np.float64]:
+    def embedding(self, n_parts: int) -> NDArray[np.float64]:
         """Return the coordinates of the samples for a number of parts."""
         stochastic = self.parameters.normalization == "STOCHASTIC"
         return self.visibility.embedding(n_parts, stochastic)
 
-    def seamed(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Return the same number of parts with their seams cut anew (eq. 4)."""
-        key = self.parameters.smoothness, parts.tobytes()
-        return self._of_seams.recall_steps(key, lambda: self._cut(parts))
-
-    def _cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Cut the seams of parts anew.
-
-        Smooth seams cost psi: no more of it than its moves have won over k-means.
-        """
-        n_parts = count(parts)
-        if n_parts == 1 or self.parameters.smoothness == 0:
-            return parts
-        enough = -np.inf
-        if self.by_psi:
-            enough = min(self.psi(self.plain(n_parts)), self.psi(parts))
-        labels = self.transfer.to_samples(parts)
-        costs = self.transfer.shares @ self._dislikes(labels, n_parts)
-        for share in _SOFTER:
-            steps = cut_seams(
-                self.surface, parts, costs, share * self.parameters.smoothness
-            )
-            cut = yield from within(steps, 0.0, 0.9)
-            cut = self._tidied(cut, n_parts)
-            if count(cut) == n_parts and self.psi(cut) >= enough:
-                return (yield from within(self._evened(cut, enough), 0.9, 1.0))
-        return parts
-
-    def _evened(
-        self, parts: NDArray[np.int64], enough: float
-    ) -> Steps[NDArray[np.int64]]:
-        """Return parts with seams alike on both sides, where psi stays enough."""
-        if not self.by_psi:
-            return parts
-        even = yield from self.symmetric(parts)
-        fit = [each for each in even if count(each.parts) == count(parts)]
-        best = max(fit, key=lambda each: each.psi, default=None)
-        least = max(enough, self.psi(parts) - 2 * self.negligible)
-        return parts if best is None or best.psi < least else best.parts
-
-    def _dislikes(
-        self, labels: NDArray[np.int64], n_labels: int
-    ) -> NDArray[np.float64]:
-        """Return the data term of eq. 4, how little samples like labels, (N, K)."""
-        if not self.by_psi:
-            return distances_to_parts(self._embedding(n_labels), labels, n_labels)
-        pulls = Pulls(self.visibility.pairs, labels, n_labels).of(
-            slice(None), self.parameters.alpha
-        )
-        return pulls.max(axis=1, keepdims=True) - pulls
-
-    def _tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+    def tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return at most `n_parts` parts, connected where that many allow it."""
         return self._at_most(n_parts, self._pieces(labels))
 
@@ -261,6 +210,11 @@ class Partitioner:
         touching = self.surface.borders(parts, n_pieces).toarray() > 0
         merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
         return merged[parts]
+
+
+def digest(parts: NDArray[np.int64]) -> bytes:
+    """Return what tells parts from others, for keys that are kept."""
+    return blake2b(parts.data).digest()
 
 
 def count(parts: NDArray[np.int64]) -> int:

@@ -6,6 +6,7 @@ from weak_convex_decomposition.core.parameters import Parameters
 from weak_convex_decomposition.core.part_count import search_part_count
 from weak_convex_decomposition.core.partition import Partitioner, count
 from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.seams import seamed
 
 
 def two_ls():
@@ -28,15 +29,15 @@ def test_exactly_as_many_parts_as_asked_for(seen, make, n_parts):
     partitioner = Partitioner(seen(make), PARAMETERS)
     parts = partitioner.partition(n_parts)
     assert set(parts) == set(range(n_parts))
-    seamed = run(partitioner.seamed(parts))
-    assert set(seamed) == set(range(n_parts))
+    cut = run(seamed(partitioner, parts))
+    assert set(cut) == set(range(n_parts))
 
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 5])
 def test_parts_are_connected_and_not_too_small(seen, make, n_parts):
     partitioner = Partitioner(seen(make), PARAMETERS)
-    parts = run(partitioner.seamed(partitioner.partition(n_parts)))
+    parts = run(seamed(partitioner, partitioner.partition(n_parts)))
     surface = partitioner.surface
     assert surface.areas_of(parts).min() >= partitioner.smallest_area
     assert count(surface.pieces(parts, 0.0)) == n_parts
@@ -60,13 +61,13 @@ def test_no_seams_are_cut_without_smoothness(seen):
         seen(shapes.comb), replace(PARAMETERS, smoothness=0.0, smallest_part=0.0)
     )
     parts = partitioner.partition(5)
-    assert (run(partitioner.seamed(parts)) == parts).all()
+    assert (run(seamed(partitioner, parts)) == parts).all()
 
 
 def test_heavy_seams_swallow_no_part(seen):
     partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=100.0))
     parts = partitioner.partition(5)
-    assert count(run(partitioner.seamed(parts))) == 5
+    assert count(run(seamed(partitioner, parts))) == 5
 
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
@@ -77,7 +78,7 @@ def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
     parts = partitioner.partition(n_parts)
     plain = Partitioner(seen(make), replace(heavy, refinement="EMBEDDING"))
     won = min(partitioner.psi(parts), plain.psi(plain.partition(n_parts)))
-    assert partitioner.psi(run(partitioner.seamed(parts))) >= won
+    assert partitioner.psi(run(seamed(partitioner, parts))) >= won
 
 
 def test_a_large_smallest_part_leaves_few(seen):
