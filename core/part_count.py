@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -41,7 +42,8 @@ def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Se
     Of several k that gain as much over one part, but for a small share of it and the
     sampling error of psi, the smallest whose parts are as good as k-means' clusters;
     one part where no more of them gain anything. Parts are connected and clusters need
-    not be: where these are better, they lie in pieces that want to be parts.
+    not be: where these are better, they lie in pieces that want to be parts. Up to
+    twice as many are taken where these leave no part without its mirror image.
     """
     tried = yield from within(_tried(partitioner, low, high), 0.0, 0.7)
     psi_by_k = {k: candidate.psi for k, candidate in tried.items()}
@@ -49,21 +51,32 @@ def search_part_count(partitioner: Partitioner, low: int, high: int) -> Steps[Se
     noise = 2 * partitioner.negligible
     enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
     good = sorted(k for k, psi in psi_by_k.items() if psi >= enough)
+    n_parts = yield from within(_first_like(partitioner, tried, good), 0.7, 0.9)
     # Parts that lack their image on the other side are too few: at most by half.
-    good = [k for k in good if tried[k].even and k <= 2 * good[0]] or good
-    for number, k in enumerate(good):
+    even = [k for k in good if tried[k].even and n_parts < k <= 2 * n_parts]
+    if n_parts and not tried[n_parts].even:
+        steps = _first_like(partitioner, tried, even)
+        n_parts = (yield from within(steps, 0.9, 1.0)) or n_parts
+    n_parts = n_parts or good[0]
+    parts = yield from seamed(partitioner, tried[n_parts].parts)
+    return Search(parts, psi_by_k, n_parts)
+
+
+def _first_like(
+    partitioner: Partitioner, tried: dict[int, Candidate], numbers: Sequence[int]
+) -> Steps[int]:
+    """Return the first k whose parts are as good as k-means' clusters, 0 if none is."""
+    for number, k in enumerate(numbers):
         # Seldom more than one: each reports half of the progress that is left.
-        begin, end = (1.0 - 0.3 * 0.5**n for n in (number, number + 1))
+        begin, end = (1.0 - 0.5**n for n in (number, number + 1))
         steps = seamed(partitioner, tried[k].parts)
-        found = Search((yield from within(steps, begin, end)), psi_by_k, k)
-        if number == 0:
-            fewest = found
+        parts = yield from within(steps, begin, end)
         if not partitioner.by_psi:
-            return found
-        shortfall = partitioner.psi_of_clusters(k) - partitioner.psi(found.parts)
+            return k
+        shortfall = partitioner.psi_of_clusters(k) - partitioner.psi(parts)
         if shortfall <= partitioner.negligible:
-            return found
-    return fewest
+            return k
+    return 0
 
 
 def given_part_count(
