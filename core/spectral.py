@@ -8,6 +8,10 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from .convexity import Matrix
 
+# Eigenvectors must not depend on how sums are rounded, which libraries differ in:
+# k-means would make other clusters of them.
+_TOLERANCE = 1e-10
+_MOST_IN_DOUBLE = 4_000  # samples; more take too much memory in double precision
 _NOISE = 1e-7
 _SAME = 1e-3
 
@@ -37,6 +41,8 @@ def embed(
         n ≤ `n_coordinates`. Signs are chosen so that runs agree.
     """
     n_samples = affinity.shape[0]
+    if n_samples <= _MOST_IN_DOUBLE:
+        affinity = affinity.astype(np.float64)
     degrees = np.asarray(affinity.sum(axis=1), dtype=np.float64).ravel()
     scales = 1.0 / np.sqrt(degrees)
     rng = np.random.default_rng(0)
@@ -46,7 +52,7 @@ def embed(
         k=n_vectors,
         which="LA",
         v0=rng.random(n_samples),
-        tol=1e-6,
+        tol=_TOLERANCE,
     )
     order = np.argsort(-values)
     values, vectors = values[order] - 1, vectors[:, order]
