@@ -171,7 +171,8 @@ class Hands:
         """
         region = self.region()
         heights = range(region.y + region.height - 8, region.y, -_STRIDE)
-        for y, share in product(heights, columns):
+        # Twice: a busy machine draws late.
+        for y, share in (*product(heights, columns),) * 2:
             place = int(region.x + share * (region.width - 20)), y
             yield from self.move(*place)
             if wanted in self.under_cursor():
