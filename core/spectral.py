@@ -9,7 +9,8 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from .convexity import Matrix
 
 # In double precision eigenvectors depend less on how sums are rounded, which libraries
-# differ in: k-means would make other clusters of them. More samples take too much memory.
+# differ in: k-means would make other clusters of them. More samples take too much
+# memory.
 _MOST_IN_DOUBLE = 4_000
 _NOISE = 1e-7
 _SAME = 1e-3
