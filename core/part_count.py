@@ -91,10 +91,9 @@ def given_part_count(
     most = max(n_parts, high) if partitioner.by_psi else n_parts
     fewest = min(n_parts, low)
     tried = yield from within(_tried(partitioner, fewest, most), 0.6, 0.8)
-    steps = seamed(partitioner, tried[min(n_parts, max(tried))].parts)
-    parts = yield from within(steps, 0.8, 1.0)
-    own = {k: candidate.psi for k, candidate in tried.items()}
-    psi_by_k = dict(sorted((own | searched.psi_by_k).items()))
+    made = min(n_parts, max(tried))
+    parts = yield from within(seamed(partitioner, tried[made].parts), 0.8, 1.0)
+    psi_by_k = dict(sorted(({made: tried[made].psi} | searched.psi_by_k).items()))
     return Search(parts, psi_by_k, searched.best_k)
 
 

@@ -115,8 +115,7 @@ class Partitioner:
 
     def _mirrored(self, parts: NDArray[np.int64], side: Side) -> Candidate:
         """Return the candidate that the parts on one side make of both sides."""
-        copied = side.copied(parts, self.surface)
-        mirrored = self._pieces(copied)
+        mirrored = self._pieces(side.copied(parts, self.surface))
         return Candidate(mirrored, self.psi(mirrored), True)
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
@@ -166,7 +165,7 @@ class Partitioner:
             clusters = self.transfer.to_polygons(labels, n_clusters)
             finer = parts * n_clusters + clusters
             pieces = self._of_pieces.recall(
-                (self.smallest_area, finer.tobytes()), partial(self._pieces, finer)
+                (self.smallest_area, digest(finer)), partial(self._pieces, finer)
             )
             split = self._at_most(n_parts, pieces)
             if count(split) > count(most):

@@ -96,12 +96,13 @@ def side_of(surface: Surface, plane: Plane, above: bool) -> Steps[tuple[Side, fl
     sources, images = np.flatnonzero(heights >= 0), np.flatnonzero(heights < 0)
     if len(sources) == 0 or len(images) == 0:
         return Side(images[:0], sources[:0]), 0.0
-    tree = cKDTree(_coordinates(surface.centers[sources], surface.normals[sources]))
+    tree = cKDTree(places(surface.centers[sources], surface.normals[sources]))
     nearest = []
     for start in range(0, len(images), _BLOCK):
         yield Progress("Symmetry", 0.0)
         block = images[start : start + _BLOCK]
-        nearest.append(sources[_nearest(tree, surface, block, plane)])
+        centers, normals = surface.centers[block], surface.normals[block]
+        nearest.append(sources[nearest_images(tree, centers, normals, plane)])
     found = np.concatenate(nearest)
     ways = plane.mirrored(surface.centers[images]) - surface.centers[found]
     near = np.linalg.norm(ways, axis=1) <= _IMAGED_WITHIN
@@ -117,32 +118,33 @@ def _find_plane(surface: Surface) -> Steps[Plane | None]:
         for n in (_POLYGONS, _ASKED)
     )
     rows = np.unique(everywhere)
-    tree = cKDTree(_coordinates(surface.centers[rows], surface.normals[rows]))
+    tree = cKDTree(places(surface.centers[rows], surface.normals[rows]))
     best, most = None, _ENOUGH
-    for normal in _likely_normals(surface.centers[everywhere]):
-        center = surface.centers[everywhere].mean(axis=0)
+    center = surface.centers[everywhere].mean(axis=0)
+    starts, normals = surface.centers[asked], surface.normals[asked]
+    for normal in likely_normals(surface.centers[everywhere]):
         plane = Plane(normal, float(center @ normal))
         for _ in range(_ROUNDS):
             yield Progress("Symmetry", 0.0)
-            ends = surface.centers[rows[_nearest(tree, surface, asked, plane)]]
-            starts = surface.centers[asked]
+            nearest = nearest_images(tree, starts, normals, plane)
+            ends = surface.centers[rows[nearest]]
             distances = np.linalg.norm(plane.mirrored(starts) - ends, axis=1)
             fit = float((distances <= _NEAR).mean())
             if fit > most:
                 best, most = plane, fit
             if most == 1.0:
                 return best
-            plane = _between(starts, ends, distances)
+            plane = plane_between(starts, ends, distances)
     return best
 
 
-def _likely_normals(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def likely_normals(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the axes of space and the principal axes of points, (6, 3)."""
     _, principal = np.linalg.eigh(np.cov(points.T))
     return np.concatenate([np.eye(3), principal.T])
 
 
-def _between(
+def plane_between(
     starts: NDArray[np.float64],
     ends: NDArray[np.float64],
     distances: NDArray[np.float64],
@@ -154,21 +156,21 @@ def _between(
     return Plane(normal, float(((starts + ends)[trusted] / 2 @ normal).mean()))
 
 
-def _nearest(
-    tree: cKDTree, surface: Surface, polygons: NDArray[np.int64], plane: Plane
+def nearest_images(
+    tree: cKDTree,
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    plane: Plane,
 ) -> NDArray[np.int64]:
-    """Return which row of a tree is nearest to each polygon's mirror image."""
+    """Return the row of a tree of `places` nearest to each mirror image, (N,)."""
     upright = Plane(plane.normal, 0.0)
-    images = _coordinates(
-        plane.mirrored(surface.centers[polygons]),
-        upright.mirrored(surface.normals[polygons]),
-    )
+    images = places(plane.mirrored(points), upright.mirrored(normals))
     rows: NDArray[np.int64] = tree.query(images)[1]
     return rows
 
 
-def _coordinates(
-    centers: NDArray[np.float64], normals: NDArray[np.float64]
+def places(
+    points: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return places in which polygons that face the same way are near, (N, 6)."""
-    return np.hstack([centers, _NORMAL_WEIGHT * normals])
+    """Return places in which points that face the same way are near, (N, 6)."""
+    return np.hstack([points, _NORMAL_WEIGHT * normals])

@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..bridge.corners import corner_faces, corner_vertices
 from ..bridge.erase import PART_LAYER
 from ..bridge.palette import part_color
 from ..bridge.points import count_points, is_cloud, positions_of
@@ -69,12 +70,12 @@ def _copy(obj: bpy.types.Object) -> bpy.types.Object:
     split = _mesh(mesh, origins, corners)
     n_faces = len(mesh.polygons)
     part_of_vertex = np.full(len(origins), -1, dtype=np.int32)
-    part_of_vertex[corners] = np.repeat(parts, _sizes(mesh))
+    part_of_vertex[corners] = parts[corner_faces(mesh)]
     colors = _material_colors(mesh)
     slots = np.clip(_face_values(mesh, "material_index", 0), 0, len(colors) - 1)
     color_of_vertex = np.tile(np.array(_UNPAINTED, np.float32), (len(origins), 1))
     if n_faces:
-        color_of_vertex[corners] = colors[np.repeat(slots, _sizes(mesh))]
+        color_of_vertex[corners] = colors[slots[corner_faces(mesh)]]
     paint = split.color_attributes.new("Color", "FLOAT_COLOR", "POINT")
     paint.data.foreach_set("color", color_of_vertex.ravel())
     split.color_attributes.active_color = paint
@@ -93,10 +94,8 @@ def _split(
     Vertices keep their number in the part of lowest number; further copies follow.
     """
     n_vertices = len(mesh.vertices)
-    vertex = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.loops.foreach_get("vertex_index", vertex)
-    part = np.repeat(parts, _sizes(mesh)).astype(np.int64)
-    pairs = np.stack([vertex.astype(np.int64), part], axis=1)
+    vertex, part = corner_vertices(mesh), parts[corner_faces(mesh)]
+    pairs = np.stack([vertex, part], axis=1).astype(np.int64)
     unique, pair_of_corner = np.unique(pairs, axis=0, return_inverse=True)
     first = np.r_[True, np.diff(unique[:, 0]) > 0] if len(unique) else np.zeros(0, bool)
     number = unique[:, 0].copy()
@@ -126,13 +125,6 @@ def _mesh(
         mesh.uv_layers.active.uv.foreach_get("vector", uv)
         split.uv_layers.new().uv.foreach_set("vector", uv)
     return split
-
-
-def _sizes(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
-    """Return the number of corners of each face."""
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return sizes
 
 
 def _face_values(

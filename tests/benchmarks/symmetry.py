@@ -12,6 +12,13 @@ from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from weak_convex_decomposition.core.sampling import Samples, sample_surface
 from weak_convex_decomposition.core.shapes import TriangleMesh
+from weak_convex_decomposition.core.symmetry import (
+    Plane,
+    likely_normals,
+    nearest_images,
+    places,
+    plane_between,
+)
 
 # Points that stand for the surface, and every how manieth is mirrored.
 POINTS = 40_000
@@ -20,12 +27,8 @@ STEP = 10
 # and the share of it that has to be.
 NEAR = 0.01
 ENOUGH = 0.95
-# How far apart two points of normals one unit apart count, in diagonals: the two sides
-# of a thin wall are not each other's mirror image.
-NORMAL_WEIGHT = 0.01
 # A plane moves to where the nearest points want it, so many times.
 ROUNDS = 4
-TRUSTED = 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,19 +64,15 @@ def find_mirror(mesh: TriangleMesh) -> Mirror | None:
     samples = sample_surface(mesh, POINTS, np.random.default_rng(0))
     reflector = _Reflector(samples)
     found = [
-        image for normal in _normals(samples) for image in reflector.improved(normal)
+        image
+        for normal in likely_normals(samples.positions)
+        for image in reflector.improved(normal)
     ]
     rows, fit = max(found, key=lambda image: image[1])
     if fit < ENOUGH:
         return None
     faces = mesh.polygons[samples.triangles]
     return Mirror(faces[::STEP], faces[rows])
-
-
-def _normals(samples: Samples) -> np.ndarray:
-    """Return the axes of space and the principal axes of a shape, (6, 3)."""
-    _, principal = np.linalg.eigh(np.cov(samples.positions.T))
-    return np.concatenate([np.eye(3), principal.T])
 
 
 class _Reflector:
@@ -83,34 +82,19 @@ class _Reflector:
         self.samples = samples
         self.points = samples.positions[::STEP]
         self.normals = samples.normals[::STEP]
-        self.tree = cKDTree(
-            np.hstack([samples.positions, NORMAL_WEIGHT * samples.normals])
-        )
+        self.tree = cKDTree(places(samples.positions, samples.normals))
 
     def improved(self, normal: np.ndarray) -> list[tuple[np.ndarray, float]]:
         """Return rows of the samples at the mirror images, and how well they fit.
 
-        For a plane through the center with this normal, and for what becomes of it: a
-        plane is normal to the way from points to their images, halfway between them.
+        For a plane through the center with this normal, and for what becomes of it.
         """
         found = []
-        offset = float(self.samples.positions.mean(axis=0) @ normal)
+        plane = Plane(normal, float(self.samples.positions.mean(axis=0) @ normal))
         for _ in range(ROUNDS):
-            rows, distances = self._images(normal, offset)
+            rows = nearest_images(self.tree, self.points, self.normals, plane)
+            ends = self.samples.positions[rows]
+            distances = np.linalg.norm(ends - plane.mirrored(self.points), axis=1)
             found.append((rows, float((distances <= NEAR).mean())))
-            trusted = distances <= np.quantile(distances, TRUSTED)
-            ends = self.samples.positions[rows[trusted]]
-            ways = ends - self.points[trusted]
-            normal = np.linalg.eigh(ways.T @ ways)[1][:, -1]
-            offset = float(((ends + self.points[trusted]) / 2 @ normal).mean())
+            plane = plane_between(self.points, ends, distances)
         return found
-
-    def _images(
-        self, normal: np.ndarray, offset: float
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the sample nearest to each point's mirror image, and its distance."""
-        heights = self.points @ normal - offset
-        points = self.points - 2 * np.outer(heights, normal)
-        normals = self.normals - 2 * np.outer(self.normals @ normal, normal)
-        _, rows = self.tree.query(np.hstack([points, NORMAL_WEIGHT * normals]))
-        return rows, np.linalg.norm(self.samples.positions[rows] - points, axis=1)

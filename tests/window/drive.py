@@ -48,7 +48,7 @@ class Play:
     def __call__(self):
         try:
             return self.go_on()
-        except Exception:
+        except Exception:  # Blender would go on without its subject
             traceback.print_exc()
             leave(1)
 

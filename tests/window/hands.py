@@ -112,6 +112,14 @@ class Hands:
         self.look()
         return obj
 
+    def parted_suzanne(self, subdivisions, samples):
+        """Put the monkey there and decompose her, as another step to undo to."""
+        self.suzanne(subdivisions)
+        with self.context():
+            bpy.ops.wcd.decompose(samples=samples)
+            bpy.ops.ed.undo_push(message="Decompose")
+        yield 0.5
+
     def look(self):
         """Look at the active object from the front and the right."""
         view = self.area.spaces.active.region_3d

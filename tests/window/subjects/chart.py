@@ -14,12 +14,8 @@ def record():
 def steps(hands):
     yield from hands.fill_screen()
     yield from hands.open_sidebar()
-    hands.suzanne(1)
     bpy.context.scene.wcd.samples = 300
-    with hands.context():
-        bpy.ops.wcd.decompose(samples=300)
-        bpy.ops.ed.undo_push(message="Decompose")
-    yield 0.5
+    yield from hands.parted_suzanne(1, samples=300)
     first = record()
     chosen = 3 if first["k"] != 3 else 4
     wanted = f"wcd.choose_part_count(parts={chosen})"

@@ -40,11 +40,7 @@ def steps(hands):
     hands.open_panels("WCD_PT_parts", "WCD_PT_edit")
     yield from hands.fill_screen()
     yield from hands.open_sidebar()
-    hands.suzanne(1)
-    with hands.context():
-        bpy.ops.wcd.decompose(samples=300)
-        bpy.ops.ed.undo_push(message="Decompose")
-    yield 0.5
+    yield from hands.parted_suzanne(1, samples=300)
     n_parts = len(names())
     assert n_parts >= 4
 

@@ -25,11 +25,7 @@ def steps(hands):
     hands.open_panels("WCD_PT_parts", "WCD_PT_use")
     yield from hands.fill_screen()
     yield from hands.open_sidebar()
-    hands.suzanne(2)
-    with hands.context():
-        bpy.ops.wcd.decompose(samples=600)
-        bpy.ops.ed.undo_push(message="Decompose")
-    yield 0.5
+    yield from hands.parted_suzanne(2, samples=600)
     before, whole = snapshot(bpy.context.active_object), extent()
 
     place = yield from hands.find("wcd.explode", columns=(0.5,))

@@ -13,11 +13,7 @@ def steps(hands):
     )
     editor.type = "IMAGE_EDITOR"
     yield from hands.open_sidebar()
-    hands.suzanne(1)
-    with hands.context():
-        bpy.ops.wcd.decompose(samples=300)
-        bpy.ops.ed.undo_push(message="Decompose")
-    yield 0.5
+    yield from hands.parted_suzanne(1, samples=300)
     with hands.context():
         bpy.ops.wcd.show_picture("INVOKE_DEFAULT", picture="SIGHT")
     yield lambda: running.current is None and editor.spaces.active.image
