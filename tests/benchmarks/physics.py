@@ -1,6 +1,6 @@
 """Drop models as compounds of hulls, and small balls on them: physics.py FILE...
 
-Tells of each model its hulls, their largest error, its speed after 10 seconds on a
+Tells of each model its hulls, their largest error, its speed after 40 seconds on a
 floor and how deep its contacts are, and how far above the surface balls come to rest.
 Half of the longest side of a model is 1.
 """
@@ -17,7 +17,7 @@ import weak_convex_decomposition as package
 from weak_convex_decomposition.operators.bridge.read import read_shape
 from weak_convex_decomposition.operators.headless.importing import load
 
-SECONDS = 10
+SECONDS = 40
 HEADING = ("model", "hulls", "error", "speed", "deepest", "balls", "lowest", "highest")
 
 
