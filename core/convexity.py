@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,20 @@ Matrix: TypeAlias = NDArray[np.float32] | sparse.csr_array
 def members_of(labels: NDArray[np.int64], n_labels: int) -> NDArray[np.float32]:
     """Return 1 where a sample has a label and 0 elsewhere, (N, `n_labels`)."""
     return np.eye(n_labels, dtype=np.float32)[labels]
+
+
+def sums_by_label(
+    matrix: Matrix | NDArray[np.float64], labels: NDArray[np.int64], n_labels: int
+) -> NDArray[Any]:
+    """Return the sum of the rows of each label, (`n_labels`, N).
+
+    Every row is read once, however many labels there are.
+    """
+    rows = np.arange(len(labels) + 1)
+    ones = np.ones(len(labels), dtype=np.float32)
+    members = sparse.csr_array((ones, labels, rows), shape=(len(labels), n_labels))
+    sums = members.T @ matrix
+    return sums.toarray() if sparse.issparse(sums) else sums
 
 
 def pair_counts(
@@ -68,14 +82,16 @@ class KnownPairs:
 
     def tally(self, labels: NDArray[np.int64], n_labels: int) -> PairTally:
         """Count visible and known pairs between every two labels."""
-        members = members_of(labels, n_labels)
-        visible = members.T @ (self.visible @ members)
+
+        def counts(matrix: Matrix) -> NDArray[np.float64]:
+            # Whole numbers: those of a row are exact in single precision.
+            of_rows = sums_by_label(matrix, labels, n_labels).T
+            return sums_by_label(of_rows.astype(np.float64), labels, n_labels)
+
         if self.known is None:
-            sizes = members.sum(axis=0, dtype=np.float64)
-            known = np.outer(sizes, sizes)
-        else:
-            known = members.T @ (self.known @ members)
-        return PairTally(visible.astype(float), known.astype(float))
+            sizes = np.bincount(labels, minlength=n_labels).astype(np.float64)
+            return PairTally(counts(self.visible), np.outer(sizes, sizes))
+        return PairTally(counts(self.visible), counts(self.known))
 
     def hidden(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the pairs known not to see each other, each once."""

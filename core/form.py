@@ -15,7 +15,7 @@ from .outline import flat_mesh
 from .points_surface import surface_of_points
 from .progress import Progress, Steps, within
 from .shapes import TriangleMesh
-from .shells import set_apart
+from .shells import find_shells, set_apart
 from .splats import nearest_points, smoothed, thinned_splats
 from .surface import Surface, surface_of
 
@@ -100,9 +100,12 @@ def form_of(shape: Shape) -> Steps[Form]:
             flat.walls, flat.surface, nodes, notes=flat.notes, plane=flat.normal
         )
     yield Progress("Surface", 0.4)
-    mesh, notes = oriented(mesh)
+    shells = find_shells(mesh)
+    yield Progress("Surface", 0.6)
+    mesh, notes = oriented(mesh, shells)
     yield Progress("Surface", 0.8)
-    return Form(set_apart(mesh), lambda: surface_of(mesh), nodes, notes=notes)
+    targets = set_apart(mesh, shells)
+    return Form(targets, lambda: surface_of(mesh), nodes, notes=notes)
 
 
 def _form_of_cloud(cloud: PointCloud) -> Steps[Form]:

@@ -89,17 +89,19 @@ def cut_seams(
     cutter = _Expansion(surface.neighbors, data, seams)
     labels = labels.copy()
     n_labels = costs.shape[1]
-    settled = np.zeros(n_labels, dtype=bool)
+    settled, restless = np.zeros((2, n_labels), dtype=bool)
+    seen = np.zeros((n_labels, len(labels)), dtype=bool)
     for sweep in range(_SWEEPS):
         for label in range(n_labels):
             yield Progress("Seams", (sweep + label / n_labels) / _SWEEPS)
             if settled[label]:
                 continue
-            moved = cutter.expand(labels, label)
+            moved, seen[label] = cutter.expand(labels, label)
             if len(moved):
-                settled[:] = False
+                # Others stay as they are where they have seen nothing that moved.
+                settled &= ~(restless | seen[:, moved].any(axis=1))
                 labels[moved] = label
-            settled[label] = True
+            settled[label], restless[label] = True, len(moved) > 0
         if settled.all():
             break
     return labels
@@ -129,16 +131,24 @@ class _Expansion:
         self.starts = graph.indptr[:-1]
         self.n_arcs = np.diff(graph.indptr)
 
-    def expand(self, labels: NDArray[np.int64], label: int) -> NDArray[np.int64]:
-        """Return the nodes that better had `label`: one minimum cut."""
-        nodes = self._band(labels == label)
+    def expand(
+        self, labels: NDArray[np.int64], label: int
+    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Return the nodes that better had `label`: one minimum cut.
+
+        And which nodes it has seen, (P,): as long as these keep their labels, it would
+        come out the same.
+        """
+        seen = labels == label
+        nodes = self._band(seen)
         if len(nodes) == 0:
-            return nodes
+            return nodes, seen
         own = labels[nodes]
         gain = self.data[nodes, label] - self.data[nodes, own]
         arcs = self._arcs(nodes)
         tails = np.repeat(np.arange(len(nodes)), self.n_arcs[nodes])
         ends, weights = self.heads[arcs], self.seams[arcs]
+        seen[ends] = True
         heads = np.searchsorted(nodes, ends)
         heads[heads == len(nodes)] = 0
         free = nodes[heads] == ends
@@ -152,8 +162,7 @@ class _Expansion:
         gain += np.bincount(tails, weights * (lost.astype(int) - gained), len(nodes))
         capacities = np.where(first, 0.0, weights)[free]
         moves = _minimum_cut(gain, tails[free], heads[free], capacities)
-        moved: NDArray[np.int64] = nodes[moves]
-        return moved
+        return nodes[moves], seen
 
     def _band(self, reached: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Return the nodes within `_BAND` steps outside a region, ascending."""

@@ -16,6 +16,7 @@ from .orientation import oriented
 from .piece import Cell, Piece, piece_of_part, whole
 from .progress import Progress, Steps, within
 from .shapes import TriangleMesh
+from .shells import find_shells
 from .solid import Solid, solid_of
 
 # Pieces are cut until there are this many times as many as hulls asked for: joining
@@ -91,7 +92,8 @@ def build_hulls(
     yield Progress("Solid", 0.0)
     low, high = mesh.bounds
     size = float((high - low).max()) / 2
-    normalized, notes = oriented(mesh.normalized())
+    normalized = mesh.normalized()
+    normalized, notes = oriented(normalized, find_shells(normalized))
     # From a diagonal of 1 to CoACD's units: the longest side is 2.
     vertices = normalized.vertices * (mesh.diagonal / size)
     yield Progress("Solid", 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .convexity import KnownPairs, members_of
+from .convexity import KnownPairs, Matrix, members_of, sums_by_label
 
 # Sweeps over all samples at most; most shapes settle within five.
 _SWEEPS = 10
@@ -31,12 +31,18 @@ class Pulls:
         self._pairs = pairs
         self._members = members_of(labels, n_labels)
         # Counts are whole numbers, exact in float32 however they are added up.
-        self._visible = pairs.visible @ self._members
+        self._visible = self._sums(pairs.visible, labels)
         self._own = pairs.visible.diagonal()
+        self._sizes = self._members.sum(axis=0)
         self._total = float(pairs.n_samples) ** 2
         if pairs.known is not None:
-            self._known = pairs.known @ self._members
+            self._known = self._sums(pairs.known, labels)
             self._own_known, self._total = pairs.known.diagonal(), pairs.known.sum()
+
+    def _sums(self, matrix: Matrix, labels: NDArray[np.int64]) -> NDArray[np.float32]:
+        """Return the sums of the columns of each label, (N, K): those of its rows."""
+        sums = sums_by_label(matrix, labels, self._members.shape[1])
+        return np.ascontiguousarray(sums.T)
 
     def of(self, rows: slice, alpha: float) -> NDArray[np.float64]:
         """Return the pulls of R samples.
@@ -58,7 +64,7 @@ class Pulls:
         # A sample sees itself whatever its label is.
         visible = self._visible[rows] - mine * self._own[rows, None]
         if self._pairs.known is None:
-            known = self._members.sum(axis=0) - mine
+            known = self._sizes - mine
         else:
             known = self._known[rows] - mine * self._own_known[rows, None]
         gains = (1 + alpha) * visible.astype(float) - alpha * known.astype(float)
@@ -66,9 +72,10 @@ class Pulls:
 
     def give(self, samples: NDArray[np.int64], labels: NDArray[np.int64]) -> None:
         """Give samples to labels, (M,) int each."""
-        after = members_of(labels, self._members.shape[1])
-        change = after - self._members[samples]
-        self._members[samples] = after
+        change = -self._members[samples]
+        change[np.arange(len(samples)), labels] += 1
+        self._members[samples] += change
+        self._sizes += change.sum(axis=0)
         self._visible += self._pairs.visible[samples].T @ change
         if self._pairs.known is not None:
             self._known += self._pairs.known[samples].T @ change
@@ -98,17 +105,19 @@ def raise_psi(
         Those of `n_labels` that psi is better without are not used any more.
     """
     labels = labels.copy()
+    samples = np.arange(len(labels))
     pulls = Pulls(pairs, labels, n_labels)
-    for _ in range(_SWEEPS):
-        before = labels.copy()
-        for turn in range(_TURNS):
-            turns = pulls.of(slice(turn, None, _TURNS), alpha)
-            best, here = turns.argmax(axis=1), labels[turn::_TURNS]
-            better = turns.max(axis=1) > turns[np.arange(len(here)), here]
-            moved = turn + _TURNS * np.flatnonzero(better)
-            if len(moved):
-                labels[moved] = best[better]
-                pulls.give(moved, labels[moved])
-        if (labels == before).all():
+    settled = 0
+    for turn in range(_SWEEPS * _TURNS):
+        asked = slice(turn % _TURNS, None, _TURNS)
+        turns, here = pulls.of(asked, alpha), labels[asked]
+        best, rows = turns.argmax(axis=1), samples[: len(here)]
+        better = turns[rows, best] > turns[rows, here]
+        moved = samples[asked][better]
+        if len(moved):
+            labels[moved] = best[better]
+            pulls.give(moved, labels[moved])
+        settled = 0 if len(moved) else settled + 1
+        if settled == _TURNS:
             break
     return labels

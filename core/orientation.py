@@ -8,13 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .shapes import TriangleMesh
-from .shells import Shells, find_shells
+from .shells import Shells
 
 # An open shell is solid when this share of its area closes it; an open box lacks 0.2.
 _MOST_MISSING = 0.25
 
 
-def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
+def oriented(
+    mesh: TriangleMesh, shells: Shells
+) -> tuple[TriangleMesh, tuple[str, ...]]:
     """Return `mesh` with its solid shells wound consistently and outwards.
 
     Solid is a shell that is closed, or nearly so: with holes through which little of
@@ -25,6 +27,8 @@ def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     Parameters
     ----------
     mesh : TriangleMesh
+    shells : Shells
+        Of the mesh.
 
     Returns
     -------
@@ -33,7 +37,6 @@ def oriented(mesh: TriangleMesh) -> tuple[TriangleMesh, tuple[str, ...]]:
     notes : tuple of str
         What was turned.
     """
-    shells = find_shells(mesh)
     solid = _solid(mesh, shells)
     turned = np.zeros(len(solid), dtype=bool)
     turned[list(_inverted(mesh, shells, solid))] = True

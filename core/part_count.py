@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -88,9 +89,10 @@ def given_part_count(
     other numbers would give.
     """
     searched = yield from within(search_part_count(partitioner, low, high), 0.0, 0.6)
-    most = max(n_parts, high) if partitioner.by_psi else n_parts
     fewest = min(n_parts, low)
-    tried = yield from within(_tried(partitioner, fewest, most), 0.6, 0.8)
+    tried = yield from within(_tried(partitioner, fewest, high), 0.6, 0.7)
+    if n_parts > high:
+        tried = yield from within(_with_more(partitioner, tried, n_parts), 0.7, 0.8)
     made = min(n_parts, max(tried))
     parts = yield from within(seamed(partitioner, tried[made].parts), 0.8, 1.0)
     psi_by_k = dict(sorted(({made: tried[made].psi} | searched.psi_by_k).items()))
@@ -101,13 +103,17 @@ def _tried(
     partitioner: Partitioner, low: int, high: int
 ) -> Steps[dict[int, Candidate]]:
     """Return the candidates for one part, and for every k that the shape allows."""
+    make = partial(_try, partitioner, low, high)
+    return (yield from partitioner.of_searches.recall_steps((low, high), make))
+
+
+def _try(partitioner: Partitioner, low: int, high: int) -> Steps[dict[int, Candidate]]:
+    """Find the candidates for one part, and for every k that the shape allows."""
     tried = {1: partitioner.candidate(1)}
     for n_parts in range(low, high + 1):
-        done = (n_parts - low) / (high + 1 - low)
-        yield Progress("Number of parts", 0.8 * done)
-        partitioner.plain(n_parts)  # remembered: half of the work, a step of its own
-        yield Progress("Number of parts", 0.8 * done)
-        candidate = partitioner.candidate(n_parts)
+        begin, end = ((n - low) / (high + 1 - low) for n in (n_parts, n_parts + 1))
+        steps = _candidate(partitioner, n_parts)
+        candidate = yield from within(steps, 0.8 * begin, 0.8 * end)
         tried.setdefault(count(candidate.parts), candidate)
         if count(candidate.parts) < n_parts:
             break
@@ -116,23 +122,41 @@ def _tried(
         done = (most - n_parts) / (most + 1 - low)
         yield Progress("Number of parts", 0.8 + 0.1 * done)
         tried[n_parts] = partitioner.better(n_parts, most)
-    if partitioner.by_psi:
-        yield from within(_even(partitioner, tried), 0.9, 1.0)
-    return tried
+    return (yield from within(_evened(partitioner, tried), 0.9, 1.0))
 
 
-def _even(partitioner: Partitioner, tried: dict[int, Candidate]) -> Steps[None]:
-    """Put symmetric candidates in the place of others that are hardly better."""
+def _with_more(
+    partitioner: Partitioner, tried: dict[int, Candidate], n_parts: int
+) -> Steps[dict[int, Candidate]]:
+    """Return candidates, with one for more parts than those that were searched."""
+    candidate = yield from within(_candidate(partitioner, n_parts), 0.0, 0.8)
+    more = {count(candidate.parts): candidate} | tried
+    return (yield from within(_evened(partitioner, more), 0.8, 1.0))
+
+
+def _candidate(partitioner: Partitioner, n_parts: int) -> Steps[Candidate]:
+    """Return the partitioner's candidate, in two steps."""
+    yield Progress("Number of parts", 0.0)
+    partitioner.plain(n_parts)  # remembered: half of the work
+    yield Progress("Number of parts", 0.5)
+    return partitioner.candidate(n_parts)
+
+
+def _evened(
+    partitioner: Partitioner, tried: dict[int, Candidate]
+) -> Steps[dict[int, Candidate]]:
+    """Return symmetric candidates in the place of others that are hardly better."""
+    if not partitioner.by_psi:
+        return tried
     found: dict[int, Candidate] = {}
-    for number, candidate in enumerate(list(tried.values())):
-        steps = partitioner.symmetric(candidate.parts)
-        begin, end = number / len(tried), (number + 1) / len(tried)
+    uneven = [candidate for candidate in tried.values() if not candidate.even]
+    for number, candidate in enumerate(uneven):
+        steps = partitioner.symmetric(candidate.parts, tried)
+        begin, end = number / len(uneven), (number + 1) / len(uneven)
         for even in (yield from within(steps, begin, end)):
             n_parts = count(even.parts)
-            if n_parts not in tried:
-                continue
             rival = found.get(n_parts, tried[n_parts])
-            slack = 0.0 if n_parts in found else 2 * partitioner.negligible
+            slack = 0.0 if rival.even else 2 * partitioner.negligible
             if even.psi >= rival.psi - slack:
                 found[n_parts] = even
-    tried.update(found)
+    return tried | found

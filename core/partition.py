@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from functools import partial
 from hashlib import blake2b
 from typing import NamedTuple
@@ -26,8 +27,10 @@ _MORE_CLUSTERS = (0, 1, 2, 4, 8)
 # Psi of two sets of samples of one shape differs by about twice this, over the root of
 # their number: less says nothing.
 _NEGLIGIBLE = 0.1
-# Tallies that are remembered: candidates of one k after the other differ little.
-_TALLIES = 64
+# Tallies that are remembered: those of a search or two.
+_TALLIES = 256
+# Clusters whose moves are remembered, whatever the smallest part is.
+_MOVES = 32
 # Labels whose connected pieces are remembered: k-means' clusters, whatever alpha is.
 _PIECES = 24
 # Even parts that are remembered: for every k of a search, of both sides.
@@ -70,9 +73,11 @@ class Partitioner:
         parts = parameters.refinement, parameters.alpha, parameters.smallest_part
         self._tallies = visibility.memory.recall("tallies", lambda: Memory(_TALLIES))
         self._of_pieces = visibility.memory.recall("pieces", lambda: Memory(_PIECES))
+        self._of_moves = visibility.memory.recall("moves", lambda: Memory(_MOVES))
         self._of_clusters = visibility.memory.recall(("clusters", clusters), Memory)
         self._of_parts = visibility.memory.recall(("parts", clusters, parts), Memory)
         self._of_sides = self._of_parts.recall("sides", lambda: Memory(_EVEN))
+        self.of_searches = self._of_parts.recall("searches", Memory)
         self.of_seams = self._of_parts.recall("seams", lambda: Memory(_SEAMS))
 
     def candidate(self, n_parts: int) -> Candidate:
@@ -101,28 +106,34 @@ class Partitioner:
 
         return self._of_parts.recall((n_parts, most), make)
 
-    def symmetric(self, parts: NDArray[np.int64]) -> Steps[list[Candidate]]:
-        """Return what each side of a symmetric shape makes of both: two, or none."""
+    def symmetric(
+        self, parts: NDArray[np.int64], wanted: Container[int]
+    ) -> Steps[list[Candidate]]:
+        """Return what each side of a symmetric shape makes of both.
+
+        Two at most: those with a number of parts that is wanted.
+        """
         sides = yield from self.visibility.memory.recall_steps(
             "sides", lambda: find_sides(self.surface)
         )
-        found = []
+        found, key = [], digest(parts) if sides else b""
         for number, side in enumerate(sides):
             yield Progress("Symmetry", 0.0)
             make = partial(self._mirrored, parts, side)
-            found.append(self._of_sides.recall((number, digest(parts)), make))
+            even = self._of_sides.recall((number, key), make)
+            if count(even) in wanted:
+                found.append(Candidate(even, self.psi(even), True))
         return found
 
-    def _mirrored(self, parts: NDArray[np.int64], side: Side) -> Candidate:
-        """Return the candidate that the parts on one side make of both sides."""
-        mirrored = self._pieces(side.copied(parts, self.surface))
-        return Candidate(mirrored, self.psi(mirrored), True)
+    def _mirrored(self, parts: NDArray[np.int64], side: Side) -> NDArray[np.int64]:
+        """Return the parts that those on one side make of both sides."""
+        return self._pieces(side.copied(parts, self.surface))
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Return the pairs of samples counted by the parts of the polygons."""
         labels, n_parts = self.transfer.to_samples(parts), count(parts)
         return self._tallies.recall(
-            (labels.tobytes(), n_parts),
+            (digest(labels), n_parts),
             lambda: self.visibility.pairs.tally(labels, n_parts),
         )
 
@@ -141,8 +152,11 @@ class Partitioner:
         if n_parts == 1 or not self.by_psi:
             return plain
         n_clusters, labels = self._clusters(n_parts, n_parts)
-        raised = raise_psi(
-            self.visibility.pairs, labels, n_clusters, self.parameters.alpha
+        raised = self._of_moves.recall(
+            (digest(labels), self.parameters.alpha),
+            lambda: raise_psi(
+                self.visibility.pairs, labels, n_clusters, self.parameters.alpha
+            ),
         )
         parts = self.tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
         # Psi may be better with fewer parts: they are split where it loses least.

@@ -55,8 +55,12 @@ def _gathered(
     """Return connected pieces, those of a label that lie scattered and small as one."""
     pieces = surface.pieces(labels, smallest_area)
     areas = surface.areas_of(pieces)
-    alone = np.diff(surface.borders(pieces, len(areas)).indptr) == 0
-    scattered = (alone & (areas < smallest_area))[pieces]
+    small = areas < smallest_area
+    if not small.any():
+        return pieces
+    scattered = (small & surface.alone(pieces, len(areas)))[pieces]
+    if not scattered.any():
+        return pieces
     keys = np.where(scattered, len(areas) + labels, pieces)
     return np.unique(keys, return_inverse=True)[1].reshape(-1)
 

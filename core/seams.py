@@ -25,7 +25,7 @@ def seamed(
 def _cut(
     partitioner: Partitioner, parts: NDArray[np.int64]
 ) -> Steps[NDArray[np.int64]]:
-    """Cut the seams of parts anew.
+    """Cut the seams of parts anew; parts that short seams would swallow keep theirs.
 
     Smooth seams cost psi: no more of it than its moves have won over k-means.
     """
@@ -41,7 +41,9 @@ def _cut(
     for share in _SOFTER:
         steps = cut_seams(partitioner.surface, parts, costs, share * smoothness)
         cut = yield from within(steps, 0.0, 0.9)
-        cut = partitioner.tidied(cut, n_parts)
+        areas = np.bincount(cut, partitioner.surface.areas, n_parts)
+        swallowed = areas <= partitioner.smallest_area
+        cut = partitioner.tidied(np.where(swallowed[parts], parts, cut), n_parts)
         if count(cut) == n_parts and partitioner.psi(cut) >= enough:
             return (yield from within(_evened(partitioner, cut, enough), 0.9, 1.0))
     return parts
@@ -53,9 +55,8 @@ def _evened(
     """Return parts with seams alike on both sides, where psi stays enough."""
     if not partitioner.by_psi:
         return parts
-    even = yield from partitioner.symmetric(parts)
-    fit = [each for each in even if count(each.parts) == count(parts)]
-    best = max(fit, key=lambda each: each.psi, default=None)
+    even = yield from partitioner.symmetric(parts, {count(parts)})
+    best = max(even, key=lambda each: each.psi, default=None)
     least = max(enough, partitioner.psi(parts) - 2 * partitioner.negligible)
     return parts if best is None or best.psi < least else best.parts
 

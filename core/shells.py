@@ -44,13 +44,13 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     """Return the shells of `mesh`."""
     corners = mesh.welded_triangles
     n_triangles = len(corners)
-    edges = corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    forward = edges[:, 0] < edges[:, 1]
-    keys = edges.min(axis=1) * (corners.max() + 1) + edges.max(axis=1)
-    _, edge_of, uses = np.unique(keys, return_inverse=True, return_counts=True)
-    edge_of = edge_of.reshape(-1)
-    order = np.argsort(edge_of, kind="stable")
-    paired = order[(uses == 2)[edge_of[order]]].reshape(-1, 2)
+    tails, heads = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    forward = tails < heads
+    keys = np.minimum(tails, heads) * (corners.max() + 1) + np.maximum(tails, heads)
+    order = np.argsort(keys, kind="stable")
+    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
+    uses = np.diff(first, append=len(order))
+    paired = order[first[uses == 2][:, None] + [0, 1]]
     opposed = forward[paired[:, 0]] != forward[paired[:, 1]]
     copies = _wound_copies(paired // 3, opposed, n_triangles)
     _, shells = np.unique(copies.min(axis=0), return_inverse=True)
@@ -60,7 +60,9 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)
     windable = np.bincount(shells, copies[0] == copies[1], n_shells) == 0
     # An edge of four triangles may be where a shell touches itself.
-    owners = np.repeat(shells, 3) * len(uses) + edge_of
+    edge_of = np.repeat(np.arange(len(uses)), uses)
+    others = (uses != 2)[edge_of]
+    owners = shells[order[others] // 3] * len(uses) + edge_of[others]
     uses_by_shell, counts = np.unique(owners, return_counts=True)
     open_edges = uses_by_shell[counts % 2 == 1] // len(uses)
     closed = windable.copy()
@@ -69,19 +71,18 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     return Shells(shells, against, windable, closed)
 
 
-def set_apart(mesh: TriangleMesh) -> TriangleMesh:
+def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
     """Return `mesh` with its shells shrunk by a trifle, each by another.
 
     Boxes are often put together flush. A ray cannot tell the order of faces at the
     same place, nor count the shells there; a hundred thousandth of the diagonal between
     them is enough for that, and nothing that anybody sees.
     """
-    shells = find_shells(mesh).of_triangle
-    areas = np.bincount(shells, mesh.areas)
+    areas = np.bincount(shells.of_triangle, mesh.areas)
     if len(areas) == 1:
         return mesh
     ranks = np.argsort(np.argsort(-areas, kind="stable"))
-    steps = ranks[shells] % _LAYERS
+    steps = ranks[shells.of_triangle] % _LAYERS
     vectors = (mesh.areas[:, None] * mesh.normals).repeat(3, axis=0)
     corners = mesh.triangles.ravel()
     normals = np.stack(

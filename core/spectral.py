@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import get_blas_funcs
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from .convexity import Matrix
@@ -77,10 +80,14 @@ def _shifted_walk(
     are all alike, a Krylov space ends early and ARPACK goes on from random numbers of
     its own; the noise keeps it going, the same every time.
     """
+    times = affinity.__matmul__
+    if isinstance(affinity, np.ndarray):
+        # Half of a symmetric matrix says it all: half as much to read.
+        times = partial(get_blas_funcs("symv", (affinity,)), 1.0, affinity.T)
 
     def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:
         vector = vector.ravel()
-        product = affinity @ (scales * vector).astype(affinity.dtype)
+        product = times((scales * vector).astype(affinity.dtype))
         return scales * product + (1 + _NOISE * noise) * vector
 
     return LinearOperator(affinity.shape, multiply, dtype=np.float64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +61,17 @@ class Surface:
 
     def shells(self) -> NDArray[np.int64]:
         """Return the number of the connected shell of each polygon, (P,)."""
-        return _components(self.neighbors, self.n_polygons)
+        return _components(self._graph)
+
+    @cached_property
+    def _graph(self) -> sparse.csr_array:
+        """Return the neighbors as a matrix: pieces are asked for over and over."""
+        return _graph_of(self.neighbors, self.n_polygons)
+
+    @cached_property
+    def _tails(self) -> NDArray[np.int64]:
+        """Return the row of each entry of the matrix."""
+        return np.repeat(np.arange(self.n_polygons), np.diff(self._graph.indptr))
 
     def pieces(self, labels: NDArray[np.int64], firm_area: float) -> NDArray[np.int64]:
         """Return connected pieces of polygons with one label, (P,) int.
@@ -68,23 +79,32 @@ class Surface:
         Links connect whole shells and what is larger than `firm_area`, not the specks
         that a label may have next to another shell.
         """
-        ends = labels[self.neighbors]
-        alike = self.neighbors[ends[:, 0] == ends[:, 1]]
-        pieces = _components(alike, self.n_polygons)
+        pieces = self._pieces_of_shells(labels)
+        if len(self.links) == 0:
+            return pieces
         firm = self.areas_of(pieces) >= firm_area
         one, other = pieces[self.neighbors].T
+        crossing = np.flatnonzero(one != other)
         whole = np.ones(len(firm), dtype=bool)
-        whole[one[one != other]] = whole[other[one != other]] = False
+        whole[one[crossing]] = whole[other[crossing]] = False
         tied = (firm | whole)[pieces][self.links].all(axis=1)
         tied &= labels[self.links[:, 0]] == labels[self.links[:, 1]]
-        return _components(pieces[self.links[tied]], len(firm))[pieces]
+        return _components(_graph_of(pieces[self.links[tied]], len(firm)))[pieces]
+
+    def _pieces_of_shells(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return connected pieces of polygons with one label, without links."""
+        graph = self._graph
+        alike = labels[self._tails] == labels[graph.indices]
+        starts = np.concatenate([[0], np.cumsum(alike)])[graph.indptr]
+        rest = graph.data[alike], graph.indices[alike], starts
+        return _components(sparse.csr_array(rest, graph.shape))
 
     def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
         """Return the length of the border between every two labels, (K, K)."""
         pairs = labels[np.concatenate([self.neighbors, self.links])]
         # A link is a border where there is no other.
         lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
-        crossing = pairs[:, 0] != pairs[:, 1]
+        crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
         one, other = pairs[crossing].T
         lengths = np.maximum(lengths[crossing], np.finfo(float).tiny)
         borders = sparse.coo_array(
@@ -95,6 +115,13 @@ class Surface:
             shape=(n_labels, n_labels),
         )
         return borders.tocsr()
+
+    def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
+        """Return which labels border on no other, (K,)."""
+        alone = np.ones(n_labels, dtype=bool)
+        for pairs in (labels[self.neighbors], labels[self.links]):
+            alone[pairs[pairs[:, 0] != pairs[:, 1]]] = False
+        return alone
 
     def part(self, kept: NDArray[np.int64]) -> Surface:
         """Return the surface of some polygons, rows in ascending order."""
@@ -157,16 +184,16 @@ def _shared_edges(
     mesh: TriangleMesh,
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return neighbors (E, 2) by a common edge, and its two ends (E, 2, 3)."""
-    sides = [0, 1, 1, 2, 2, 0]
-    edges = np.sort(mesh.welded_triangles[:, sides].reshape(-1, 2), axis=1)
-    ends = mesh.vertices[mesh.triangles[:, sides]].reshape(-1, 2, 3)
-    owners = np.repeat(mesh.polygons, 3)
-    keys = edges[:, 0] * (edges.max() + 1) + edges[:, 1]
+    tails = mesh.welded_triangles.ravel()
+    heads = np.roll(mesh.welded_triangles, -1, axis=1).ravel()
+    keys = np.minimum(tails, heads) * (tails.max() + 1) + np.maximum(tails, heads)
     order = np.argsort(keys, kind="stable")
-    keys, owners, ends = keys[order], owners[order], ends[order]
+    keys, owners = keys[order], mesh.polygons[order // 3]
     shared = (keys[1:] == keys[:-1]) & (owners[1:] != owners[:-1])
     neighbors = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
-    return neighbors, ends[:-1][shared]
+    starts = order[:-1][shared]
+    ends = np.stack([starts, starts + np.where(starts % 3 < 2, 1, -2)], axis=1)
+    return neighbors, mesh.vertices[mesh.triangles.ravel()[ends]]
 
 
 def _sum_by(
@@ -178,11 +205,13 @@ def _sum_by(
     )
 
 
-def _components(pairs: NDArray[np.int64], n_nodes: int) -> NDArray[np.int64]:
-    """Return the connected component of each node, (n_nodes,)."""
-    graph = sparse.coo_array(
-        (np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])),
-        shape=(n_nodes, n_nodes),
+def _graph_of(pairs: NDArray[np.int64], n_nodes: int) -> sparse.csr_array:
+    """Return the graph of pairs of nodes, (n_nodes, n_nodes)."""
+    return sparse.csr_array(
+        (np.ones(len(pairs)), tuple(pairs.T)), shape=(n_nodes, n_nodes)
     )
-    _, components = connected_components(graph, directed=False)
-    return components.astype(np.int64)
+
+
+def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
+    """Return the connected component of each node."""
+    return connected_components(graph, directed=False)[1].astype(np.int64)

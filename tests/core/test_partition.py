@@ -70,6 +70,17 @@ def test_heavy_seams_swallow_no_part(seen):
     assert count(run(seamed(partitioner, parts))) == 5
 
 
+def test_seams_are_short_beside_parts_that_they_would_swallow(seen):
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=30.0))
+    parts = partitioner.partition(9)
+    cut = run(seamed(partitioner, parts))
+    assert count(cut) == 9
+    before, after = (
+        partitioner.surface.borders(labels, 9).sum() for labels in (parts, cut)
+    )
+    assert after < before
+
+
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 3, 5])
 def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):

@@ -99,6 +99,15 @@ def test_borders_are_as_long_as_the_edges_between_labels():
     assert not borders[3].any()
 
 
+def test_labels_without_borders_are_alone():
+    boxes = shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1)))
+    surface = surface_of(boxes)
+    labels = np.array([0] * 3 + [1] * 3 + [2] * 6)
+    assert surface.alone(labels, 4).tolist() == [False, False, True, True]
+    linked = surface.linked(np.array([[0, 6]]))
+    assert linked.alone(labels, 4).tolist() == [False, False, False, True]
+
+
 def test_areas_of_labels():
     surface = surface_of(shapes.box(divisions=2))
     labels = (surface.centers[:, 2] > 0.5).astype(int)
