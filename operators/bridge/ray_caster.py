@@ -31,7 +31,9 @@ class BvhRayCaster:
     @cached_property
     def _tree(self) -> BVHTree:
         """The tree, built at the first ray: half of the time, a step of its own."""
-        return BVHTree.FromPolygons(*self._polygons, all_triangles=True)
+        tree = BVHTree.FromPolygons(*self._polygons, all_triangles=True)
+        del self._polygons
+        return tree
 
     def first_hit(
         self,
