@@ -14,7 +14,7 @@ from .progress import Progress, Steps
 from .solid import Solid
 
 # Cuts that are made to see which is best; those alike count as one.
-_TRIES = 4
+_TRIES = 8
 _ALIKE = 0.95
 _NEAR = 0.05
 
