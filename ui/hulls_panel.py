@@ -40,14 +40,14 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         box = layout.box().column(align=True)
         _columns(box.row(), None, "Hull", "Vertices", "Error")
         names = [hull["name"] for hull in result["hulls"]]
-        for hull, name in zip(result["hulls"], _endings(names), strict=True):
+        for hull, name in zip(result["hulls"], endings(names), strict=True):
             obj = bpy.data.objects.get(hull["name"])
             material = obj.data.materials[0] if obj and obj.data.materials else None
             error = f"{hull['error']:.3f}"
             _columns(box.row(), material, name, str(hull["vertices"]), error)
 
 
-def _endings(names: Sequence[str]) -> list[str]:
+def endings(names: Sequence[str]) -> list[str]:
     """Return what tells names apart: there is no room for what they begin with."""
     if len(names) < 2:
         return list(names)

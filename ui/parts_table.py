@@ -46,7 +46,7 @@ class WCD_UL_parts(bpy.types.UIList):
         if material:
             swatch.prop(material, "diffuse_color", text="")
         width = width_of(context)
-        columns = _columns(result, width)
+        columns = headings(result, width)
         split = line.split(factor=_name_share(width, len(columns)))
         split.prop(row, "name", text="", emboss=False)
         _numbers(split, *map(_figures(result, index).get, columns))
@@ -54,7 +54,7 @@ class WCD_UL_parts(bpy.types.UIList):
         line.prop(row, "locked", text="", icon=lock, emboss=False)
 
 
-def _columns(result: dict[str, Any], width: float) -> list[str]:
+def headings(result: dict[str, Any], width: float) -> list[str]:
     """Return the headings of the figures that a table so wide has room for."""
     names = ["Faces", "Area", "Rank"]
     hulls = result.get("hulls", {}).get("hulls", ())
@@ -104,7 +104,7 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
     heading.label(text="", icon="BLANK1")
-    columns = _columns(result_of(obj), width)
+    columns = headings(result_of(obj), width)
     split = heading.split(factor=_name_share(width, len(columns)))
     split.label(text="Part")
     _numbers(split, *columns)

@@ -1,4 +1,4 @@
-"""The sidebar in every mode, narrow and beside a second viewport.
+"""The sidebar in every mode, beside a second viewport.
 
 What cannot work in a mode is a greyed button that says why, not a menu that opens.
 """
@@ -6,8 +6,6 @@ What cannot work in a mode is a greyed button that says why, not a menu that ope
 import bpy
 from leftovers import leftovers
 
-# How much narrower the sidebar is made, in points.
-_NARROWER = (25, 50, 60)
 # Menus where they can be opened, and buttons where not; and what works at least.
 _CHOICES = ("wcd.separate", "wcd.show_picture")
 _WORKS = {
@@ -61,9 +59,3 @@ def steps(hands):
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.ops.wcd.hide_sight()
     assert leftovers() == []
-    region = hands.region()
-    width = region.width
-    yield from hands.drag((region.x, region.y + region.height // 4), _NARROWER)
-    yield 0.5
-    hands.picture("narrow")
-    assert hands.region().width <= width
