@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from .properties import ALL, HULLS, MEASURE, SELECTION, hand_over
+from .sidebar import draw_choices
 
 # Operators in the order of the menu, with the settings they take from the scene, or the
 # property that a submenu offers; None for a line between groups. F3 finds them all.
@@ -45,7 +46,7 @@ class WCD_MT_parts(bpy.types.Menu):
             if entry is None:
                 layout.separator()
             elif isinstance(entry[1], str):
-                layout.operator_menu_enum(*entry)
+                draw_choices(layout, *entry)
             else:
                 button = layout.operator(entry[0])
                 hand_over(context.scene.wcd, button, entry[1])

@@ -9,9 +9,9 @@ import bpy
 
 from . import running
 from .parts_table import draw_table
-from .properties import ADVANCED, ALL, FRONT, HULLS, MEASURE, draw, hand_over
+from .properties import ADVANCED, ALL, FRONT, MEASURE, draw, hand_over
 from .running import Running
-from .sidebar import Sidebar, result_of
+from .sidebar import Sidebar, result_of, width_of
 
 # Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
 _MARGINS = 80
@@ -36,7 +36,7 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         """Draw the menu of presets."""
         self.layout.emboss = "NONE"
-        self.layout.ui_units_x = 1.0  # leaves no room for an arrow beside the icon
+        self.layout.ui_units_x = 1.6  # the icon, and its arrow beside it
         self.layout.operator_menu_enum(
             "wcd.use_preset", "preset", text="", icon="PRESET"
         )
@@ -55,7 +55,9 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
             row = row.split(factor=0.7, align=True)
             button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
             hand_over(settings, button, ALL)
-            row.prop(settings, "live", toggle=True)
+            live = row.row(align=True)
+            live.active = bpy.ops.wcd.decompose.poll()
+            live.prop(settings, "live", toggle=True)
         row = layout.row(align=True)
         hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
         row.operator("wcd.clear", text="Clear")
@@ -87,39 +89,7 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
         if "parts" not in result:
             return
         line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
-        draw_table(layout, obj)
-
-
-class WCD_PT_hulls(Sidebar, bpy.types.Panel):
-    """Collision hulls: settings, button and result."""
-
-    bl_label = "Collision Hulls"
-    bl_parent_id = "WCD_PT_main"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the panel."""
-        layout = self.layout
-        settings = context.scene.wcd
-        draw(layout, settings, HULLS)
-        button = layout.operator(
-            "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
-        )
-        hand_over(settings, button, HULLS)
-        result = result_of(context.active_object).get("hulls")
-        if not result:
-            return
-        line(layout, "Largest Error", f"{result['largest_error']:.3f}")
-        if result["volume_ratio"]:
-            line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
-        layout.operator_menu_enum("wcd.make_rigid", "kind", icon="PHYSICS")
-        box = layout.box().column(align=True)
-        _columns(box.row(), None, "Hull", "Vertices", "Error")
-        for hull in result["hulls"]:
-            obj = bpy.data.objects.get(hull["name"])
-            material = obj.data.materials[0] if obj and obj.data.materials else None
-            error = f"{hull['error']:.3f}"
-            _columns(box.row(), material, hull["name"], str(hull["vertices"]), error)
+        draw_table(layout, obj, width_of(context))
 
 
 class WCD_PT_advanced(Sidebar, bpy.types.Panel):
@@ -134,24 +104,6 @@ class WCD_PT_advanced(Sidebar, bpy.types.Panel):
         draw(self.layout, context.scene.wcd, ADVANCED)
 
 
-def _columns(
-    row: bpy.types.UILayout, material: Any, name: str, faces: str, rank: str
-) -> None:
-    """Draw a row of the list of hulls, or its heading."""
-    split = row.split(factor=0.14)
-    if material:
-        split.prop(material, "diffuse_color", text="")
-    else:
-        split.label(text="")
-    split = split.split(factor=0.46)
-    split.label(text=name)
-    numbers = split.split(factor=0.55)
-    for text in (faces, rank):
-        cell = numbers.row()
-        cell.alignment = "RIGHT"
-        cell.label(text=text)
-
-
 def _progress(row: bpy.types.UILayout, run: Running) -> None:
     """Draw how far a computation is, and the button that stops it."""
     progress = run.job.progress
@@ -164,8 +116,7 @@ def _paragraph(
     layout: bpy.types.UILayout, text: str, context: bpy.types.Context
 ) -> None:
     """Draw a warning in as many lines as the width of the sidebar asks for."""
-    unit = context.preferences.system.ui_scale
-    width = int((context.region.width / unit - _MARGINS) / _LETTER)
+    width = int((width_of(context) - _MARGINS) / _LETTER)
     column = layout.column(align=True)
     column.scale_y = 0.8
     for number, line in enumerate(textwrap.wrap(text, max(width, 10))):

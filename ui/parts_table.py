@@ -6,12 +6,16 @@ from typing import Any
 
 import bpy
 
-from .sidebar import Sidebar, result_of
+from .sidebar import Sidebar, result_of, width_of
 
 _ROWS = 6
-# Widths: of the color beside a button, and the share of the name in what is left.
+# Widths at interface scale 1: of the color beside a button, in its own; of a column of
+# figures, of a name at least, and of all else. What goes first where there is no room.
 _SWATCH = 0.35
-_NAME = 0.38
+_FIGURE = 30
+_NAME = 50
+_REST = 134
+_GO_FIRST = ("Area", "Faces", "Hull")
 
 
 class WCD_UL_parts(bpy.types.UIList):
@@ -41,22 +45,43 @@ class WCD_UL_parts(bpy.types.UIList):
         swatch.scale_x = _SWATCH
         if material:
             swatch.prop(material, "diffuse_color", text="")
-        split = line.split(factor=_NAME)
+        width = width_of(context)
+        columns = headings(result, width)
+        split = line.split(factor=_name_share(width, len(columns)))
         split.prop(row, "name", text="", emboss=False)
-        _numbers(split, *_figures(result, index))
+        _numbers(split, *map(_figures(result, index).get, columns))
         lock = "LOCKED" if row.locked else "UNLOCKED"
         line.prop(row, "locked", text="", icon=lock, emboss=False)
 
 
-def _figures(result: dict[str, Any], index: int) -> list[str]:
+def headings(result: dict[str, Any], width: float) -> list[str]:
+    """Return the headings of the figures that a table so wide has room for."""
+    names = ["Faces", "Area", "Rank"]
+    hulls = result.get("hulls", {}).get("hulls", ())
+    if any(hull["part"] is not None for hull in hulls):
+        names.append("Hull")
+    room = max(int((width - _REST - _NAME) / _FIGURE), 1)
+    dropped = [name for name in _GO_FIRST if name in names][: max(len(names) - room, 0)]
+    return [name for name in names if name not in dropped]
+
+
+def _name_share(width: float, n_figures: int) -> float:
+    """Return what share a name gets of what it has with figures in a table so wide."""
+    return 1 - n_figures * _FIGURE / max(width - _REST, n_figures * _FIGURE + _NAME)
+
+
+def _figures(result: dict[str, Any], index: int) -> dict[str, str]:
     """Return the faces, area, convexity rank and hull error of a part, in short."""
     part = result["parts"][index]
     faces, area = part["faces"], part["area"]
-    short = f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k"
-    texts = [short, _area(area), f"{part['convexity_rank']:.2f}"]
     hulls = result.get("hulls", {}).get("hulls", ())
     errors = [hull["error"] for hull in hulls if hull["part"] == index]
-    return [*texts, f"{max(errors):.2f}"] if errors else texts
+    return {
+        "Faces": f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k",
+        "Area": _area(area),
+        "Rank": f"{part['convexity_rank']:.2f}",
+        "Hull": f"{max(errors):.2f}" if errors else "–",
+    }
 
 
 def _area(area: float) -> str:
@@ -74,16 +99,15 @@ def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
         columns.label(text=text)
 
 
-def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    """Draw the parts of an object."""
-    hulls = result_of(obj).get("hulls", {}).get("hulls", ())
+def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) -> None:
+    """Draw the parts of an object in a sidebar so wide."""
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
     heading.label(text="", icon="BLANK1")
-    split = heading.split(factor=_NAME)
+    columns = headings(result_of(obj), width)
+    split = heading.split(factor=_name_share(width, len(columns)))
     split.label(text="Part")
-    error = ("Hull",) if any(hull["part"] is not None for hull in hulls) else ()
-    _numbers(split, "Faces", "Area", "Rank", *error)
+    _numbers(split, *columns)
     heading.label(text="", icon="BLANK1")
     layout.template_list(
         "WCD_UL_parts", "", obj, "wcd_parts", obj, "wcd_active_part", rows=_ROWS

@@ -24,6 +24,25 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
     return _parsed(noted) if isinstance(noted, str) else {}
 
 
+def width_of(context: bpy.types.Context) -> float:
+    """Return how wide the sidebar is at interface scale 1, in points."""
+    return context.region.width / context.preferences.system.ui_scale
+
+
+def draw_choices(
+    layout: bpy.types.UILayout, operator: str, choice: str, **look: str
+) -> None:
+    """Draw the menu of an operator's choices.
+
+    If it cannot run now, a button in its place is greyed and says why; a menu does not.
+    """
+    module, name = operator.split(".")
+    if getattr(getattr(bpy.ops, module), name).poll():
+        layout.operator_menu_enum(operator, choice, **look)
+    else:
+        layout.operator(operator, **look)
+
+
 # Drawn many times a second, each row by itself, from one and the same text.
 @lru_cache(maxsize=1)
 def _parsed(noted: str) -> dict[str, Any]:

@@ -108,7 +108,12 @@ def _draw() -> None:
         return
     uid = current.object_uid
     obj = next((o for o in bpy.data.objects if o.session_uid == uid), None)
-    if obj is None or not obj.visible_get():
+    space = bpy.context.space_data
+    if (
+        obj is None
+        or not space.overlay.show_overlays
+        or not obj.visible_in_viewport_get(space)
+    ):
         return
     if not current.batches:
         current.batches = _batches(current.view)

@@ -10,7 +10,7 @@ from . import sight_overlay
 from .explode_slider import exploding, slider
 from .panels import line
 from .properties import SELECTION, hand_over
-from .sidebar import Sidebar, result_of
+from .sidebar import Sidebar, draw_choices, result_of
 
 
 class WCD_PT_use(Sidebar, bpy.types.Panel):
@@ -29,7 +29,8 @@ class WCD_PT_use(Sidebar, bpy.types.Panel):
         """Draw the panel."""
         layout = self.layout
         _exploded_view(layout, context.active_object)
-        layout.operator_menu_enum(
+        draw_choices(
+            layout,
             "wcd.separate",
             "original",
             text="Separate into Objects",
@@ -61,7 +62,8 @@ class WCD_PT_why(Sidebar, bpy.types.Panel):
                 f"{measured['convexity_rank']:.3f} ± {measured['standard_error']:.3f}"
             )
             line(layout, f"{measured['faces']:,} Faces", rank)
-        layout.operator_menu_enum(
+        draw_choices(
+            layout,
             "wcd.show_picture",
             "picture",
             text="Show in Image Editor",

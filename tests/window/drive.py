@@ -82,6 +82,9 @@ def main():
     preferences = bpy.context.preferences
     preferences.view.show_splash = False
     preferences.use_preferences_save = False
+    # Blender would move the cursor back while a number is dragged, and a program that
+    # drags, which says where the cursor is, would be taken to jump.
+    preferences.inputs.use_mouse_continuous = False
     package.register()
     play = Play(load(subject).steps(Hands(subject)))
     bpy.app.timers.register(play, first_interval=1.0, persistent=True)

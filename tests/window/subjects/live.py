@@ -7,6 +7,9 @@ import bpy
 from leftovers import leftovers
 from weak_convex_decomposition.ui import running
 
+# Where the number of parts is dragged to, in points.
+_OFFSETS = (5, 10, 15, 20)
+
 
 def n_parts():
     return json.loads(bpy.context.active_object["wcd"])["k"]
@@ -27,7 +30,7 @@ def steps(hands):
     yield lambda: bpy.context.scene.wcd.live
 
     place = yield from hands.find("wcd.parts")
-    yield from hands.drag(place, (5, 10, 15, 20))
+    yield from hands.drag(place, _OFFSETS)
     yield lambda: not running.current
     chosen = bpy.context.scene.wcd.parts
     assert chosen != 4
@@ -35,8 +38,8 @@ def steps(hands):
     assert leftovers() == []
     yield 0.5
     hands.picture("dragged")
-    # A cut that takes longer than a moment is a step of its own.
-    for _ in range(2):
+    # A cut that takes longer than a moment is a step of its own, one on the way, too.
+    for _ in range(len(_OFFSETS) + 1):
         if bpy.context.scene.wcd.parts != 4:
             yield from hands.undo()
             yield 1.0

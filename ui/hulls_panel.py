@@ -1,0 +1,74 @@
+"""The panel on collision hulls."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from os.path import commonprefix
+from typing import Any, ClassVar
+
+import bpy
+
+from .panels import line
+from .properties import HULLS, draw, hand_over
+from .sidebar import Sidebar, draw_choices, result_of
+
+
+class WCD_PT_hulls(Sidebar, bpy.types.Panel):
+    """Collision hulls: settings, button and result."""
+
+    bl_label = "Collision Hulls"
+    bl_parent_id = "WCD_PT_main"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the panel."""
+        layout = self.layout
+        settings = context.scene.wcd
+        draw(layout, settings, HULLS)
+        button = layout.operator(
+            "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
+        )
+        hand_over(settings, button, HULLS)
+        result = result_of(context.active_object).get("hulls")
+        if not result:
+            return
+        line(layout, "Largest Error", f"{result['largest_error']:.3f}")
+        if result["volume_ratio"]:
+            line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
+        draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
+        box = layout.box().column(align=True)
+        _columns(box.row(), None, "Hull", "Vertices", "Error")
+        names = [hull["name"] for hull in result["hulls"]]
+        for hull, name in zip(result["hulls"], endings(names), strict=True):
+            obj = bpy.data.objects.get(hull["name"])
+            material = obj.data.materials[0] if obj and obj.data.materials else None
+            error = f"{hull['error']:.3f}"
+            _columns(box.row(), material, name, str(hull["vertices"]), error)
+
+
+def endings(names: Sequence[str]) -> list[str]:
+    """Return what tells names apart: there is no room for what they begin with."""
+    if len(names) < 2:
+        return list(names)
+    shared = commonprefix(names)  # noqa: RUF071  # letters are meant, not folders
+    start = len(re.sub(r"\w*$", "", shared.replace("_", " ")))
+    return [name[start:] for name in names]
+
+
+def _columns(
+    row: bpy.types.UILayout, material: Any, name: str, faces: str, rank: str
+) -> None:
+    """Draw a row of the list of hulls, or its heading."""
+    split = row.split(factor=0.14)
+    if material:
+        split.prop(material, "diffuse_color", text="")
+    else:
+        split.label(text="")
+    split = split.split(factor=0.46)
+    split.label(text=name)
+    numbers = split.split(factor=0.55)
+    for text in (faces, rank):
+        cell = numbers.row()
+        cell.alignment = "RIGHT"
+        cell.label(text=text)
