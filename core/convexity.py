@@ -90,7 +90,7 @@ class KnownPairs:
 
         if self.known is None:
             sizes = np.bincount(labels, minlength=n_labels).astype(np.float64)
-            return PairTally(counts(self.visible), np.outer(sizes, sizes))
+            return PairTally(counts(self.visible), sizes[:, None] * sizes)
         return PairTally(counts(self.visible), counts(self.known))
 
     def hidden(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
