@@ -14,6 +14,9 @@ from .shapes import TriangleMesh
 
 # Samples on the surface.
 _SAMPLES = 6000
+# Volume below which there is none, but noise, as of sheets with two sides; the longest
+# side is 2.
+_NO_VOLUME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +77,8 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
         chords.append(centers)
         volumes.append(shares)
     yield Progress("Solid", 1.0)
+    if sum(map(np.sum, volumes)) / 3 < _NO_VOLUME:
+        chords, volumes = [np.zeros((0, 3))], [np.zeros(0)]
     return Solid(
         corners,
         np.unique(corners.reshape(-1, 3), axis=0),
