@@ -27,7 +27,7 @@ def steps(hands):
     hands.suzanne(2)
     bpy.context.scene.wcd.samples = 600
     yield 0.5
-    hands.picture("before", hands.region(), height=270)
+    hands.picture("before", hands.region(), height=290)
     with hands.context():
         bpy.ops.wcd.decompose(samples=600)
     yield from hands.move(300, 300)
