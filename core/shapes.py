@@ -131,6 +131,14 @@ class TriangleMesh:
         welded: NDArray[np.int64] = place_of.reshape(-1)[self.triangles]
         return welded
 
+    @property
+    def edge_keys(self) -> NDArray[np.int64]:
+        """(3T,) numbers of the sides of the triangles, equal for those of one edge."""
+        tails = self.welded_triangles
+        heads = np.roll(tails, -1, axis=1)
+        keys = np.minimum(tails, heads) * (tails.max() + 1) + np.maximum(tails, heads)
+        return keys.ravel()
+
     @cached_property
     def _cross_products(self) -> NDArray[np.float64]:
         """(T, 3) normals of the triangles, twice their areas long."""

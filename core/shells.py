@@ -44,9 +44,8 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     """Return the shells of `mesh`."""
     corners = mesh.welded_triangles
     n_triangles = len(corners)
-    tails, heads = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-    forward = tails < heads
-    keys = np.minimum(tails, heads) * (corners.max() + 1) + np.maximum(tails, heads)
+    forward = (corners < np.roll(corners, -1, axis=1)).ravel()
+    keys = mesh.edge_keys
     order = np.argsort(keys, kind="stable")
     first = np.flatnonzero(np.diff(keys[order], prepend=-1))
     uses = np.diff(first, append=len(order))

@@ -70,21 +70,22 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
     """
     samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]
-    chords, volumes = [], []
+    centers, shares = [], []
     for axis in range(3):
         yield Progress("Solid", axis / 3)
-        centers, shares = chords_along(corners, axis)
-        chords.append(centers)
-        volumes.append(shares)
+        along, share = chords_along(corners, axis)
+        centers.append(along)
+        shares.append(share)
     yield Progress("Solid", 1.0)
-    if sum(map(np.sum, volumes)) / 3 < _NO_VOLUME:
-        chords, volumes = [np.zeros((0, 3))], [np.zeros(0)]
+    chords, volumes = np.concatenate(centers), np.concatenate(shares) / 3
+    if volumes.sum() < _NO_VOLUME:
+        chords, volumes = chords[:0], volumes[:0]
     return Solid(
         corners,
         np.unique(corners.reshape(-1, 3), axis=0),
         samples.positions,
         samples.triangles,
-        np.concatenate(chords),
-        np.concatenate(volumes) / 3,
+        chords,
+        volumes,
         float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
     )

@@ -184,9 +184,7 @@ def _shared_edges(
     mesh: TriangleMesh,
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return neighbors (E, 2) by a common edge, and its two ends (E, 2, 3)."""
-    tails = mesh.welded_triangles.ravel()
-    heads = np.roll(mesh.welded_triangles, -1, axis=1).ravel()
-    keys = np.minimum(tails, heads) * (tails.max() + 1) + np.maximum(tails, heads)
+    keys = mesh.edge_keys
     order = np.argsort(keys, kind="stable")
     keys, owners = keys[order], mesh.polygons[order // 3]
     shared = (keys[1:] == keys[:-1]) & (owners[1:] != owners[:-1])

@@ -57,7 +57,7 @@ def endings(names: Sequence[str]) -> list[str]:
 
 
 def _columns(
-    row: bpy.types.UILayout, material: Any, name: str, faces: str, rank: str
+    row: bpy.types.UILayout, material: Any, name: str, vertices: str, error: str
 ) -> None:
     """Draw a row of the list of hulls, or its heading."""
     split = row.split(factor=0.14)
@@ -68,7 +68,7 @@ def _columns(
     split = split.split(factor=0.46)
     split.label(text=name)
     numbers = split.split(factor=0.55)
-    for text in (faces, rank):
+    for text in (vertices, error):
         cell = numbers.row()
         cell.alignment = "RIGHT"
         cell.label(text=text)

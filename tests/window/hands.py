@@ -120,6 +120,13 @@ class Hands:
             bpy.ops.ed.undo_push(message="Decompose")
         yield 0.5
 
+    def take_samples(self, number):
+        """Have runs take so many samples, as another step to undo to."""
+        bpy.context.scene.wcd.samples = number
+        with self.context():
+            bpy.ops.ed.undo_push(message="Samples")
+        yield 0.5
+
     def look(self):
         """Look at the active object from the front and the right."""
         view = self.area.spaces.active.region_3d

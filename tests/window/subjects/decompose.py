@@ -11,10 +11,7 @@ from weak_convex_decomposition.ui import running
 def steps(hands):
     yield from hands.open_sidebar()
     before = snapshot(hands.suzanne(1))
-    bpy.context.scene.wcd.samples = 300
-    with hands.context():
-        bpy.ops.ed.undo_push(message="Samples")
-    yield 0.5
+    yield from hands.take_samples(300)
     hands.picture("before")
     place = yield from hands.find("wcd.decompose")
     yield from hands.click(place)

@@ -13,10 +13,7 @@ def mode():
 def steps(hands):
     yield from hands.open_sidebar()
     before = snapshot(hands.suzanne(1))
-    bpy.context.scene.wcd.samples = 800
-    with hands.context():
-        bpy.ops.ed.undo_push(message="Samples")
-    yield 0.5
+    yield from hands.take_samples(800)
     place = yield from hands.find("wcd.decompose")
     yield from hands.click(place)
     yield lambda: running.current is not None

@@ -37,9 +37,8 @@ def steps(hands):
         bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
     yield 0.5
     yield from hands.open_sidebar()
-    hands.suzanne(1)
+    yield from hands.parted_suzanne(1, samples=300)
     with hands.context():
-        bpy.ops.wcd.decompose(samples=300)
         bpy.ops.wcd.build_hulls(pieces="PARTS")
         bpy.ops.wcd.show_sight(face=0, samples=300)
     for mode, wanted in _WORKS.items():

@@ -93,7 +93,7 @@ def steps(hands):
     yield lambda: sight_overlay.current is None
     assert leftovers() == []
     yield 0.5
-    assert is_plain(hands, "hidden", plain)
+    assert drawn(hands.pixels("hidden")) == plain
 
     # Enter keeps the picture and listens no more; the button takes it away.
     yield from click_button(hands, "wcd.show_sight")
