@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
+
+Real = TypeVar("Real", np.float32, np.float64)
+
+
+def unit(vectors: NDArray[Real]) -> NDArray[Real]:
+    """Return vectors (N, 3) with length 1, those without direction as they are."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, lengths, out=vectors.copy(), where=lengths > 0)
 
 
 def frames(

@@ -39,6 +39,8 @@ class Form:
         Node of each polygon of the mesh, or point of the cloud.
     grain : float
         Size of the splats among `targets`, 0 for a mesh.
+    tilt : float
+        Sine of the angle by which normals of `targets` may be off.
     notes : tuple of str
         Sentences to the user about what was changed for the computation.
     normals : (F, 3) float or None
@@ -51,6 +53,7 @@ class Form:
     surface: Callable[[], Surface]
     nodes: NDArray[np.int64]
     grain: float = 0.0
+    tilt: float = 0.0
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
     plane: NDArray[np.float64] | None = None
@@ -110,10 +113,10 @@ def form_of(shape: Shape) -> Steps[Form]:
 
 def _form_of_cloud(cloud: PointCloud) -> Steps[Form]:
     """Return the form of a cloud: its splats, of not more points than needed."""
-    points, normals = cloud.points, cloud.normals
+    points, normals, tilt = cloud.points, cloud.normals, 0.0
     notes: tuple[str, ...] = ()
     if normals is None:
-        normals = yield from within(estimate_normals(points), 0.0, 0.6)
+        normals, tilt = yield from within(estimate_normals(points), 0.0, 0.6)
         notes = ("The points have no normals; they were estimated.",)
     elif face_inwards(points, normals):
         normals = -normals
@@ -135,6 +138,7 @@ def _form_of_cloud(cloud: PointCloud) -> Steps[Form]:
         lambda: surface_of_points(points, normals, areas),
         nodes,
         float(np.sqrt(areas.mean())),
+        tilt,
         notes,
         found,
     )

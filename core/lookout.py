@@ -143,7 +143,7 @@ def look_out(
     rng = np.random.default_rng(parameters.seed)
     samples = sample_surface(form.targets, parameters.samples, rng)
     yield Progress("Ray tree", 0.5)
-    scene = Scene(form.targets, make_caster(form.targets), form.grain)
+    scene = Scene(form.targets, make_caster(form.targets), form.grain, form.tilt)
     yield Progress("Lines of sight", 0.9)
     views = viewpoints(scene, samples)
     return Lookout(

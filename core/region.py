@@ -68,7 +68,7 @@ def measure_region(
         np.random.default_rng(parameters.seed),
     )
     samples = replace(samples, triangles=rows[samples.triangles])
-    scene = Scene(targets, make_caster(targets), form.grain)
+    scene = Scene(targets, make_caster(targets), form.grain, form.tilt)
     yield Progress("Lines of sight", 0.15)
     views = viewpoints(scene, samples)
     los = yield from within(see_all_pairs(scene, samples, views), 0.2, 1.0)

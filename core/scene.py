@@ -72,10 +72,16 @@ class Scene:
         Finds triangles of `mesh`.
     grain : float, optional
         Size of the splats that `mesh` consists of, 0 for a surface proper.
+    tilt : float, optional
+        Sine of the angle by which normals of `mesh` may be off.
     """
 
     def __init__(
-        self, mesh: TriangleMesh, caster: RayCaster, grain: float = 0.0
+        self,
+        mesh: TriangleMesh,
+        caster: RayCaster,
+        grain: float = 0.0,
+        tilt: float = 0.0,
     ) -> None:
         self.normals = mesh.normals
         shells = find_shells(mesh)
@@ -84,6 +90,7 @@ class Scene:
         self.diagonal = mesh.diagonal
         self.caster = caster
         self.grain = grain
+        self.tilt = tilt
 
     def march(
         self,

@@ -78,6 +78,7 @@ def _shells_around(
 
 
 def faces_inside(
+    scene: Scene,
     samples: Samples,
     views: Viewpoints,
     first: NDArray[np.int64],
@@ -86,13 +87,17 @@ def faces_inside(
     """Return whether segments leave `first` and reach `second` from the inside.
 
     A necessary condition that costs no ray: each end lies below the tangent plane of
-    the other, unless another shell encloses that end.
+    the other, or above it by no more than normals may be off, unless another shell
+    encloses that end.
     """
 
     def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
         towards = views.positions[others] - samples.positions[ends]
         heights = np.einsum("md,md->m", towards, samples.normals[ends])
-        under: NDArray[np.bool_] = (heights < 0) | views.enclosed[ends]
+        allowed = 0.0
+        if scene.tilt:
+            allowed = scene.tilt * np.linalg.norm(towards, axis=1)
+        under: NDArray[np.bool_] = (heights < allowed) | views.enclosed[ends]
         return under
 
     return below(first, second) & below(second, first)
@@ -121,7 +126,9 @@ def see_pairs(
     visible : (M,) bool
     """
     visible = first == second
-    candidates = np.flatnonzero(~visible & faces_inside(samples, views, first, second))
+    candidates = np.flatnonzero(
+        ~visible & faces_inside(scene, samples, views, first, second)
+    )
     for start in range(0, len(candidates), RAYS_PER_STEP):
         yield Progress("Lines of sight", start / len(candidates))
         chunk = candidates[start : start + RAYS_PER_STEP]

@@ -140,7 +140,7 @@ def look(
     yield Progress("Ray tree", 0.01)
     caster = make_caster(form.targets)
     yield Progress("Ray tree", 0.015)
-    scene = Scene(form.targets, caster, form.grain)
+    scene = Scene(form.targets, caster, form.grain, form.tilt)
     yield Progress("Ray tree", 0.018)
     views = viewpoints(scene, samples)
     if parameters.sight == "ALL_PAIRS":

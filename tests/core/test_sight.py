@@ -192,11 +192,26 @@ def test_pairs_of_one_sample_see_themselves_and_repeated_pairs_agree():
 
 
 def test_ends_of_a_segment_are_alike():
-    _, samples, views = look_at(shapes.l_prism(), 200)
+    scene, samples, views = look_at(shapes.l_prism(), 200)
     first, second = np.random.default_rng(0).integers(200, size=(2, 2000))
-    there = faces_inside(samples, views, first, second)
-    assert (there == faces_inside(samples, views, second, first)).all()
+    there = faces_inside(scene, samples, views, first, second)
+    assert (there == faces_inside(scene, samples, views, second, first)).all()
     assert 0.1 < there.mean() < 0.9
+
+
+def test_normals_that_may_be_off_face_more_of_the_others():
+    scene, samples, views = look_at(shapes.sphere(2), 100)
+    first, second = np.triu_indices(100, 1)
+    exact = faces_inside(scene, samples, views, first, second)
+    scene.tilt = 0.2
+    tolerant = faces_inside(scene, samples, views, first, second)
+    assert tolerant[exact].all()
+    segments = samples.positions[second] - samples.positions[first]
+    segments /= np.linalg.norm(segments, axis=1, keepdims=True)
+    rises = (segments * samples.normals[first]).sum(axis=1)
+    falls = (segments * samples.normals[second]).sum(axis=1)
+    assert tolerant[(rises < 0.19) & (falls > -0.19)].all()
+    assert not tolerant[(rises > 0.3) | (falls < -0.3)].any()
 
 
 def test_sight_reports_its_progress():
