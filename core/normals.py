@@ -14,12 +14,13 @@ from .winding import outward_directions
 # Nearest points that a jet is fitted to: more average noise, fewer see thin limbs, of
 # which a cloud of few points has not many.
 _FEWEST, _MOST, _MOST_OF_ALL = 10, 54, 0.02
-_FOR_NOISE = 160.0
+_FOR_NOISE = 100.0
 # How wide points are for the whole shape, in their distances.
 _LEAST_BLUR, _MOST_BLUR = 0.35, 1.2
 _BLUR_OF_NOISE = 2.25
-# Sine of the angle by which normals of jets may be off.
-_TILT_OF_NOISE = 0.5
+# Sine of the angle above which lines of sight along a board come in spite of noise;
+# more of it takes creases for flat.
+_TILT_OF_NOISE = 0.15
 _UPWARDS = np.array([0.0, 0.0, 1.0])
 # A flux through the surface below this share of the greatest one is an inward one, and
 # what is added to that share for each share of the surface that is missing.
@@ -59,10 +60,8 @@ def estimate_normals(
         few, outward, nearest = points, outward[nearest], np.arange(len(points))
     most = max(min(_MOST, int(_MOST_OF_ALL * len(few))), _FEWEST)
     n_neighbors = int(np.clip(_FOR_NOISE * noise, _FEWEST, most))
-    normals = outward
-    for done in (0.7, 0.85):  # the first ones tell whose points are of another side
-        jets = jet_normals(few, normals, n_neighbors)
-        normals = yield from within(jets, done, done + 0.15)
+    jets = jet_normals(few, outward, n_neighbors)
+    normals = yield from within(jets, 0.7, 1.0)
     return normals[nearest], _TILT_OF_NOISE * noise
 
 
