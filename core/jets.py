@@ -82,13 +82,13 @@ def _jets(
     """
     tangents, bitangents = frames(normals)
     axes = np.stack([tangents, bitangents, normals], axis=2)
-    across, up, heights = np.moveaxis(offsets @ axes, 2, 0)
-    widths = np.sqrt((across**2 + up**2).mean(axis=1, keepdims=True))
+    across, along, heights = np.moveaxis(offsets @ axes, 2, 0)
+    widths = np.sqrt((across**2 + along**2).mean(axis=1, keepdims=True))
     widths = np.maximum(widths, np.finfo(float).tiny)
-    across, up, heights = across / widths, up / widths, heights / widths
-    weights = np.exp(-(across**2 + up**2) / 2) * np.clip(cosines, _LEAST_WEIGHT, 1.0)
+    across, along, heights = across / widths, along / widths, heights / widths
+    weights = np.exp(-(across**2 + along**2) / 2) * np.clip(cosines, _LEAST_WEIGHT, 1.0)
     ones = np.ones_like(across)
-    terms = np.stack([ones, across, up, across**2, across * up, up**2], axis=1)
+    terms = np.stack([ones, across, along, across**2, across * along, along**2], axis=1)
     weighted = weights[:, None] * terms
     squares = weighted @ terms.transpose(0, 2, 1)
     stiff = _STIFFNESS * np.diag([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])

@@ -18,10 +18,9 @@ _FOR_NOISE = 100.0
 # How wide points are for the whole shape, in their distances.
 _LEAST_BLUR, _MOST_BLUR = 0.35, 1.2
 _BLUR_OF_NOISE = 2.25
-# Sine of the angle above which lines of sight along a board come in spite of noise;
-# more of it takes creases for flat.
+# Sine of the angle that is allowed for, where lines of sight graze a noisy board; more
+# of it takes creases for flat.
 _TILT_OF_NOISE = 0.15
-_UPWARDS = np.array([0.0, 0.0, 1.0])
 # A flux through the surface below this share of the greatest one is an inward one, and
 # what is added to that share for each share of the surface that is missing.
 _CLEARLY_INWARDS = 0.05
@@ -50,7 +49,7 @@ def estimate_normals(
         Sine of the angle by which they may be off.
     """
     # Which way points face does not matter to how densely they lie.
-    kept, _, _ = thinned_splats(points, np.broadcast_to(_UPWARDS, points.shape))
+    kept, _, _ = thinned_splats(points, np.broadcast_to(np.eye(3)[2], points.shape))
     few = points[kept]
     noise = noise_of(few)
     blur = float(np.clip(_BLUR_OF_NOISE * noise, _LEAST_BLUR, _MOST_BLUR))

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from .axes import unit
 from .shapes import TriangleMesh
 
 # Thickness, in diagonals, and number of the layers that shells are set apart by.
@@ -87,11 +88,9 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
     normals = np.stack(
         [np.bincount(corners, v, len(mesh.vertices)) for v in vectors.T], axis=1
     )
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     depths = np.zeros(len(mesh.vertices))
     depths[corners] = _LAYER * mesh.diagonal * steps.repeat(3)
-    return replace(mesh, vertices=mesh.vertices - depths[:, None] * normals)
+    return replace(mesh, vertices=mesh.vertices - depths[:, None] * unit(normals))
 
 
 def _wound_copies(

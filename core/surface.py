@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from .axes import unit
 from .shapes import TriangleMesh
 
 
@@ -159,9 +160,8 @@ def surface_of(mesh: TriangleMesh) -> Surface:
     first = np.zeros(n_polygons, dtype=np.int64)
     first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
     centers = np.where(areas[:, None] > 0, centers / safe, mesh.vertices[first])
-    normals = _sum_by(mesh.polygons, mesh.areas[:, None] * mesh.normals, n_polygons)
-    norms = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.divide(normals, norms, out=np.zeros_like(normals), where=norms > 0)
+    sums = _sum_by(mesh.polygons, mesh.areas[:, None] * mesh.normals, n_polygons)
+    normals = unit(sums)
     neighbors, ends = _shared_edges(mesh)
     lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
     bends = _bends(centers, normals, neighbors)

@@ -122,12 +122,12 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
         yield progress
         effect = _all(some.numbers(change) for some in rows)
         # The step in this direction that leaves the least missing, in squares.
-        steeper = vectors + np.float32((change**2).sum() / (effect @ effect)) * change
+        fitted = vectors + np.float32((change**2).sum() / (effect @ effect)) * change
         falls = []
         for some in rows:
             yield progress
-            falls.append(some.falls(steeper))
-        lengths = np.linalg.norm(steeper, axis=1, keepdims=True)
+            falls.append(some.falls(fitted))
+        lengths = np.linalg.norm(fitted, axis=1, keepdims=True)
         vectors = lengths * unit(np.concatenate(falls))
     return vectors
 
