@@ -57,13 +57,13 @@ zip: venv ## Build the installable zips into build/
 	@$(PYTHON_HERE) .tools/extension.py build --output build
 
 bench: psb venv ## Measure quality: make bench PSB=directory of the Princeton benchmark
-	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/rand_index.py "$(PSB)" $(BENCH)
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/rand_index.py "$(PSB)" $(BENCH)
 
 bench-coacd: psb venv ## Segment the benchmark with CoACD: PSB=directory SEGMENTS=folder
 	@[ -n "$(SEGMENTS)" ] || { echo "Name the folder to write to: SEGMENTS=folder"; exit 1; }
 	@$(VENV)/bin/python -m venv .venv-coacd
 	@.venv-coacd/bin/pip install -qq --disable-pip-version-check coacd==1.0.14 numpy scipy
-	@PYTHONPATH=tests PYTHONDONTWRITEBYTECODE=1 .venv-coacd/bin/python \
+	@PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 .venv-coacd/bin/python \
 	  tests/benchmarks/coacd_segments.py "$(PSB)" "$(SEGMENTS)"
 
 bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
@@ -71,24 +71,24 @@ bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
 	@$(VENV)/bin/python -m venv .venv-hulls
 	@.venv-hulls/bin/pip install -qq --disable-pip-version-check \
 	  coacd==1.0.14 vhacdx trimesh embreex numpy scipy
-	@PYTHONPATH=tests PYTHONDONTWRITEBYTECODE=1 .venv-hulls/bin/python \
+	@PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 .venv-hulls/bin/python \
 	  tests/benchmarks/hulls.py "$(MESHES)" build/bench_hulls "$(VENV)/bin/python"
 
 bench-physics: development ## Drop models as compounds of hulls, balls on them: FILES="chair.off elk.off"
 	@[ -n "$(FILES)" ] || { echo "Name the files of models: FILES=\"chair.off elk.off\""; exit 1; }
-	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/physics.py $(FILES)
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/physics.py $(FILES)
 
 bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=directory
-	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)
 
 bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=directory
-	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
-	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/speed.py
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed.py
 
 contact-sheet: psb venv ## Draw the benchmark's models in build/contact_sheet/: PSB=directory
-	@PYTHONPATH=tests $(PYTHON_HERE) tests/benchmarks/contact_sheet.py "$(PSB)" \
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/contact_sheet.py "$(PSB)" \
 	  build/contact_sheet $(BENCH)
 
 clean: ## Remove everything that these commands made

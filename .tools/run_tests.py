@@ -19,7 +19,7 @@ def main() -> int:
     groups = [[str(TESTS)]]
     if version("bpy").startswith("4.2"):
         groups = [[str(TESTS), f"--ignore={RING}"]]
-        groups += [[str(path)] for path in sorted(RING.glob("test_*.py"))]
+        groups += [[str(path)] for path in sorted(RING.rglob("test_*.py"))]
     failed = []
     for group in groups:
         command = [sys.executable, "-m", "pytest", *group, *sys.argv[1:]]

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .form import Shape
-from .levels import split_again
-from .parameters import Parameters
-from .parts import Decomposition, find_parts
-from .progress import Steps, within
-from .scene import MakeCaster
-from .visibility import Visibility, look, see
+from .parameters.parts import Parameters
+from .parts.find import Decomposition, find_parts
+from .parts.levels import split_again
+from .sight.prepared import Shape
+from .sight.ray_march import MakeCaster
+from .sight.visibility import Visibility, look, see
+from .steps.progress import Steps, within
 
 
 @dataclass(frozen=True)

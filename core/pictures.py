@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from .parameters import Parameters
-from .visibility import Visibility
+from .parameters.parts import Parameters
+from .sight.visibility import Visibility
 
 Pixels: TypeAlias = NDArray[np.float64]
 

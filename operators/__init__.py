@@ -2,21 +2,16 @@
 
 import bpy
 
-from . import (
-    command_line,
-    edit_parts,
-    modal,
-    recut,
-    show_parts,
-    show_sight,
-    use_parts,
-)
-from .bridge import rows, visibility_cache
-from .build_hulls import WCD_OT_build_hulls
+from . import edit_parts, recut, show_parts, show_sight, use_parts
+from .bridge.parts import rows
+from .bridge.work import sight_cache as visibility_cache
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
+from .headless import command_line
+from .hulls import WCD_OT_build_hulls
 from .measure import WCD_OT_measure, WCD_OT_measure_selection
 from .rigid_bodies import WCD_OT_make_rigid
+from .running import modal
 from .show_picture import WCD_OT_show_picture
 from .use_preset import WCD_OT_use_preset
 

@@ -6,13 +6,13 @@ from typing import ClassVar
 
 import bpy
 
-from .bridge.erase import clear
-from .bridge.exploding import implode
-from .bridge.hulls import erase_hulls
-from .bridge.images import erase_images
-from .bridge.record import has_record
-from .bridge.target import refusal
-from .on_objects import OnEach
+from .bridge.hulls.hull_objects import erase_hulls
+from .bridge.parts.erase import clear
+from .bridge.parts.exploding import implode
+from .bridge.parts.images import erase_images
+from .bridge.read.target import refusal
+from .bridge.stored.record import has_record
+from .running.on_objects import OnEach
 
 
 class WCD_OT_clear(OnEach, bpy.types.Operator):

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 
-from ..core.progress import Steps
-from ..ui.properties import ADVANCED, FRONT, annotations, draw, parameters_from
-from .bridge.computing import summary
-from .bridge.converting import carrier_of
-from .bridge.locking import decompose_unlocked
-from .bridge.target import decompose_refusal
-from .computation import Computation
+from ..core.steps.progress import Steps
+from .bridge.read.converting import carrier_of
+from .bridge.read.target import decompose_refusal
+from .bridge.work.computing import summary
+from .bridge.work.locking import decompose_unlocked
+from .running.computation import Computation
+from .settings import ADVANCED, FRONT, annotations, draw, parameters_from
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from .bridge.editing import Edited
+    from .bridge.work.editing import Edited
 
 
 class WCD_OT_decompose(Computation, bpy.types.Operator):

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import bpy
 
 from ..core.errors import DecompositionError
-from ..core.progress import Steps
-from ..ui.properties import annotations
-from .bridge import edits
-from .bridge.editing import edit_object
-from .bridge.points import is_cloud
-from .bridge.present_parts import edit_refusal
-from .bridge.read import selected_faces
-from .bridge.rows import active_part, chosen_parts
-from .replacement import Replacement
+from ..core.steps.progress import Steps
+from .bridge.mesh.points import is_cloud
+from .bridge.parts.present_parts import edit_refusal
+from .bridge.parts.rows import active_part, chosen_parts
+from .bridge.read.shape import selected_faces
+from .bridge.work import edits
+from .bridge.work.editing import edit_object
+from .running.replacement import Replacement
+from .settings import annotations
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from .bridge.editing import Edited
+    from .bridge.work.editing import Edited
 
 SCOPE = bpy.props.EnumProperty(
     name="Seams Of",

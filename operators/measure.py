@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import bpy
 
 from ..core.errors import DecompositionError
-from ..core.parameters import Parameters
-from ..core.progress import Steps
-from ..ui.properties import MEASURE, SELECTION, annotations, draw, parameters_from
-from .bridge.computing import measure_object, measure_selection_of
-from .bridge.read import selected_faces
-from .bridge.record import write_measurement
-from .bridge.target import refusal
-from .computation import Computation
+from ..core.parameters.parts import Parameters
+from ..core.steps.progress import Steps
+from .bridge.read.shape import selected_faces
+from .bridge.read.target import refusal
+from .bridge.stored.record import write_measurement
+from .bridge.work.computing import measure_object, measure_selection_of
+from .running.computation import Computation
+from .settings import MEASURE, SELECTION, annotations, draw, parameters_from
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ..core.decomposition import Measurement

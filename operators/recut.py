@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, ClassVar
 import bpy
 
 from ..core.errors import DecompositionError
-from ..core.job import Job
-from ..core.parameters import Parameters
-from ..core.progress import Steps
-from ..ui.properties import annotations, parameters_from
-from . import modal
-from .bridge.computing import is_quick
-from .bridge.locking import decompose_unlocked
-from .bridge.record import noted_parameters
-from .bridge.target import refusal
-from .replacement import Replacement
+from ..core.parameters.parts import Parameters
+from ..core.steps.job import Job
+from ..core.steps.progress import Steps
+from .bridge.read.target import refusal
+from .bridge.stored.record import noted_parameters
+from .bridge.work.computing import is_quick
+from .bridge.work.locking import decompose_unlocked
+from .running import modal
+from .running.replacement import Replacement
+from .settings import annotations, parameters_from
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from .bridge.editing import Edited
+    from .bridge.work.editing import Edited
 
 # Seconds that a slider may wait for parts; what takes longer goes on modally.
 _MOMENT = 0.3

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 import bpy
 
-from .bridge.hulls import hull_refusal, hulls_of
-from .bridge.rigid_bodies import make_rigid
-from .on_objects import OnEach
+from .bridge.hulls.hull_objects import hull_refusal, hulls_of
+from .bridge.hulls.rigid_bodies import make_rigid
+from .running.on_objects import OnEach
 
 
 class WCD_OT_make_rigid(OnEach, bpy.types.Operator):

@@ -7,19 +7,19 @@ from typing import Any, ClassVar
 import bpy
 import numpy as np
 
-from .bridge.points import is_cloud
-from .bridge.present_parts import edit_refusal, present_parts
-from .bridge.rows import chosen_parts
-from .bridge.selection import (
+from .bridge.mesh.points import is_cloud
+from .bridge.mesh.selection import (
     boundary_edges,
     hide_faces,
     mark_seams,
     select_edges,
     select_faces,
 )
-from .bridge.viewing import frame_points, points_of_parts
+from .bridge.mesh.viewing import frame_points, points_of_parts
+from .bridge.parts.present_parts import edit_refusal, present_parts
+from .bridge.parts.rows import chosen_parts
 from .edit_parts import SCOPE, in_scope
-from .on_objects import OnActive, OnEach
+from .running.on_objects import OnActive, OnEach
 
 _EXTEND = bpy.props.BoolProperty(
     name="Extend", description="Keep what is selected already", default=False

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 
-from ..core.knobs import Choice
-from ..core.picture_kinds import PICTURES
-from ..core.progress import Steps
-from .bridge.computing import picture_of
-from .bridge.images import write_image
-from .bridge.parted import decomposed_refusal
-from .computation import Computation
+from ..core.parameters.parameter import Choice
+from ..core.parameters.pictures import PICTURES
+from ..core.steps.progress import Steps
+from .bridge.parts.images import write_image
+from .bridge.parts.parted import decomposed_refusal
+from .bridge.work.computing import picture_of
+from .running.computation import Computation
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ..core.pictures import Picture

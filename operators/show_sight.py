@@ -10,20 +10,20 @@ from bpy_extras import view3d_utils
 from mathutils import Vector
 
 from ..core.errors import DecompositionError
-from ..core.progress import Steps
-from ..ui import sight_overlay
-from ..ui.properties import SELECTION, annotations, parameters_from
-from ..ui.sight_overlay import Overlay
-from . import modal
-from .bridge.computing import look_out_of
-from .bridge.points import vertices_now
-from .bridge.read import stretch
-from .bridge.target import refusal
-from .computation import Computation
-from .on_objects import OnActive
+from ..core.steps.progress import Steps
+from . import sight_overlay
+from .bridge.mesh.points import vertices_now
+from .bridge.read.shape import stretch
+from .bridge.read.target import refusal
+from .bridge.work.computing import point_viewer_of
+from .running import modal
+from .running.computation import Computation
+from .running.on_objects import OnActive
+from .settings import SELECTION, annotations, parameters_from
+from .sight_overlay import Overlay
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.lookout import Lookout
+    from ..core.sight.point_view import PointViewer
 
 _HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hide"
 
@@ -39,7 +39,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = set()
 
-    _lookout: Lookout | None = None
+    _lookout: PointViewer | None = None
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
@@ -78,11 +78,11 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Lookout]:
+    ) -> Steps[PointViewer]:
         parameters = parameters_from(self, SELECTION)
-        return look_out_of(obj, parameters)
+        return point_viewer_of(obj, parameters)
 
-    def _commit(self, obj: bpy.types.Object, value: Lookout) -> str:
+    def _commit(self, obj: bpy.types.Object, value: PointViewer) -> str:
         ray = None if self.face < 0 else _above_face(obj, self.face)
         self._lookout = value
         self._overlay = Overlay(

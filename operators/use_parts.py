@@ -7,12 +7,12 @@ from typing import ClassVar
 
 import bpy
 
-from ..ui.explode_slider import exploding
-from .bridge.exploding import explode, implode
-from .bridge.parted import object_mode_refusal, parts_refusal
-from .bridge.separating import replace, separate
-from .bridge.showing import write_colors, write_face_sets
-from .on_objects import OnEach
+from .bridge.parts.explode_slider import exploding
+from .bridge.parts.exploding import explode, implode
+from .bridge.parts.parted import object_mode_refusal, parts_refusal
+from .bridge.parts.separating import replace, separate
+from .bridge.parts.showing import write_colors, write_face_sets
+from .running.on_objects import OnEach
 
 
 class _OnParts(OnEach):

@@ -6,8 +6,8 @@ from typing import ClassVar
 
 import bpy
 
-from ..core.presets import PRESETS, preset
-from ..ui.properties import use_preset
+from ..core.parameters.presets import PRESETS, preset
+from .settings import use_preset
 
 
 class WCD_OT_use_preset(bpy.types.Operator):

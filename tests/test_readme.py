@@ -10,16 +10,16 @@ from dataclasses import fields
 
 import pytest
 from conftest import PACKAGE, ROOT
-from weak_convex_decomposition.core.hull_parameters import HullParameters
-from weak_convex_decomposition.core.knobs import knob_of
-from weak_convex_decomposition.core.parameters import Parameters
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
+from weak_convex_decomposition.core.parameters.parameter import info_of
+from weak_convex_decomposition.core.parameters.parts import Parameters
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PARAMETERS = (*fields(Parameters), *fields(HullParameters))
 FILES_TOLD_OF = sorted(
     file.relative_to(ROOT).as_posix()
     for folder in ("core", "ui")
-    for file in (ROOT / folder).glob("*.py")
+    for file in (ROOT / folder).rglob("*.py")
     if file.name != "__init__.py"
 )
 
@@ -41,27 +41,27 @@ def rows_of_parameters():
     return rows
 
 
-def number(knob, value):
+def number(info, value):
     """Return a value as the table has it: degrees for angles."""
-    return f"{math.degrees(value):g}°" if knob.subtype == "ANGLE" else f"{value:.10g}"
+    return f"{math.degrees(value):g}°" if info.subtype == "ANGLE" else f"{value:.10g}"
 
 
 def row(field):
     """Return the row of a parameter."""
-    knob, about = knob_of(field), ""
-    if knob.choices:
+    info, about = info_of(field), ""
+    if info.choices:
         default = f"`{field.default}`"
-        bounds = " or ".join(f"`{choice.identifier}`" for choice in knob.choices)
+        bounds = " or ".join(f"`{choice.identifier}`" for choice in info.choices)
         about = "".join(
-            f"; `{c.identifier}`: {c.help[0].lower()}{c.help[1:]}" for c in knob.choices
+            f"; `{c.identifier}`: {c.help[0].lower()}{c.help[1:]}" for c in info.choices
         )
     elif isinstance(field.default, str):
         default, bounds = f"`{field.default}`", "text"
     else:
-        default = number(knob, field.default)
-        bounds = f"{number(knob, knob.low)}…{number(knob, knob.high)}"
+        default = number(info, field.default)
+        bounds = f"{number(info, info.low)}…{number(info, info.high)}"
     return (
-        f"| `{field.name}` | {knob.label} | {default} | {bounds} | {knob.help}{about} |"
+        f"| `{field.name}` | {info.label} | {default} | {bounds} | {info.help}{about} |"
     )
 
 

@@ -2,13 +2,13 @@
 
 import bpy
 
+from ..operators.settings import WCD_PG_settings
 from . import menus
 from .chart import WCD_PT_chart
 from .hulls_panel import WCD_PT_hulls
 from .menus import WCD_MT_parts
 from .panels import WCD_PT_advanced, WCD_PT_main, WCD_PT_parts
 from .parts_table import WCD_PT_edit, WCD_UL_parts
-from .properties import WCD_PG_settings
 from .use_panel import WCD_PT_use, WCD_PT_why
 
 CLASSES = (

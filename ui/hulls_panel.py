@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..operators.settings import HULLS, draw, hand_over
 from .panels import line
-from .properties import HULLS, draw, hand_over
 from .sidebar import Sidebar, draw_choices, result_of
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from .properties import ALL, HULLS, MEASURE, SELECTION, hand_over
+from ..operators.settings import ALL, HULLS, MEASURE, SELECTION, hand_over
 from .sidebar import draw_choices
 
 # Operators in the order of the menu, with the settings they take from the scene, or the

@@ -7,10 +7,10 @@ from typing import Any, ClassVar
 
 import bpy
 
-from . import running
+from ..operators.running import current as running
+from ..operators.running.current import Running
+from ..operators.settings import ADVANCED, ALL, FRONT, MEASURE, draw, hand_over
 from .parts_table import draw_table
-from .properties import ADVANCED, ALL, FRONT, MEASURE, draw, hand_over
-from .running import Running
 from .sidebar import Sidebar, result_of, width_of
 
 # Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ..core.record import parse_record
+from ..operators.bridge.stored.record_text import parse_record
 
 
 class Sidebar:

@@ -6,10 +6,10 @@ from typing import ClassVar
 
 import bpy
 
-from . import sight_overlay
-from .explode_slider import exploding, slider
+from ..operators import sight_overlay
+from ..operators.bridge.parts.explode_slider import exploding, slider
+from ..operators.settings import SELECTION, hand_over
 from .panels import line
-from .properties import SELECTION, hand_over
 from .sidebar import Sidebar, draw_choices, result_of
 
 

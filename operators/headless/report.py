@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ...core.errors import DecompositionError
-from ...core.parameters import Parameters
-from ..bridge.notes import version
-from .exporting import replacing
-from .parts import ObjectResult
+from ...core.parameters.parts import Parameters
+from ..bridge.stored.notes import version
+from .decompose_file import ObjectResult
+from .write.models import replacing
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import TextIO
 
-from ...core.progress import Progress
+from ...core.steps.progress import Progress
 
 _TERMINAL_SECONDS = 0.1
 _LOG_SECONDS = 2.0

@@ -20,13 +20,14 @@ from unittest import mock
 import numpy as np
 from over_models import add_jobs, measured, parse, parser
 from princeton import category, mean_error, median_count, read_humans, read_model
-from weak_convex_decomposition.core import part_count, partition, visibility
+from weak_convex_decomposition.core.clusters.embedding import embed
 from weak_convex_decomposition.core.decomposition import decompose_seen
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.presets import preset
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.spectral import embed
-from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parameters.presets import preset
+from weak_convex_decomposition.core.parts import part_count, partition
+from weak_convex_decomposition.core.sight import visibility
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
 
 def of_equal_length(embedding: np.ndarray) -> np.ndarray:

@@ -17,14 +17,14 @@ from itertools import groupby
 import numpy as np
 from over_models import add_jobs, measured, parse, parser
 from princeton import mean_error, read_humans, read_model
-from weak_convex_decomposition.core.clouds import PointCloud
 from weak_convex_decomposition.core.decomposition import decompose
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.sampling import Samples, sample_surface
-from weak_convex_decomposition.core.scene import MakeCaster
-from weak_convex_decomposition.core.shapes import TriangleMesh
-from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+from weak_convex_decomposition.core.geometry.sampling import Samples, sample_surface
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.sight.ray_march import MakeCaster
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
 _POINTS = 5000
 # Noise in diagonals, share that is cut away, whether normals are given.

@@ -22,13 +22,13 @@ from hand_made import decomposition_of
 from over_models import parse, parser
 from princeton import mean_error, overlaps, read_humans
 from scipy.optimize import linear_sum_assignment
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.operators.bridge.computing import decompose_object
-from weak_convex_decomposition.operators.bridge.write import write_parts
-from weak_convex_decomposition.operators.headless.importing import load
-from weak_convex_decomposition.operators.headless.picture import save_picture
-from weak_convex_decomposition.operators.headless.render_engine import (
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.parts.write import write_parts
+from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
+from weak_convex_decomposition.operators.headless.read.models import load
+from weak_convex_decomposition.operators.headless.write.picture import save_picture
+from weak_convex_decomposition.operators.headless.write.render_engine import (
     EngineTrial,
     RenderEngine,
 )

@@ -3,7 +3,7 @@
 import numpy as np
 from embreex.mesh_construction import TriangleMesh as Triangles
 from embreex.rtcore_scene import EmbreeScene
-from weak_convex_decomposition.core.shapes import TriangleMesh
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 
 
 class EmbreeCaster:

@@ -35,12 +35,12 @@ def vhacd(vertices, triangles, _):
 
 def ours(vertices, triangles, n_hulls):
     import conftest  # noqa: F401  # the checkout as a package
+    from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 
     # Where SciPy is loaded does not count for any tool.
-    from weak_convex_decomposition.core.hull_decomposition import build_hulls
-    from weak_convex_decomposition.core.hull_parameters import HullParameters
-    from weak_convex_decomposition.core.progress import run
-    from weak_convex_decomposition.core.shapes import TriangleMesh
+    from weak_convex_decomposition.core.hulls.build import build_hulls
+    from weak_convex_decomposition.core.parameters.hulls import HullParameters
+    from weak_convex_decomposition.core.steps.progress import run
 
     mesh = TriangleMesh(vertices, triangles, np.arange(len(triangles)))
     parameters = HullParameters(

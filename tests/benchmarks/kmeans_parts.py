@@ -5,11 +5,11 @@ from unittest import mock
 
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
-from weak_convex_decomposition.core import clustering
-from weak_convex_decomposition.core.memory import Memory
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.partition import Partitioner
-from weak_convex_decomposition.core.visibility import Visibility
+from weak_convex_decomposition.core.clusters import kmeans as clustering
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts.partition import Partitioner
+from weak_convex_decomposition.core.sight.visibility import Visibility
+from weak_convex_decomposition.core.steps.memo import Memo
 
 # Runs of k-means, of which the best counts.
 STARTS = 20
@@ -30,7 +30,7 @@ def connected_clusters(
     visibility: Visibility, n_parts: int, parameters: Parameters
 ) -> np.ndarray:
     """Return as many connected parts of clusters as ours are, and no specks."""
-    afresh = replace(visibility, memory=Memory())
+    afresh = replace(visibility, memory=Memo())
     plain = Partitioner(afresh, replace(parameters, refinement="EMBEDDING"))
     with mock.patch.object(clustering, "_STARTS", STARTS):
         return plain.partition(n_parts)

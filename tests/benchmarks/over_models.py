@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import checkout  # noqa: F401  # makes the package importable
 from princeton import models
-from weak_convex_decomposition.core.presets import PRESETS, preset
+from weak_convex_decomposition.core.parameters.presets import PRESETS, preset
 
 Figures = TypeVar("Figures")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
-from weak_convex_decomposition.core.shapes import TriangleMesh
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 
 # fmt: off
 CATEGORIES = (

@@ -22,12 +22,12 @@ from princeton import mean_error, median_count, read_humans, read_model
 from score_table import Score, report
 from symmetry import find_mirror
 from weak_convex_decomposition.core.decomposition import decompose_seen
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.parts import Decomposition
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.shapes import TriangleMesh
-from weak_convex_decomposition.core.visibility import Visibility, look, see
-from weak_convex_decomposition.operators.bridge.ray_caster import BvhRayCaster
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts.find import Decomposition
+from weak_convex_decomposition.core.sight.visibility import Visibility, look, see
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
 
 def score(

@@ -21,12 +21,12 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 import weak_convex_decomposition as package
 from hand_made import subdivided_suzanne
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.operators.bridge.computing import decompose_object
-from weak_convex_decomposition.operators.bridge.read import read_shape
-from weak_convex_decomposition.operators.bridge.visibility_cache import forget
-from weak_convex_decomposition.operators.bridge.write import write_parts
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.parts.write import write_parts
+from weak_convex_decomposition.operators.bridge.read.shape import read_shape
+from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
+from weak_convex_decomposition.operators.bridge.work.sight_cache import forget
 
 PARAMETERS = Parameters()
 RECUTS = (

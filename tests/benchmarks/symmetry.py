@@ -10,9 +10,9 @@ import numpy as np
 from princeton import overlaps
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
-from weak_convex_decomposition.core.sampling import Samples, sample_surface
-from weak_convex_decomposition.core.shapes import TriangleMesh
-from weak_convex_decomposition.core.symmetry import (
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.geometry.sampling import Samples, sample_surface
+from weak_convex_decomposition.core.geometry.symmetry import (
     Plane,
     likely_normals,
     nearest_images,

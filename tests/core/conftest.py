@@ -7,9 +7,9 @@ import pytest
 from brute_caster import BruteCaster
 from scipy.optimize import linear_sum_assignment
 from weak_convex_decomposition.core.decomposition import decompose
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.visibility import see
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.sight.visibility import see
+from weak_convex_decomposition.core.steps.progress import run
 
 N_SAMPLES = 150
 

@@ -4,11 +4,11 @@ import shapes
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.parts import find_parts
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.shapes import TriangleMesh
-from weak_convex_decomposition.core.surface import surface_of
+from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts.find import find_parts
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def split_up(mesh, **values):
@@ -18,7 +18,7 @@ def split_up(mesh, **values):
 
 @pytest.mark.parametrize("make", [shapes.comb, shapes.plus, shapes.dumbbell])
 def test_the_figures_agree_with_each_other(decomposed, make):
-    found, surface = decomposed(make), surface_of(make())
+    found, surface = decomposed(make), face_graph(make())
     labels = found.labels
     assert labels.shape == (surface.n_polygons,)
     assert set(labels) == set(range(found.n_parts))

@@ -5,9 +5,9 @@ import pytest
 import shapes
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.decomposition import decompose
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.surface import surface_of
+from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def split_up(mesh, **values):
@@ -24,7 +24,7 @@ def same_partition(agreement, found, other, areas, polygons=None):
 @pytest.fixture(scope="module")
 def table():
     mesh = shapes.table()
-    return mesh, surface_of(mesh).areas
+    return mesh, face_graph(mesh).areas
 
 
 SAME = {"max_parts": 6}
@@ -97,7 +97,7 @@ def test_a_crate_of_twelve_triangles_is_a_crate_of_many_quads():
     )
     found = [split_up(mesh, parts=2) for mesh in (coarse, fine)]
     for mesh, decomposition in zip((coarse, fine), found, strict=True):
-        left = surface_of(mesh).centers[:, 0] < 2
+        left = face_graph(mesh).centers[:, 0] < 2
         assert len(set(decomposition.labels[left])) == 1
         assert len(set(decomposition.labels[~left])) == 1
     assert found[0].areas == pytest.approx(found[1].areas)

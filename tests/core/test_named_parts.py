@@ -3,9 +3,9 @@ import pytest
 import shapes
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.decomposition import decompose
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.progress import run
-from weak_convex_decomposition.core.surface import surface_of
+from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def split_up(mesh, **values):
@@ -15,7 +15,7 @@ def split_up(mesh, **values):
 
 def assert_names(agreement, decomposition, mesh, expected, at_least=0.9):
     """Check that parts agree with the labels that anyone would give the polygons."""
-    surface = surface_of(mesh)
+    surface = face_graph(mesh)
     numbers = expected(*surface.centers.T).astype(int)
     assert decomposition.n_parts == numbers.max() + 1
     assert agreement(decomposition.labels, numbers, surface.areas) >= at_least
@@ -60,7 +60,7 @@ def test_an_l_of_two_overlapping_boxes_has_two_arms(agreement):
 
 
 def test_a_plus_has_a_bar_and_two_arms_or_four_arms(decomposed):
-    found, surface = decomposed(shapes.plus), surface_of(shapes.plus())
+    found, surface = decomposed(shapes.plus), face_graph(shapes.plus())
     assert found.n_parts in (2, 3, 4, 5)
     x, y, _ = surface.centers.T
     tips = [x < 2, x > 6, y < 2, y > 6]
@@ -72,7 +72,7 @@ def test_a_plus_has_a_bar_and_two_arms_or_four_arms(decomposed):
 
 
 def test_a_dumbbell_has_two_weights(decomposed):
-    found, surface = decomposed(shapes.dumbbell), surface_of(shapes.dumbbell())
+    found, surface = decomposed(shapes.dumbbell), face_graph(shapes.dumbbell())
     assert found.n_parts in (2, 3)
     x = surface.centers[:, 0]
     left, right = found.labels[x < 2.9], found.labels[x > 6.1]
@@ -93,7 +93,7 @@ def test_a_table_has_a_top_and_four_legs(decomposed, agreement):
 
 
 def test_a_hand_has_a_palm_and_four_fingers(decomposed):
-    found, surface = decomposed(shapes.comb), surface_of(shapes.comb())
+    found, surface = decomposed(shapes.comb), face_graph(shapes.comb())
     assert found.n_parts in (4, 5)
     x, y, _ = surface.centers.T
     fingers = [
@@ -104,7 +104,7 @@ def test_a_hand_has_a_palm_and_four_fingers(decomposed):
 
 
 def test_a_u_has_its_legs_apart(decomposed):
-    found, surface = decomposed(shapes.u_shape), surface_of(shapes.u_shape())
+    found, surface = decomposed(shapes.u_shape), face_graph(shapes.u_shape())
     assert found.n_parts in (2, 3)
     x, y, _ = surface.centers.T
     left, right = found.labels[(x < 3) & (y > 3)], found.labels[(x > 5) & (y > 3)]

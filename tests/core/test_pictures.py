@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 from shapes import dumbbell
-from weak_convex_decomposition.core.parameters import Parameters
-from weak_convex_decomposition.core.parts import find_parts
-from weak_convex_decomposition.core.picture_kinds import PICTURES
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parameters.pictures import PICTURES
+from weak_convex_decomposition.core.parts.find import find_parts
 from weak_convex_decomposition.core.pictures import draw_picture
-from weak_convex_decomposition.core.progress import run
+from weak_convex_decomposition.core.steps.progress import run
 
 COLORS = np.array([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]])
 PARAMETERS = Parameters(samples=150, parts=3)

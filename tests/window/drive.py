@@ -17,7 +17,7 @@ from pathlib import Path
 import bpy
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]
+sys.path[:0] = [str(HERE), str(HERE.parent / "support")]
 
 import checkout  # noqa: E402, F401  # makes the package importable
 import weak_convex_decomposition as package  # noqa: E402

@@ -1,9 +1,11 @@
 """What the extension may leave behind in a window: none of it must stay."""
 
 import bpy
-from weak_convex_decomposition.operators import recut
-from weak_convex_decomposition.operators.bridge import visibility_cache
-from weak_convex_decomposition.ui import running, sight_overlay
+from weak_convex_decomposition.operators import recut, sight_overlay
+from weak_convex_decomposition.operators.bridge.work import (
+    sight_cache as visibility_cache,
+)
+from weak_convex_decomposition.operators.running import current as running
 
 
 def leftovers():

@@ -4,7 +4,10 @@ import bpy
 import numpy as np
 from leftovers import leftovers
 from snapshot import snapshot
-from weak_convex_decomposition.ui.explode_slider import exploding, slider
+from weak_convex_decomposition.operators.bridge.parts.explode_slider import (
+    exploding,
+    slider,
+)
 
 
 def extent():

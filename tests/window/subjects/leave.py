@@ -3,7 +3,8 @@
 import bpy
 import weak_convex_decomposition as package
 from leftovers import handlers, leftovers, remembered
-from weak_convex_decomposition.ui import running, sight_overlay
+from weak_convex_decomposition.operators import sight_overlay
+from weak_convex_decomposition.operators.running import current as running
 
 
 def steps(hands):

@@ -1,0 +1,1 @@
+"""What points have in place of faces: normals, splats, neighbors."""

@@ -1,0 +1,1 @@
+"""From lines of sight to clusters of samples: embedding, k-means, moves."""

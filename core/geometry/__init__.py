@@ -1,0 +1,1 @@
+"""What shapes are: meshes, points, samples, graphs of faces."""

@@ -1,0 +1,164 @@
+"""The shapes that can be decomposed: checked, read-only arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import DecompositionError
+
+# Faces of less area than this are a line or a point, in squared diagonals.
+_LEAST_AREA = 1e-9
+# Vertices this near, in diagonals, are one: what single precision leaves of equality.
+_SAME_PLACE = 1e-6
+# Places along each axis: more than in two diagonals.
+_CELLS = 2**21
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """A surface of triangles that belong to polygons.
+
+    Nothing asks for a closed, manifold or connected surface.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float
+        In the units of the object.
+    triangles : (T, 3) int
+        Rows of `vertices`, counter-clockwise seen from outside.
+    polygons : (T,) int
+        Polygon of each triangle; every polygon 0…max has at least one.
+
+    Raises
+    ------
+    DecompositionError
+        If there are no triangles, coordinates that are not finite, or indices out
+        of range.
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    polygons: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        """Check the arrays and keep read-only copies of the right types."""
+        vertices = np.array(self.vertices, dtype=np.float64).reshape(-1, 3)
+        triangles = np.array(self.triangles, dtype=np.int64).reshape(-1, 3)
+        polygons = np.array(self.polygons, dtype=np.int64).reshape(-1)
+        if len(triangles) == 0:
+            raise DecompositionError(
+                "The mesh has no faces; add faces or choose another object."
+            )
+        if not np.isfinite(vertices).all():
+            raise DecompositionError(
+                "The mesh has coordinates that are not finite numbers; delete or"
+                " repair those vertices (Mesh > Clean Up)."
+            )
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            raise DecompositionError(
+                "The mesh has faces that refer to missing vertices; repair it first."
+            )
+        if len(polygons) != len(triangles) or polygons.min() < 0:
+            raise DecompositionError(
+                "The mesh needs one polygon number for each of its triangles."
+            )
+        for name, array in (
+            ("vertices", vertices),
+            ("triangles", triangles),
+            ("polygons", polygons),
+        ):
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+
+    @property
+    def n_polygons(self) -> int:
+        """Number of polygons."""
+        return int(self.polygons.max()) + 1
+
+    @cached_property
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest corner of the box around the triangles' vertices."""
+        used = self.vertices[self.triangles.ravel()]
+        return used.min(axis=0), used.max(axis=0)
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """Center of the bounding box, (3,)."""
+        low, high = self.bounds
+        center: NDArray[np.float64] = (high + low) / 2
+        return center
+
+    @cached_property
+    def diagonal(self) -> float:
+        """Length of the diagonal of the bounding box of the triangles' vertices."""
+        low, high = self.bounds
+        return float(np.linalg.norm(high - low))
+
+    def normalized(self) -> TriangleMesh:
+        """Return the mesh centered, with a bounding box of diagonal 1.
+
+        Ray casters work in single precision and tolerances in shares of the diagonal.
+        """
+        if self.diagonal == 0 or not np.isfinite(self.diagonal):
+            raise DecompositionError(
+                "The faces have no area; choose an object with a surface."
+            )
+        scaled = replace(self, vertices=(self.vertices - self.center) / self.diagonal)
+        if scaled.areas.sum() <= _LEAST_AREA:
+            raise DecompositionError(
+                "The faces have no area; choose an object with a surface."
+            )
+        return scaled
+
+    @cached_property
+    def welded_triangles(self) -> NDArray[np.int64]:
+        """(T, 3) numbers of the corners' places, equal where vertices coincide.
+
+        Many file formats split vertices, and tools close a surface with vertices that
+        differ by rounding.
+        """
+        center = self.vertices[self.triangles.ravel()].mean(axis=0)
+        grain = _SAME_PLACE * self.diagonal or 1.0
+        grains = np.round((self.vertices - center) / grain).astype(np.int64)
+        # One number for three is sorted faster; vertices beyond are those of no face.
+        cells = np.clip(grains + _CELLS // 2, 0, _CELLS - 1)
+        places = cells @ (_CELLS**2, _CELLS, 1)
+        _, place_of = np.unique(places, return_inverse=True)
+        welded: NDArray[np.int64] = place_of.reshape(-1)[self.triangles]
+        return welded
+
+    @property
+    def edge_keys(self) -> NDArray[np.int64]:
+        """(3T,) numbers of the sides of the triangles, equal for those of one edge."""
+        tails = self.welded_triangles
+        heads = np.roll(tails, -1, axis=1)
+        keys = np.minimum(tails, heads) * (tails.max() + 1) + np.maximum(tails, heads)
+        return keys.ravel()
+
+    @cached_property
+    def _cross_products(self) -> NDArray[np.float64]:
+        """(T, 3) normals of the triangles, twice their areas long."""
+        a, b, c = np.moveaxis(self.vertices[self.triangles], 1, 0)
+        return np.cross(b - a, c - a)
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """(T,) areas of the triangles."""
+        areas: NDArray[np.float64] = np.linalg.norm(self._cross_products, axis=1) / 2
+        return areas
+
+    @cached_property
+    def normals(self) -> NDArray[np.float64]:
+        """(T, 3) outward unit normals of the triangles, 0 where one is degenerate."""
+        lengths = 2 * self.areas[:, None]
+        normals: NDArray[np.float64] = np.divide(
+            self._cross_products,
+            lengths,
+            out=np.zeros_like(self._cross_products),
+            where=lengths > 0,
+        )
+        return normals

@@ -1,0 +1,121 @@
+"""Point clouds that can be decomposed: checked, read-only arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import DecompositionError
+
+# Fewer points than this show no surface.
+_FEWEST = 16
+# Points that extend less than this beside a line lie on it, in diagonals.
+_LEAST_WIDTH = 1e-4
+# A vector of normals shorter than this is none.
+_LEAST_NORMAL = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class PointCloud:
+    """Points of a surface, with or without its normals there (section 5).
+
+    Parameters
+    ----------
+    points : (N, 3) float
+        In the units of the object.
+    normals : (N, 3) float or None
+        Outward, of any length but 0; None where they are to be estimated.
+
+    Raises
+    ------
+    DecompositionError
+        If there are too few points, coordinates that are not finite, points at one
+        place or in a line, or normals of another number, not finite or zero.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        """Check the arrays and keep read-only copies, of normals as unit vectors."""
+        points = np.array(self.points, dtype=np.float64).reshape(-1, 3)
+        _check_points(points)
+        points.flags.writeable = False
+        object.__setattr__(self, "points", points)
+        if self.normals is not None:
+            normals = np.array(self.normals, dtype=np.float64).reshape(-1, 3)
+            lengths = _lengths_of_normals(normals, len(points))
+            normals /= lengths
+            normals.flags.writeable = False
+            object.__setattr__(self, "normals", normals)
+
+    def __len__(self) -> int:
+        """Return the number of points."""
+        return len(self.points)
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """Center of the bounding box, (3,)."""
+        low, high = self.bounds
+        center: NDArray[np.float64] = (low + high) / 2
+        return center
+
+    @property
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest corner of the box around the points."""
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the diagonal of the bounding box."""
+        return float(np.linalg.norm(np.ptp(self.points, axis=0)))
+
+    def normalized(self) -> PointCloud:
+        """Return the cloud centered, with a bounding box of diagonal 1."""
+        return replace(self, points=(self.points - self.center) / self.diagonal)
+
+
+def _check_points(points: NDArray[np.float64]) -> None:
+    """Raise unless points can be those of a surface."""
+    if len(points) < _FEWEST:
+        raise DecompositionError(
+            f"There are no faces, and too few points for a point cloud, {len(points)};"
+            f" add faces, or choose an object of at least {_FEWEST} points."
+        )
+    if not np.isfinite(points).all():
+        raise DecompositionError(
+            "The point cloud has coordinates that are not finite numbers; delete"
+            " those points."
+        )
+    diagonal = np.linalg.norm(np.ptp(points, axis=0))
+    if diagonal == 0 or not np.isfinite(diagonal):
+        raise DecompositionError(
+            "All points of the cloud are at one place, or infinitely far apart; choose"
+            " an object with a surface."
+        )
+    scaled = (points - points.mean(axis=0)) / diagonal
+    _, widths, _ = np.linalg.svd(scaled.T @ scaled / len(points))
+    if np.sqrt(widths[1]) < _LEAST_WIDTH:
+        raise DecompositionError(
+            "All points of the cloud lie in a line; choose an object with a surface."
+        )
+
+
+def _lengths_of_normals(
+    normals: NDArray[np.float64], n_points: int
+) -> NDArray[np.float64]:
+    """Return the lengths of normals, (N, 1), or raise if they are none."""
+    if len(normals) != n_points:
+        raise DecompositionError(
+            f"The point cloud has {n_points} points but {len(normals)} normals; give"
+            " each point one, or none at all to have them estimated."
+        )
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    if not np.isfinite(lengths).all() or lengths.min() < _LEAST_NORMAL:
+        raise DecompositionError(
+            "The point cloud has normals that are zero or not finite numbers; delete"
+            " those points, or the normals to have them estimated."
+        )
+    return lengths

@@ -1,0 +1,150 @@
+"""Samples spread evenly over the surface of a mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .mesh import TriangleMesh
+
+# Candidates per sample: each sample is one of a run of neighbors on the curve.
+_CANDIDATES = 16
+# Triangles that the paper calls dense, and how many it makes of fewer.
+_DENSE_FACES = 2000
+_UPSAMPLED_FACES = 3000
+# Bits per axis of the space-filling curve's grid.
+_CURVE_BITS = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Oriented points on a surface, each standing for the same area.
+
+    Attributes
+    ----------
+    positions, normals : (N, 3) float
+        In the space of the mesh; normals are outward unit vectors.
+    triangles : (N,) int
+        Triangle that each sample lies on.
+    """
+
+    positions: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.positions)
+
+
+def sample_surface(
+    mesh: TriangleMesh, n_samples: int, rng: np.random.Generator
+) -> Samples:
+    """Draw samples of equal area, stratified along a space-filling curve.
+
+    Candidates are drawn uniformly by area and sorted along a Morton curve; one is
+    taken at random from each run of neighbors. The tessellation therefore leaves no
+    trace, and every region gets its share to within a sample or two.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With positive area.
+    n_samples : int
+        Number of samples N.
+    rng : numpy.random.Generator
+        Source of the randomness.
+
+    Returns
+    -------
+    Samples
+    """
+    triangles, candidates = points_on(
+        mesh.vertices[mesh.triangles], n_samples * _CANDIDATES, rng
+    )
+    runs = np.argsort(_morton_codes(candidates), kind="stable")
+    runs = runs.reshape(n_samples, _CANDIDATES)
+    chosen = runs[np.arange(n_samples), rng.integers(_CANDIDATES, size=n_samples)]
+    picked = triangles[chosen]
+    return Samples(candidates[chosen], mesh.normals[picked], picked)
+
+
+def points_on(
+    corners: NDArray[np.float64], n_points: int, rng: np.random.Generator
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Draw points on triangles (T, 3, 3), uniformly by area.
+
+    Returns
+    -------
+    triangles : (N,) int
+        That each point lies on, ascending.
+    points : (N, 3) float
+    """
+    a, b, c = np.moveaxis(corners, 1, 0)
+    cumulative = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+    # Systematic draws: one per equal slice of the cumulative area.
+    draws = (np.arange(n_points) + rng.random(n_points)) / n_points
+    triangles = np.searchsorted(cumulative, draws * cumulative[-1], side="right")
+    triangles = np.minimum(triangles, len(cumulative) - 1)
+    root, split = np.sqrt(rng.random(n_points)), rng.random(n_points)
+    weights = np.stack([1 - root, root * (1 - split), root * split], axis=1)
+    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", weights, corners[triangles])
+    return triangles, points
+
+
+def sample_faces(mesh: TriangleMesh) -> Samples:
+    """Take the center of each triangle as a sample, as the paper does (section 5).
+
+    The triangles of a mesh with few of them are halved first, always the largest ones,
+    until there are enough; those without area are left out.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With positive area.
+
+    Returns
+    -------
+    Samples
+        Unlike those of `sample_surface`, not of equal area.
+    """
+    triangles = np.flatnonzero(mesh.areas > 0)
+    corners, areas = mesh.vertices[mesh.triangles[triangles]], mesh.areas[triangles]
+    enough = 0 if len(triangles) >= _DENSE_FACES else _UPSAMPLED_FACES
+    while len(corners) < enough:
+        largest = np.argsort(-areas, kind="stable")[: enough - len(corners)]
+        largest = largest[areas[largest] > areas[largest[0]] / 2]
+        halves = _halves(corners[largest])
+        corners[largest] = halves[0]
+        areas[largest] /= 2
+        corners = np.concatenate([corners, halves[1]])
+        areas = np.concatenate([areas, areas[largest]])
+        triangles = np.concatenate([triangles, triangles[largest]])
+    return Samples(corners.mean(axis=1), mesh.normals[triangles], triangles)
+
+
+def _halves(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return triangles (T, 3, 3) cut in two through their longest edges, (2, T, 3, 3).
+
+    The edge from corner i to i + 1 is cut; corner i + 2 lies across.
+    """
+    rows = np.arange(len(corners))
+    edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    first = edges.argmax(axis=1)
+    a, b, c = (corners[rows, (first + step) % 3] for step in range(3))
+    middle = (a + b) / 2
+    return np.stack([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
+
+
+def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return each point's place along a Z-order curve through its bounding cube."""
+    low = points.min(axis=0)
+    extent = float((points.max(axis=0) - low).max()) or 1.0
+    cells = ((points - low) / extent * (2**_CURVE_BITS - 1)).astype(np.int64)
+    codes = np.zeros(len(points), dtype=np.int64)
+    for bit in range(_CURVE_BITS):
+        for axis in range(3):
+            codes |= ((cells[:, axis] >> bit) & 1) << (3 * bit + axis)
+    return codes

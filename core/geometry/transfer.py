@@ -1,0 +1,109 @@
+"""Between samples and the polygons that get their labels."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.spatial import cKDTree
+
+from .face_graph import FaceGraph
+from .sampling import Samples
+
+# Nearest samples that speak for a polygon, and how far apart two samples of opposite
+# normals count, in mean distances of samples.
+_NEAREST = 8
+_NORMAL_WEIGHT = 1.0
+# Distance at which a sample's say has halved, in mean distances of samples.
+_SOFTENING = 0.3
+# Samples of different shells within this distance touch, in mean distances.
+_TOUCH = 1.5
+
+
+class Transfer:
+    """Carries values of samples to polygons, and labels of polygons to samples.
+
+    Parameters
+    ----------
+    samples : Samples
+    polygon_of : (N,) int
+        Polygon that each sample lies on.
+    surface : FaceGraph
+        Of these polygons, or of the points of a cloud in their place.
+
+    Attributes
+    ----------
+    shares : (P, N) sparse
+        Say of each sample in each polygon; rows sum to one.
+    polygon_of : (N,) int
+        Polygon that each sample lies on.
+    surface : FaceGraph
+        With links between shells that touch.
+    n_unsampled, n_shells : int
+        Connected pieces too small for a sample of their own, and all.
+    """
+
+    def __init__(
+        self, samples: Samples, polygon_of: NDArray[np.int64], surface: FaceGraph
+    ) -> None:
+        self.polygon_of = polygon_of
+        spacing = float(np.sqrt(surface.areas.sum() / len(samples)))
+        weight = _NORMAL_WEIGHT * spacing
+        tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))
+        distances, nearest = tree.query(
+            np.hstack([surface.centers, weight * surface.normals]),
+            min(_NEAREST, len(samples)),
+        )
+        self.shares = self._shares(distances / spacing, nearest)
+        shells = surface.shells()
+        numbers, first = np.unique(shells, return_index=True)
+        unsampled = np.setdiff1d(numbers, shells[polygon_of])
+        self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
+        # A shell too small for a sample of its own hangs on the nearest one.
+        small = first[unsampled]
+        hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
+        touching = self._touching(samples, shells, spacing)
+        links = np.concatenate([touching, hung])
+        self.surface = surface.linked(links)
+
+    def _shares(
+        self, distances: NDArray[np.float64], nearest: NDArray[np.int64]
+    ) -> sparse.csr_array:
+        """Return each sample's say: by its distance, and whole where it lies."""
+        n_polygons, n_nearest = nearest.shape
+        n_samples = len(self.polygon_of)
+        says = (1.0 / (1.0 + distances / _SOFTENING)).ravel()
+        rows = np.repeat(np.arange(n_polygons), n_nearest)
+        shares = sparse.csr_array(
+            (
+                np.concatenate([says, np.ones(n_samples)]),
+                (
+                    np.concatenate([rows, self.polygon_of]),
+                    np.concatenate([nearest.ravel(), np.arange(n_samples)]),
+                ),
+            ),
+            shape=(n_polygons, n_samples),
+        )
+        totals = np.asarray(shares.sum(axis=1)).ravel()
+        return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)
+
+    def _touching(
+        self, samples: Samples, shells: NDArray[np.int64], spacing: float
+    ) -> NDArray[np.int64]:
+        """Return polygons of different shells that touch: near samples decide."""
+        pairs = cKDTree(samples.positions).query_pairs(
+            _TOUCH * spacing, output_type="ndarray"
+        )
+        links = self.polygon_of[pairs]
+        return links[shells[links[:, 0]] != shells[links[:, 1]]]
+
+    def to_polygons(
+        self, labels: NDArray[np.int64], n_labels: int
+    ) -> NDArray[np.int64]:
+        """Return the label that most of a polygon's samples have, (P,) int."""
+        votes = self.shares @ np.eye(n_labels)[labels]
+        return np.asarray(votes).argmax(axis=1)
+
+    def to_samples(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the label of the polygon that each sample lies on, (N,) int."""
+        return labels[self.polygon_of]

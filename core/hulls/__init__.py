@@ -1,0 +1,1 @@
+"""Collision hulls: a solid cut into pieces, and convex shapes around them."""

@@ -1,0 +1,179 @@
+"""A shape in convex hulls: cut until they are close, joined where they may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.mesh import TriangleMesh
+from ..geometry.orientation import oriented
+from ..geometry.shells import find_shells
+from ..parameters.hulls import HullParameters
+from ..steps.progress import Progress, Steps, within
+from .best_cut import best_cut
+from .fitting import enclose
+from .joining import join_pieces
+from .piece import Cell, Piece, piece_of_part, whole
+from .primitives import CollisionShape
+from .solid import Solid, solid_of
+
+# Pieces are cut until there are this many times as many as hulls asked for: joining
+# them makes up for cuts that looked best one by one.
+_SURPLUS = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class HullDecomposition:
+    """Convex shapes that a shape is made of, in its units.
+
+    Attributes
+    ----------
+    shapes : tuple of CollisionShape
+        The largest first.
+    errors : (K,) float
+        CoACD's concavity of the convex hull of each piece; half of the longest side of
+        the shape is 1.
+    parts : (K,) int
+        Part that most of each shape is of, −1 where there were none.
+    volume_ratio : float
+        Sum of the volumes of the shapes over that of the solid, `inf` for a shape that
+        has no inside.
+    notes : tuple of str
+        Sentences to the user about what is worth knowing.
+    """
+
+    shapes: tuple[CollisionShape, ...]
+    errors: NDArray[np.float64]
+    parts: NDArray[np.int64]
+    volume_ratio: float
+    notes: tuple[str, ...]
+
+    @property
+    def n_hulls(self) -> int:
+        """Number of shapes K."""
+        return len(self.shapes)
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether shapes are of parts that were there before."""
+        return bool(self.parts.min() >= 0)
+
+
+def build_hulls(
+    mesh: TriangleMesh,
+    labels: NDArray[np.int64] | None,
+    parameters: HullParameters,
+    seed: int,
+) -> Steps[HullDecomposition]:
+    """Put convex shapes around a mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    labels : (P,) int or None
+        Part of each polygon, 0-based: for one shape a part, and to tell which part a
+        hull is of.
+    parameters : HullParameters
+    seed : int
+        Of the samples.
+
+    Returns
+    -------
+    Steps of HullDecomposition
+        Yields Progress; `run` gets the value.
+
+    Raises
+    ------
+    DecompositionError
+        If the surface has no area.
+    """
+    yield Progress("Solid", 0.0)
+    low, high = mesh.bounds
+    size = float((high - low).max()) / 2
+    normalized = mesh.normalized()
+    normalized, notes = oriented(normalized, find_shells(normalized))
+    # From a diagonal of 1 to CoACD's units: the longest side is 2.
+    vertices = normalized.vertices * (mesh.diagonal / size)
+    yield Progress("Solid", 0.0)
+    steps = solid_of(replace(normalized, vertices=vertices), seed)
+    solid = yield from within(steps, 0.0, 0.0)
+    parts = _parts_of_triangles(mesh, labels)
+    if parameters.pieces == "PARTS":
+        start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
+        pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
+    else:
+        pieces = yield from _within_error(solid, parameters)
+    # Rounded: those of one size stay in the order in which they were cut.
+    pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
+    center = (high + low) / 2
+    shapes, main_parts = [], []
+    for piece in pieces:
+        yield Progress("Shapes", 1.0)
+        shapes.append(enclose(piece.hull, parameters, size).moved(size, center))
+        main_parts.append(-1 if labels is None else _main_part(solid, parts, piece))
+    errors = np.array([piece.error for piece in pieces])
+    volume = float(solid.volumes.sum()) * size**3
+    total = sum(shape.volume for shape in shapes)
+    return HullDecomposition(
+        tuple(shapes),
+        errors,
+        np.array(main_parts),
+        total / volume if volume > 0 else np.inf,
+        (*notes, *_notes(errors, parameters)),
+    )
+
+
+def _parts_of_triangles(
+    mesh: TriangleMesh, labels: NDArray[np.int64] | None
+) -> NDArray[np.int64]:
+    """Return the part of each triangle, (T,); one for all without labels."""
+    if labels is None:
+        return np.zeros(len(mesh.triangles), dtype=np.int64)
+    return labels[mesh.polygons]
+
+
+def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]]:
+    """Return pieces within the largest error, as far as so many may be."""
+    most = parameters.max_hulls
+    cells = yield from within(
+        _cut(solid, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
+    )
+    return (yield from within(join_pieces(cells, parameters.max_error, most), 0.9, 1.0))
+
+
+def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
+    """Cut the piece that strays farthest, again and again."""
+    cells = [whole(solid)]
+    done: list[Cell] = []
+    while cells and len(cells) + len(done) < most:
+        share = (len(cells) + len(done)) / most
+        worst = max(cells, key=lambda cell: round(cell.error, 6))
+        if worst.error <= max_error:
+            break
+        cells.remove(worst)
+        sides = yield from within(best_cut(solid, worst), share, share + 1 / most)
+        if sides:
+            cells += sides
+        else:
+            done.append(worst)
+    return done + cells
+
+
+def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
+    """Return the part that most of the surface in a piece's hull is of."""
+    low, high = piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0)
+    near = ((low <= solid.samples) & (solid.samples <= high)).all(axis=1)
+    near[near] = piece.hull.heights(solid.samples[near]) <= 0
+    return int(np.bincount(parts[solid.triangles[near]], minlength=1).argmax())
+
+
+def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str, ...]:
+    """Say why the error is larger than asked for, if so."""
+    if parameters.pieces == "PARTS" or errors.max() <= parameters.max_error:
+        return ()
+    return (
+        f"The error is {errors.max():.3f}, above Largest Error, after as many cuts as"
+        f" Most Hulls = {parameters.max_hulls} allows; raise Most Hulls for more.",
+    )

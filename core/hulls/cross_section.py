@@ -1,0 +1,124 @@
+"""Planes through a shape: contours and cross-sections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.frames import frames
+from .convex_hull import heights_above
+from .solid import Solid
+
+# Distance of points in a cross-section; the longest side of a shape is 2.
+_GRAIN = 0.04
+
+
+def contour(
+    corners: NDArray[np.float64], plane: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return where a plane meets triangles: segments (S, 2, 3).
+
+    The inside is on the left, as seen along the normal.
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+    plane : (4,) float
+        n · x + d = 0 on it.
+    """
+    heights = corners @ plane[:3] + plane[3]
+    under = heights <= 0
+    n_under = under.sum(axis=1)
+    met = np.flatnonzero((n_under > 0) & (n_under < 3))
+    # Each is turned so that the corner alone on its side comes first.
+    lone_under = n_under[met] == 1
+    alone = np.where(lone_under[:, None], under[met], ~under[met])
+    turn = (alone.argmax(axis=1)[:, None] + np.arange(3)) % 3
+    a, b, c = np.moveaxis(np.take_along_axis(corners[met], turn[..., None], 1), 1, 0)
+    over = np.take_along_axis(heights[met], turn, axis=1)[..., None]
+    ab = a + over[:, 0] / (over[:, 0] - over[:, 1]) * (b - a)
+    ac = a + over[:, 0] / (over[:, 0] - over[:, 2]) * (c - a)
+    ends = np.stack([ab, ac], axis=1)
+    return np.where(lone_under[:, None, None], ends[:, ::-1], ends)
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """Where a plane cuts the inside of a shape.
+
+    Attributes
+    ----------
+    plane : (4,) float
+    axes : (2, 3) float
+        Of the plane.
+    rim : (S, 2, 3) float
+        Segments of the contour.
+    segments : (S, 2, 2) float
+        The same along `axes`.
+    """
+
+    plane: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    rim: NDArray[np.float64]
+    segments: NDArray[np.float64]
+
+    def rim_within(self, planes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the ends of what of the rim is below all planes (P, 4), (M, 3)."""
+        starts, ends = (heights_above(planes, self.rim[:, end]).T for end in (0, 1))
+        fall = np.where(starts == ends, 1.0, starts - ends)
+        crossed = starts / fall
+        enter = np.where(starts > 0, crossed, 0.0).max(axis=0, initial=0.0)
+        leave = np.where(ends > 0, crossed, 1.0).min(axis=0, initial=1.0)
+        enter[((starts > 0) & (ends > 0)).any(axis=0)] = np.inf
+        kept = enter <= leave
+        shares = np.stack([enter, leave], axis=1)[kept, :, None]
+        one, other = self.rim[kept, :1], self.rim[kept, 1:]
+        points: NDArray[np.float64] = one + shares * (other - one)
+        return points.reshape(-1, 3)
+
+    def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points spread evenly in the box around points (P, 3), (M, 3)."""
+        flat = within @ self.axes.T
+        steps = [
+            np.arange(low + 0.39 * _GRAIN, high, _GRAIN)
+            for low, high in zip(flat.min(axis=0), flat.max(axis=0), strict=True)
+        ]
+        columns, rows = np.nonzero(_is_inside(self.segments, *steps).T)
+        spots = np.stack([steps[0][columns], steps[1][rows]], axis=1)
+        return spots @ self.axes - self.plane[3] * self.plane[:3]
+
+    def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return which points (M, 3) of the plane are inside, (M,)."""
+        across, up = (points @ self.axes.T).T[..., None]
+        (x0, y0), (x1, y1) = self.segments.transpose(1, 2, 0)
+        turns = (y1 > up).astype(np.int64) - (y0 > up)
+        rise = np.where(y1 == y0, 1.0, y1 - y0)
+        before = x0 + (up - y0) / rise * (x1 - x0) <= across
+        windings = (turns * before).sum(axis=1)
+        inside: NDArray[np.bool_] = (windings != 0) & (turns.sum(axis=1) == 0)
+        return inside
+
+
+def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
+    """Return where a plane (4,) cuts the inside of a solid."""
+    axes = np.concatenate(frames(plane[None, :3]))
+    rim = contour(solid.corners, plane)
+    return Section(plane, axes, rim, rim @ axes.T)
+
+
+def _is_inside(
+    segments: NDArray[np.float64], across: NDArray[np.float64], up: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which points of a grid are in a contour of segments (S, 2, 2), (U, A)."""
+    (x0, y0), (x1, y1) = segments.transpose(1, 2, 0)
+    turns = (y1 > up[:, None]).astype(np.int64) - (y0 > up[:, None])
+    rows, crossed = np.nonzero(turns)
+    share = (up[rows] - y0[crossed]) / (y1 - y0)[crossed]
+    columns = np.searchsorted(across, x0[crossed] + share * (x1 - x0)[crossed])
+    windings = np.zeros((len(up), len(across) + 1), dtype=np.int64)
+    np.add.at(windings, (rows, columns), turns[rows, crossed])
+    windings = np.cumsum(windings, axis=1)
+    # A row across an open contour does not come back to 0: nothing tells its inside.
+    return (windings[:, :-1] != 0) & (windings[:, -1:] == 0)

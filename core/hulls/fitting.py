@@ -1,0 +1,163 @@
+"""Boxes, spheres, cylinders and capsules around convex hulls."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from ..geometry.frames import frames, principal_axes
+from ..parameters.hulls import HullParameters
+from .convex_hull import Hull, offset, simplified
+from .piece import THIN
+from .primitives import CollisionShape
+
+# Rounds in which the center of the smallest ball is found, to a thousandth.
+_ROUNDS = 1000
+
+
+def enclose(hull: Hull, parameters: HullParameters, unit: float) -> CollisionShape:
+    """Return the shape that `parameters` ask for around a hull.
+
+    Boxes, spheres, cylinders and capsules contain the hull. So do hulls, to a ten
+    thousandth of the longest side, unless they may have too few vertices.
+
+    Parameters
+    ----------
+    hull : Hull
+    parameters : HullParameters
+    unit : float
+        What 1 stands for in the units of the mesh, which the margin is in.
+    """
+    margin = parameters.margin / unit
+    if parameters.shape == "HULL":
+        grown = simplified(offset(hull, margin), parameters.max_vertices, THIN / 10)
+        return CollisionShape("HULL", grown, np.zeros(3), np.eye(3), np.zeros(3))
+    shape = _FITS[parameters.shape](hull)
+    least = np.where(shape.sizes > 0, THIN / 2, 0.0)
+    return replace(shape, sizes=np.maximum(shape.sizes + margin * (least > 0), least))
+
+
+def box_around(hull: Hull) -> CollisionShape:
+    """Return the smallest box that has a face of the hull in one of its own.
+
+    The smallest of all has two adjacent faces with edges of the hull (O'Rourke 1985);
+    those flush with a face are nearly as small and far fewer.
+    """
+    best: CollisionShape | None = None
+    for normal in _normals(hull):
+        axes = _rectangle_axes(hull.vertices, normal)
+        local = hull.vertices @ axes.T
+        low, high = local.min(axis=0), local.max(axis=0)
+        shape = CollisionShape(
+            "BOX", hull, (low + high) / 2 @ axes, axes, (high - low) / 2
+        )
+        if best is None or shape.volume < best.volume:
+            best = shape
+    assert best is not None  # a hull has faces
+    return best
+
+
+def sphere_around(hull: Hull) -> CollisionShape:
+    """Return the smallest sphere around a hull, to a thousandth of its radius."""
+    center, radius = _smallest_ball(hull.vertices)
+    sizes = np.array([radius, radius, 0.0])
+    return CollisionShape("SPHERE", hull, center, np.eye(3), sizes)
+
+
+def cylinder_around(hull: Hull) -> CollisionShape:
+    """Return the smallest cylinder along an axis of the box or an inertial axis."""
+    return min((_cylinder(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
+
+
+def capsule_around(hull: Hull) -> CollisionShape:
+    """Return the smallest capsule along an axis of the box or an inertial axis."""
+    return min((_capsule(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
+
+
+_FITS = {
+    "BOX": box_around,
+    "SPHERE": sphere_around,
+    "CYLINDER": cylinder_around,
+    "CAPSULE": capsule_around,
+}
+
+
+def _cylinder(hull: Hull, axis: NDArray[np.float64]) -> CollisionShape:
+    """Return the smallest cylinder along an axis."""
+    frame = _frame(axis)
+    local = hull.vertices @ frame.T
+    center, radius = _smallest_ball(local[:, :2])
+    low, high = local[:, 2].min(), local[:, 2].max()
+    middle = np.r_[center, (low + high) / 2] @ frame
+    sizes = np.array([radius, radius, (high - low) / 2])
+    return CollisionShape("CYLINDER", hull, middle, frame, sizes)
+
+
+def _capsule(hull: Hull, axis: NDArray[np.float64]) -> CollisionShape:
+    """Return the shortest capsule along an axis that is as narrow as can be."""
+    frame = _frame(axis)
+    local = hull.vertices @ frame.T
+    center, radius = _smallest_ball(local[:, :2])
+    around = np.linalg.norm(local[:, :2] - center, axis=1)
+    # A round end reaches so far beyond the height at which it begins.
+    room = np.sqrt(np.maximum(radius**2 - around**2, 0.0))
+    low, high = (local[:, 2] + room).min(), (local[:, 2] - room).max()
+    middle = np.r_[center, (low + high) / 2] @ frame
+    sizes = np.array([radius, radius, max(high - low, 0.0) / 2])
+    return CollisionShape("CAPSULE", hull, middle, frame, sizes)
+
+
+def _axes(hull: Hull) -> NDArray[np.float64]:
+    """Return the axes that are tried, (6, 3)."""
+    return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
+
+
+def _normals(hull: Hull) -> NDArray[np.float64]:
+    """Return the normals of the hull's faces, those that are alike once."""
+    rounded = np.round(hull.planes[:, :3], 4)
+    rounded *= np.sign(
+        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
+    )[:, None]
+    _, rows = np.unique(rounded, axis=0, return_index=True)
+    return hull.planes[np.sort(rows), :3]
+
+
+def _rectangle_axes(
+    points: NDArray[np.float64], normal: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the axes of the box along a normal whose base is smallest, (3, 3)."""
+    frame = _frame(normal)
+    flat = points @ frame[:2].T
+    try:
+        outline = flat[ConvexHull(flat).vertices]
+    except QhullError:  # seen edge on
+        return frame
+    edges = np.roll(outline, -1, axis=0) - outline
+    edges /= np.linalg.norm(edges, axis=1, keepdims=True)
+    along = edges @ outline.T
+    across = np.stack([-edges[:, 1], edges[:, 0]], axis=1) @ outline.T
+    edge = edges[(np.ptp(along, axis=1) * np.ptp(across, axis=1)).argmin()]
+    first = edge @ frame[:2]
+    return np.stack([first, np.cross(frame[2], first), frame[2]])
+
+
+def _frame(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return right-handed axes of which the last one is `axis`, (3, 3)."""
+    return np.concatenate([*frames(axis[None]), axis[None]])
+
+
+def _smallest_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """Return center and radius of a ball around points (N, 2 or 3).
+
+    Bădoiu and Clarkson 2003, "Smaller core-sets for balls": the center goes ever
+    shorter ways towards the point that is farthest away.
+    """
+    center = points.mean(axis=0)
+    for step in range(1, _ROUNDS + 1):
+        away = points - center
+        farthest = np.einsum("nd,nd->n", away, away).argmax()
+        center = center + away[farthest] / (step + 1)
+    return center, float(np.linalg.norm(points - center, axis=1).max())

@@ -1,0 +1,113 @@
+"""Pieces joined where one hull does for two."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Sequence
+from itertools import count
+
+from ..steps.progress import Progress, Steps, within
+from .cost import cost_of_joint, least_cost
+from .piece import Piece, join
+
+# Pieces whose bounding boxes are this near may touch; the longest side is 2.
+_NEAR = 0.03
+
+# Cost, numbers of two pieces, and the two as one once the cost is exact.
+_Joint = tuple[float, int, int, Piece | None]
+
+
+def join_pieces(
+    pieces: Sequence[Piece], max_error: float, max_pieces: int
+) -> Steps[list[Piece]]:
+    """Join neighbors within `max_error`, and more where there are too many pieces.
+
+    Those come first that cost least together. Pieces that touch nothing are joined only
+    where there is no other way.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+    max_error : float
+        Of two pieces as one.
+    max_pieces : int
+
+    Returns
+    -------
+    Steps of list of Piece
+    """
+    joined = yield from _join(pieces, max_error, max_pieces, _touch)
+    if len(joined) > max_pieces:
+        joined = yield from _join(joined, 0.0, max_pieces, lambda *_: True)
+    return joined
+
+
+def _join(
+    pieces: Sequence[Piece],
+    max_error: float,
+    max_pieces: int,
+    may: Callable[[Piece, Piece], bool],
+) -> Steps[list[Piece]]:
+    """Join pieces of which `may` is true; otherwise as `join_pieces`."""
+    alive: dict[int, Piece] = {}
+    queue: list[_Joint] = []
+    solid_volume = sum(piece.volume for piece in pieces)
+    for piece in pieces:
+        _add(piece, len(alive), alive, queue, may, solid_volume)
+        yield Progress("Joining", 0.0)
+    for number in count(len(pieces)):
+        steps = _next_joint(alive, queue, max_error, max_pieces, solid_volume)
+        found = yield from within(steps, 1 - len(alive) / (len(pieces) + 1), 1.0)
+        if found is None:
+            break
+        one, other, joint = found
+        del alive[one], alive[other]
+        _add(joint, number, alive, queue, may, solid_volume)
+    return list(alive.values())
+
+
+def _add(
+    piece: Piece,
+    number: int,
+    alive: dict[int, Piece],
+    queue: list[_Joint],
+    may: Callable[[Piece, Piece], bool],
+    solid_volume: float,
+) -> None:
+    """Add a piece under a number of its own, and its joints with the others."""
+    for other, neighbor in alive.items():
+        if may(neighbor, piece):
+            cost = least_cost(neighbor, piece, solid_volume)
+            heapq.heappush(queue, (cost, other, number, None))
+    alive[number] = piece
+
+
+def _next_joint(
+    alive: dict[int, Piece],
+    queue: list[_Joint],
+    max_error: float,
+    max_pieces: int,
+    solid_volume: float,
+) -> Steps[tuple[int, int, Piece] | None]:
+    """Return the two pieces to be joined next, and what they are as one."""
+    while queue:
+        _, one, other, joint = heapq.heappop(queue)
+        if one not in alive or other not in alive:
+            continue
+        if joint is None:
+            yield Progress("Joining", 0.0)
+            joint = join(alive[one], alive[other])
+            cost = cost_of_joint(joint, solid_volume)
+            heapq.heappush(queue, (cost, one, other, joint))
+        elif joint.error <= max_error or len(alive) > max_pieces:
+            return one, other, joint
+    return None
+
+
+def _touch(one: Piece, other: Piece) -> bool:
+    """Return whether the bounding boxes of two pieces meet, or nearly."""
+    (low, high), (other_low, other_high) = (
+        (piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0))
+        for piece in (one, other)
+    )
+    return bool(((low - _NEAR <= other_high) & (other_low - _NEAR <= high)).all())

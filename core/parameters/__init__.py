@@ -1,0 +1,1 @@
+"""Every setting: default, bounds, label and help, once. Loads no SciPy."""

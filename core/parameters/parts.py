@@ -1,0 +1,264 @@
+"""Every info of the decomposition: its default, bounds, label and help, once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..errors import DecompositionError
+from .parameter import Choice, ParameterInfo, parameter, settle
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """The settings of a decomposition; see each field's help.
+
+    Raises
+    ------
+    DecompositionError
+        If a value is out of its bounds or not one of its choices.
+    """
+
+    parts: int = parameter(
+        0,
+        ParameterInfo(
+            "Parts",
+            "Number of parts k; 0 searches for the k of largest psi",
+            low=0,
+            high=256,
+            usual=24,
+            advanced=False,
+            recut=True,
+        ),
+    )
+    rays: int = parameter(
+        30,
+        ParameterInfo(
+            "Rays",
+            "Rays r that each sample casts into the shape; used by cone sight,"
+            " while all pairs casts at every other sample",
+            low=1,
+            high=1000,
+            advanced=False,
+        ),
+    )
+    alpha: float = parameter(
+        2.0,
+        ParameterInfo(
+            "Balance",
+            "Weight alpha of pairs hidden between parts against pairs visible within"
+            " parts: more splits the shape further; the paper uses 1",
+            low=0.0,
+            high=10.0,
+            advanced=False,
+            recut=True,
+        ),
+    )
+    sight: str = parameter(
+        "ALL_PAIRS",
+        ParameterInfo(
+            "Lines of Sight",
+            "Which lines of sight are looked up",
+            choices=(
+                Choice(
+                    "ALL_PAIRS",
+                    "All Pairs",
+                    "Between every two samples: the definition itself",
+                ),
+                Choice(
+                    "CONE",
+                    "Cone",
+                    "Rays in a cone around the inward normal, as in the paper:"
+                    " sparse, for many samples",
+                ),
+            ),
+            advanced=False,
+        ),
+    )
+    sampling: str = parameter(
+        "AREA",
+        ParameterInfo(
+            "Sampling",
+            "Where the samples are, between which lines of sight run",
+            choices=(
+                Choice(
+                    "AREA",
+                    "By Area",
+                    "Spread evenly over the surface, as many as Samples says",
+                ),
+                Choice(
+                    "FACES",
+                    "By Faces",
+                    "One on each triangle, small meshes being subdivided to 3000, as in"
+                    " the paper",
+                ),
+            ),
+        ),
+    )
+    samples: int = parameter(
+        1200,
+        ParameterInfo(
+            "Samples",
+            "Points spread evenly over the surface",
+            low=16,
+            high=10000,
+        ),
+    )
+    cone_angle: float = parameter(
+        math.radians(120.0),
+        ParameterInfo(
+            "Cone Angle",
+            "Full opening of the cone of rays; the paper uses 60 degrees",
+            low=math.radians(1.0),
+            high=math.pi,
+            subtype="ANGLE",
+        ),
+    )
+    psi_pairs: str = parameter(
+        "UNIFORM",
+        ParameterInfo(
+            "Psi From",
+            "Pairs of samples from which cone sight estimates psi; all pairs"
+            " counts every pair",
+            choices=(
+                Choice(
+                    "UNIFORM",
+                    "Uniform Pairs",
+                    "Pairs drawn at random: an estimate without bias",
+                ),
+                Choice(
+                    "RAYS",
+                    "Ray Hits",
+                    "Pairs that the cone's rays found, as in the paper: biased"
+                    " towards near and visible pairs",
+                ),
+            ),
+        ),
+    )
+    containers: str = parameter(
+        "FILLED",
+        ParameterInfo(
+            "Containers",
+            "Whether what the shape encloses, such as the hollow of a cup, is seen"
+            " through",
+            choices=(
+                Choice(
+                    "FILLED",
+                    "Filled",
+                    "The enclosed outside counts as inside, so that thin walls around"
+                    " it stay whole; shapes that enclose nothing are not affected",
+                ),
+                Choice(
+                    "HOLLOW",
+                    "Hollow",
+                    "Lines of sight run through the inside alone, as in the paper",
+                ),
+            ),
+        ),
+    )
+    normalization: str = parameter(
+        "LAPLACIAN",
+        ParameterInfo(
+            "Normalization",
+            "How the matrix of lines of sight is normalized",
+            choices=(
+                Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
+                Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
+            ),
+            recut=True,
+        ),
+    )
+    min_parts: int = parameter(
+        2,
+        ParameterInfo(
+            "Fewest Parts",
+            "Where the search for k begins",
+            low=2,
+            high=256,
+            usual=24,
+            recut=True,
+        ),
+    )
+    max_parts: int = parameter(
+        13,
+        ParameterInfo(
+            "Most Parts",
+            "Where the search for k ends",
+            low=2,
+            high=256,
+            usual=24,
+            recut=True,
+        ),
+    )
+    refinement: str = parameter(
+        "PSI",
+        ParameterInfo(
+            "Refinement",
+            "What k-means' clusters and their seams are refined by",
+            choices=(
+                Choice(
+                    "PSI",
+                    "Psi",
+                    "Samples change their part, and seams move, where psi gains by it",
+                ),
+                Choice(
+                    "EMBEDDING",
+                    "Embedding",
+                    "Clusters stay as they are and seams keep to them, as in the paper",
+                ),
+            ),
+            recut=True,
+        ),
+    )
+    smoothness: float = parameter(
+        2.0,
+        ParameterInfo(
+            "Smoothness",
+            "Weight lambda of short seams in concave creases; 0 leaves seams ragged",
+            low=0.0,
+            high=100.0,
+            usual=10.0,
+            recut=True,
+        ),
+    )
+    smallest_part: float = parameter(
+        0.005,
+        ParameterInfo(
+            "Smallest Part",
+            "Share of the area below which a connected piece joins its neighbor",
+            low=0.0,
+            high=0.5,
+            subtype="FACTOR",
+            recut=True,
+        ),
+    )
+    levels: int = parameter(
+        1,
+        ParameterInfo(
+            "Levels",
+            "How often parts are decomposed in their turn, with all samples on each, so"
+            " that small ones come apart, such as fingers, at several times the time;"
+            " Parts is the number on the first level",
+            low=1,
+            high=4,
+            recut=True,
+        ),
+    )
+    seed: int = parameter(
+        0,
+        ParameterInfo("Seed", "Start of the random numbers", low=0, high=2**31 - 1),
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field, and what fields ask of each other."""
+        settle(self)
+        if self.min_parts > self.max_parts:
+            raise DecompositionError(
+                f"Fewest Parts is {self.min_parts}, above Most Parts,"
+                f" {self.max_parts}; lower it or raise Most Parts."
+            )
+        if self.parts > self.samples:
+            raise DecompositionError(
+                f"{self.samples} samples cannot make {self.parts} parts;"
+                " raise Samples or lower Parts."
+            )

@@ -1,0 +1,1 @@
+"""From clusters of samples to parts of the surface, and their seams."""

@@ -1,0 +1,1 @@
+"""Which samples see each other."""

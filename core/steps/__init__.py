@@ -1,0 +1,1 @@
+"""How long computations run: in steps, in slices of time, remembered."""

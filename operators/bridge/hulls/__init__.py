@@ -1,0 +1,1 @@
+"""Hulls as objects of Blender."""

@@ -1,0 +1,147 @@
+"""Hull decompositions -> objects in a collection of their own, and back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ....core.errors import DecompositionError
+from ....core.parameters.hull_names import hull_names
+from ....core.parameters.hulls import HullParameters
+from ..mesh.points import is_cloud
+from ..parts.beside import new_collection
+from ..parts.materials import part_materials
+from ..read.shape import stretch
+from ..read.target import refusal
+from ..stored.identity import usual_identities
+from ..stored.record import identities_of, record_of, write_hull_record
+from .rigid_bodies import soften
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ....core.hulls.build import HullDecomposition
+    from ....core.hulls.primitives import CollisionShape
+
+# Custom property of hulls, and of the collections made for them.
+_TAG = "wcd_hull"
+
+
+def hull_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why hulls cannot be made for an object, None if they can."""
+    reason = refusal(obj, writes_mesh=False)
+    if reason is None and is_cloud(obj):
+        return f"Hulls need faces, and {obj.name} has none; give it a surface first"
+    if reason is None and obj.mode != "OBJECT":
+        return "Hulls are objects: made in Object Mode alone; switch the mode"
+    return reason
+
+
+def is_hull(obj: bpy.types.Object) -> bool:
+    """Return whether an object is a hull of its parent."""
+    return _TAG in obj and obj.parent is not None
+
+
+def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return the hulls that an object has, by name."""
+    return sorted((c for c in obj.children if _TAG in c), key=lambda c: c.name)
+
+
+def write_hulls(
+    obj: bpy.types.Object, found: HullDecomposition, parameters: HullParameters
+) -> list[bpy.types.Object]:
+    """Make the hulls of an object, in place of earlier ones; return them.
+
+    Raises
+    ------
+    DecompositionError
+        If another object has a name that a hull needs; nothing is changed then.
+    """
+    kinds = [shape.kind for shape in found.shapes]
+    names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
+    _check_free(names, hulls_of(obj))
+    erase_hulls(obj)
+    collection = new_collection(obj, f"{obj.name} hulls")
+    collection[_TAG] = True
+    if found.has_parts:
+        colors = found.parts
+        identities = identities_of(record_of(obj)) or usual_identities(colors.max() + 1)
+    else:
+        colors = np.arange(found.n_hulls)
+        identities = usual_identities(found.n_hulls)
+    materials = part_materials(identities, [])
+    scale = stretch(obj)
+    hulls = []
+    for row, name in enumerate(names):
+        material = materials[colors[row]]
+        hull = _hull_object(name, found.shapes[row], scale, material)
+        hull[_TAG] = json.dumps(_figures(found, row))
+        hull.parent = obj
+        collection.objects.link(hull)
+        hulls.append(hull)
+    figures = [{"name": h.name, **_figures(found, row)} for row, h in enumerate(hulls)]
+    write_hull_record(obj, found, parameters, figures)
+    return hulls
+
+
+def erase_hulls(obj: bpy.types.Object) -> None:
+    """Remove an object's hulls, and their collection if nothing else is in it."""
+    hulls = hulls_of(obj)
+    if hulls and obj.mode != "OBJECT":
+        raise DecompositionError(
+            "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
+            " Object Mode first."
+        )
+    soften(obj, hulls)
+    collections = {c for hull in hulls for c in hull.users_collection if _TAG in c}
+    meshes = [hull.data for hull in hulls]
+    for hull in hulls:
+        bpy.data.objects.remove(hull)
+    for mesh in meshes:
+        if mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+    for collection in collections:
+        if not collection.all_objects and not collection.children:
+            bpy.data.collections.remove(collection)
+
+
+def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> None:
+    """Raise if an object has a name that a hull needs, `former` ones aside."""
+    ours = {hull.name for hull in former}
+    taken = [name for name in names if name in bpy.data.objects and name not in ours]
+    if taken:
+        raise DecompositionError(
+            f"There is an object {taken[0]} already; rename it or choose another"
+            " Naming."
+        )
+
+
+def _hull_object(
+    name: str, shape: CollisionShape, scale: np.ndarray, material: bpy.types.Material
+) -> bpy.types.Object:
+    """Return an object with the mesh of a shape."""
+    outline = shape.outline()
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(
+        (outline.vertices / scale).tolist(), [], outline.triangles.tolist()
+    )
+    mesh.materials.append(material)
+    hull = bpy.data.objects.new(name, mesh)
+    hull.color = material.diffuse_color
+    hull.show_wire = True
+    hull.hide_render = True
+    return hull
+
+
+def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
+    """Return what is noted of a hull."""
+    shape = found.shapes[row]
+    return {
+        "kind": shape.kind,
+        "error": float(found.errors[row]),
+        "volume": float(shape.volume),
+        "part": int(found.parts[row]) if found.has_parts else None,
+        "vertices": len(shape.outline().vertices),
+    }

@@ -1,0 +1,1 @@
+"""Parts as Blender's data: groups, materials, attributes, objects."""

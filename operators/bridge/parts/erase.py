@@ -1,0 +1,207 @@
+"""Takes back what `write` wrote, and nothing else."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..mesh.layers import EditModeLayers, IntArray, ObjectModeLayers, layers_of
+from ..stored.record import check_records, forget_parts, forget_result
+from ..stored.restore import Restore, read_restore, write_restore
+from .materials import discard_unused, is_ours, our_materials
+from .rows import erase_rows
+
+PART_LAYER = "wcd_part"
+MATERIAL_LAYER = "wcd_material_index"
+# The face sets there were before ours, 0 where there were none.
+FACE_SET_LAYER = "wcd_face_set"
+# Colors by part, of points or of the corners of faces.
+COLOR_LAYER = "wcd_color"
+# Of points whose own normals were not to be used.
+NORMAL_LAYER = "wcd_normal"
+LAYERS = {
+    PART_LAYER: "INT",
+    MATERIAL_LAYER: "INT",
+    FACE_SET_LAYER: "INT",
+    COLOR_LAYER: "FLOAT_COLOR",
+    NORMAL_LAYER: "FLOAT_VECTOR",
+}
+
+
+# Where Blender keeps the face sets of Sculpt Mode, counted from 1.
+FACE_SETS = ".sculpt_face_set"
+
+
+def clear(obj: bpy.types.Object) -> None:
+    """Remove everything of ours from an object, its mesh and the file."""
+    check_records(obj)
+    erase_parts(obj)
+    discard_unused(our_materials())  # those whose slots the user removed, too
+    forget_result(obj)
+
+
+def sharers(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
+    """Return the objects that a mesh belongs to."""
+    return [obj for obj in bpy.data.objects if obj.data == mesh]
+
+
+def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
+    """Bring back an object's mesh; return the materials taken out of its slots.
+
+    What the user did to the mesh meanwhile stays: faces given other materials keep
+    them, and so do renamed groups and materials.
+    """
+    mesh = obj.data
+    restore = read_restore(mesh)
+    if restore is None:
+        return []
+    _erase_groups(obj, restore)
+    layers = layers_of(obj)
+    indices = _indices_without_ours(mesh, restore, layers)
+    materials = _erase_slots(obj, restore)
+    layers.set_material_indices(indices)
+    _restore_face_sets(layers)
+    for name in LAYERS:
+        layers.remove(name)
+    layers.finish()
+    write_restore(mesh, None)
+    for sharer in sharers(mesh):
+        if sharer.is_editable:
+            forget_parts(sharer)
+            erase_rows(sharer)
+    return materials
+
+
+def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
+    """Remove our vertex groups and make the user's group active again."""
+    groups = obj.vertex_groups
+    active = groups.active.name if groups.active else ""
+    for name in restore.groups:
+        if name in groups:
+            groups.remove(groups[name])
+    if active not in groups:
+        active = restore.active_group
+    if active in groups:
+        groups.active_index = groups[active].index
+
+
+def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
+    """Bring back the face sets there were, unless the user changed ours since."""
+    before, parts = layers.faces(FACE_SET_LAYER), layers.faces(PART_LAYER)
+    now = layers.faces(FACE_SETS)
+    if before is None or now is None or parts is None or (now != parts + 1).any():
+        return
+    if before.any():
+        layers.set_faces(FACE_SETS, before)
+    else:
+        layers.remove(FACE_SETS)
+
+
+def _indices_without_ours(
+    mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
+) -> IntArray | None:
+    """Return the material index of each face for when our slots are gone."""
+    if not getattr(mesh, "polygons", None):  # points
+        return None
+    now = layers.material_indices()
+    if now is None:
+        now = np.zeros(len(mesh.polygons), dtype=np.int32)
+    ours = _our_slots(mesh, restore)
+    before = layers.faces(MATERIAL_LAYER)
+    if before is None:
+        before = np.full_like(now, restore.material_index or 0)
+    indices = np.where(
+        np.isin(now, ours),
+        _moved(before, restore.slots, _names_without(mesh, ours)),
+        now - np.searchsorted(ours, now),
+    ).astype(np.int32)
+    if not restore.had_material_index and not indices.any():
+        return None
+    return indices
+
+
+def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
+    """Return the indices of the slots that hold what we put there."""
+    return [
+        index
+        for index, material in enumerate(mesh.materials)
+        if is_ours(material) and material.name not in restore.slots
+    ]
+
+
+def _names_without(mesh: bpy.types.Mesh, ours: list[int]) -> list[str]:
+    """Return the names of the materials in the user's slots, '' for none."""
+    return [
+        material.name if material else ""
+        for index, material in enumerate(mesh.materials)
+        if index not in ours
+    ]
+
+
+def _moved(indices: IntArray, slots: list[str], remaining: list[str]) -> IntArray:
+    """Return indices of the former slots as indices of those that will remain.
+
+    The user may have moved, removed or renamed materials since.
+    """
+    moved = indices.copy()
+    place = 0  # of the slot before: Blender leaves a removed slot's faces to it
+    for former, name in enumerate(slots):
+        there = remaining[former] if former < len(remaining) else None
+        renamed = name not in remaining and there is not None and there not in slots
+        if there == name or renamed:
+            place = former
+        elif name in remaining:
+            place = remaining.index(name)
+        moved[indices == former] = place
+    return moved
+
+
+def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Material]:
+    """Remove the slots that hold our materials; return the materials."""
+    mesh = obj.data
+    ours = _our_slots(mesh, restore)
+    if not ours:
+        return []
+    active = obj.active_material_index
+    # Popping a slot of the mesh leaves the objects' own materials where they were.
+    linked = [
+        (sharer, [_object_link(slot) for slot in sharer.material_slots])
+        for sharer in sharers(mesh)
+    ]
+    materials = [mesh.materials[i] for i in ours]
+    if len(ours) == len(mesh.materials):
+        mesh.materials.clear()  # popping the last one leaves objects an empty slot
+    else:
+        for index in reversed(ours):
+            mesh.materials.pop(index=index)
+    for sharer, links in linked:
+        kept = [link for i, link in enumerate(links) if i not in ours]
+        for slot, link in zip(sharer.material_slots, kept, strict=False):
+            _set_object_link(slot, link)
+    if mesh.materials:
+        active = (
+            restore.active_slot
+            if active in ours
+            else active - sum(i < active for i in ours)
+        )
+        obj.active_material_index = min(active, len(mesh.materials) - 1)
+    return materials
+
+
+def _object_link(
+    slot: bpy.types.MaterialSlot,
+) -> tuple[bool, bpy.types.Material | None]:
+    """Return whether a slot is the object's own, and its material then."""
+    own = slot.link == "OBJECT"
+    return own, slot.material if own else None
+
+
+def _set_object_link(
+    slot: bpy.types.MaterialSlot, link: tuple[bool, bpy.types.Material | None]
+) -> None:
+    """Give a slot what `_object_link` returned."""
+    own, material = link
+    if (slot.link == "OBJECT") != own:
+        slot.link = "OBJECT" if own else "DATA"
+    if own and slot.material != material:
+        slot.material = material

@@ -1,0 +1,141 @@
+"""Exploded views: a node group that moves parts apart, in a modifier of the object."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ....core.errors import DecompositionError
+from .erase import PART_LAYER
+from .explode_slider import TAG, exploding, slider
+
+_NAME = "Exploded View"
+# Shares of the way from the center of the shape that its parts are moved further by.
+_FARTHEST = 3.0
+
+
+def explode(obj: bpy.types.Object, distance: float) -> None:
+    """Move the parts of an object away from its center, leaving its mesh alone."""
+    modifier = exploding(obj)
+    if modifier is None:
+        modifier = obj.modifiers.new(_NAME, "NODES")
+        modifier.node_group = _node_group()
+    owner, path = slider(modifier)
+    if path == "value":
+        owner.value = distance
+    else:
+        owner[path[2:-2]] = distance
+    obj.update_tag()
+
+
+def implode(obj: bpy.types.Object) -> None:
+    """Take an exploded view back; its nodes go with the last one."""
+    modifier = exploding(obj)
+    if modifier is None:
+        return
+    if obj.mode != "OBJECT":
+        raise DecompositionError(
+            "The exploded view is a modifier, which Edit Mode cannot bring back on"
+            " undo; switch to Object Mode first."
+        )
+    group = modifier.node_group
+    obj.modifiers.remove(modifier)
+    if group.users == 0 and group.library is None:
+        bpy.data.node_groups.remove(group)
+
+
+def _node_group() -> bpy.types.GeometryNodeTree:
+    """Return the node group of all exploded views in the file, made if missing."""
+    for group in bpy.data.node_groups:
+        if TAG in group and group.library is None:
+            return group
+    group = bpy.data.node_groups.new(_NAME, "GeometryNodeTree")
+    group[TAG] = True
+    group.is_modifier = True
+    for in_out in ("INPUT", "OUTPUT"):
+        group.interface.new_socket(
+            "Geometry", in_out=in_out, socket_type="NodeSocketGeometry"
+        )
+    distance = group.interface.new_socket(
+        "Distance", in_out="INPUT", socket_type="NodeSocketFloat"
+    )
+    distance.description = "How much farther from the center of the shape parts are"
+    distance.subtype = "FACTOR"
+    distance.min_value, distance.max_value = 0.0, _FARTHEST
+    _wire(group)
+    return group
+
+
+def _wire(group: bpy.types.GeometryNodeTree) -> None:
+    """Fill the group: split along the seams, move by the parts' centers.
+
+    All faces of a part have the same offset, so that its points, which have the mean
+    of those of their faces, have it too once no two parts share a point.
+    """
+    nodes = _Nodes(group)
+    given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 6)
+    part = nodes.add("GeometryNodeInputNamedAttribute", 0, data_type="INT")
+    part.inputs["Name"].default_value = PART_LAYER
+    seams = nodes.add("GeometryNodeMeshFaceSetBoundaries", 1)
+    split = nodes.add("GeometryNodeSplitEdges", 4)
+    move = nodes.add("GeometryNodeSetPosition", 5)
+    link = group.links.new
+    link(part.outputs["Attribute"], seams.inputs[0])
+    link(given.outputs["Geometry"], split.inputs["Mesh"])
+    link(seams.outputs[0], split.inputs["Selection"])
+    link(split.outputs["Mesh"], move.inputs["Geometry"])
+    link(move.outputs["Geometry"], out.inputs["Geometry"])
+    of_part = nodes.center(part.outputs["Attribute"])
+    apart = nodes.math("SUBTRACT", of_part, nodes.center(None))
+    far = nodes.math("SCALE", apart, None)
+    link(given.outputs["Distance"], far.node.inputs["Scale"])
+    on_face = nodes.add(
+        "GeometryNodeFieldOnDomain", 4, data_type="FLOAT_VECTOR", domain="FACE"
+    )
+    link(far, on_face.inputs[0])
+    link(on_face.outputs[0], move.inputs["Offset"])
+
+
+class _Nodes:
+    """Adds nodes to a group, in columns from left to right."""
+
+    def __init__(self, group: bpy.types.GeometryNodeTree) -> None:
+        self._group = group
+        self._heights: dict[int, float] = {}
+
+    def add(self, kind: str, column: int, **settings: str) -> bpy.types.Node:
+        """Return a new node."""
+        node = self._group.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        height = self._heights.get(column, 0.0)
+        node.location = 220.0 * column, -height
+        self._heights[column] = height + 220.0
+        return node
+
+    def center(self, group_id: Any) -> bpy.types.NodeSocket:
+        """Return the center, by area, of the faces of each group, or of all."""
+        area = self.add("GeometryNodeInputMeshFaceArea", 0)
+        place = self.add("GeometryNodeInputPosition", 0)
+        weighted = self.math("SCALE", place.outputs[0], None)
+        self._group.links.new(area.outputs[0], weighted.node.inputs["Scale"])
+        places = self._total("FLOAT_VECTOR", weighted, group_id)
+        areas = self._total("FLOAT", area.outputs[0], group_id)
+        return self.math("DIVIDE", places, areas)
+
+    def math(self, operation: str, first: Any, second: Any) -> bpy.types.NodeSocket:
+        """Return what vectors give."""
+        node = self.add("ShaderNodeVectorMath", 3, operation=operation)
+        self._group.links.new(first, node.inputs[0])
+        if second is not None:
+            self._group.links.new(second, node.inputs[1])
+        return node.outputs[0]
+
+    def _total(self, kind: str, values: Any, group_id: Any) -> bpy.types.NodeSocket:
+        """Return the sum of values over the faces of each group, or of all."""
+        node = self.add("GeometryNodeAccumulateField", 2, data_type=kind, domain="FACE")
+        self._group.links.new(values, node.inputs[0])
+        if group_id is not None:
+            self._group.links.new(group_id, node.inputs["Group ID"])
+        return node.outputs["Total"]

@@ -1,0 +1,81 @@
+"""The parts that an object has now: its labels, and what the record says of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.errors import DecompositionError
+from ....core.parameters.parts import Parameters
+from ..mesh.layers import layers_of
+from ..read.target import flush_edits, refusal
+from ..stored.identity import Identity
+from ..stored.record import identities_of, noted_parameters, record_of
+from ..stored.restore import read_restore
+from .erase import PART_LAYER
+
+
+@dataclass(frozen=True, eq=False)
+class PresentParts:
+    """The parts of an object.
+
+    Attributes
+    ----------
+    labels : (P,) int
+        Part of each face, or point.
+    identities : tuple of Identity
+    locked : (K,) bool
+        Which parts a new decomposition keeps.
+    parameters : Parameters
+        Of the decomposition that they come from.
+    areas, ranks : (K,) float
+        As recorded.
+    psi_by_k : dict of int to float
+    best_k : int
+        The number of parts that a search chooses.
+    """
+
+    labels: NDArray[np.int64]
+    identities: tuple[Identity, ...]
+    locked: NDArray[np.bool_]
+    parameters: Parameters
+    areas: NDArray[np.float64]
+    ranks: NDArray[np.float64]
+    psi_by_k: dict[int, float]
+    best_k: int
+
+
+def edit_refusal(obj: bpy.types.Object | None) -> str | None:
+    """Return why the parts of an object cannot be edited, None if they can."""
+    reason = refusal(obj)
+    if reason is None and not (
+        read_restore(obj.data) and record_of(obj).get("parts") and obj.wcd_parts
+    ):
+        reason = f"{obj.name} has no parts yet; press Decompose first"
+    return reason
+
+
+def present_parts(obj: bpy.types.Object) -> PresentParts:
+    """Return the parts of an object, which `edit_refusal` has nothing against."""
+    flush_edits(obj)
+    record = record_of(obj)
+    entries = record["parts"]
+    labels = layers_of(obj).faces(PART_LAYER)
+    if labels is None:
+        raise DecompositionError(
+            f"{obj.name} has lost its attribute {PART_LAYER}; press Decompose again."
+        )
+    return PresentParts(
+        # Faces made since may carry any number.
+        labels=np.clip(labels, 0, len(entries) - 1).astype(np.int64),
+        identities=identities_of(record),
+        locked=np.array([row.locked for row in obj.wcd_parts], dtype=bool),
+        parameters=noted_parameters(obj) or Parameters(),
+        areas=np.array([entry["area"] for entry in entries]),
+        ranks=np.array([entry["convexity_rank"] for entry in entries]),
+        psi_by_k={int(k): psi for k, psi in record["psi_by_k"].items()},
+        best_k=record["best_k"],
+    )

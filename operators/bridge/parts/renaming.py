@@ -1,0 +1,51 @@
+"""A part renamed: its vertex group, material and entry in the record go along."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ..mesh.points import is_cloud
+from ..stored.identity import Identity
+from ..stored.record import identities_of, record_of, write_record
+from ..stored.restore import read_restore, write_restore
+from .materials import discard_unused, is_ours, renamed_material
+
+
+def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
+    """Rename a part of an object, if it can be; return the name it has then."""
+    record, restore = record_of(obj), read_restore(obj.data)
+    entries = record.get("parts", [])
+    if restore is None or index >= len(entries):
+        return name
+    entry = entries[index]
+    taken = {other["name"] for other in entries if other is not entry}
+    if name == entry["name"] or not name or name in taken:
+        return str(entry["name"])
+    group = obj.type == "MESH" and obj.vertex_groups.get(entry["name"])
+    if group:
+        group.name = name
+        name = group.name  # Blender numbers names that are taken
+        groups = list(restore.groups)
+        groups[groups.index(entry["name"])] = name
+        write_restore(obj.data, replace(restore, groups=groups))
+    entry["name"] = name
+    _rename_material(obj, entry, replace(identities_of(record)[index], name=name))
+    write_record(obj, record)
+    return name
+
+
+def _rename_material(
+    obj: bpy.types.Object, entry: dict[str, Any], identity: Identity
+) -> None:
+    """Put a material with the part's new name into its slot."""
+    materials = obj.data.materials
+    index = materials.find(entry["material"])
+    if index < 0 or is_cloud(obj) or not is_ours(materials[index]):
+        return
+    before = materials[index]
+    materials[index] = renamed_material(before, identity)
+    entry["material"] = materials[index].name
+    discard_unused([before])

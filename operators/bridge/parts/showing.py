@@ -1,0 +1,58 @@
+"""Parts where other tools look for them: face sets, and a color attribute."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ....core.errors import DecompositionError
+from ..mesh.layers import layers_of
+from ..mesh.points import is_cloud
+from .erase import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
+from .palette import part_color
+from .parted import part_identities, part_labels
+
+
+def write_face_sets(obj: bpy.types.Object) -> None:
+    """Make a face set of each part; those there were are kept aside for Clear."""
+    layers, labels = layers_of(obj), _labels(obj)
+    if layers.faces(FACE_SET_LAYER) is None:
+        before = layers.faces(FACE_SETS)
+        layers.set_faces(
+            FACE_SET_LAYER, np.zeros_like(labels) if before is None else before
+        )
+    layers.set_faces(FACE_SETS, labels + 1)
+    layers.finish()
+
+
+def write_colors(obj: bpy.types.Object) -> None:
+    """Give the corners of faces the colors of their parts."""
+    layers, labels = layers_of(obj), _labels(obj)
+    identities = part_identities(obj, int(labels.max()) + 1)
+    palette = [part_color(identity.number) for identity in identities]
+    layers.set_colors(COLOR_LAYER, np.array(palette, dtype=np.float32)[labels])
+    layers.finish()
+
+
+def shown(obj: bpy.types.Object) -> tuple[bool, bool]:
+    """Return whether the parts of faces are shown as face sets, and as colors."""
+    if is_cloud(obj):
+        return False, False
+    colors = obj.data.attributes.get(COLOR_LAYER)
+    of_corners = colors is not None and colors.domain == "CORNER"
+    return FACE_SET_LAYER in obj.data.attributes, of_corners
+
+
+def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:
+    """Show the parts of faces as face sets, and as colors."""
+    if face_sets:
+        write_face_sets(obj)
+    if colors:
+        write_colors(obj)
+
+
+def _labels(obj: bpy.types.Object) -> np.ndarray:
+    labels = part_labels(obj)
+    if labels is None:
+        raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
+    return labels

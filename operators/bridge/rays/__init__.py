@@ -1,0 +1,1 @@
+"""Ray casters: Blender's BVH tree."""

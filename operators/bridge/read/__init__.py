@@ -1,0 +1,1 @@
+"""Objects of Blender become shapes."""

@@ -1,0 +1,1 @@
+"""What a file keeps of ours: notes in custom properties."""

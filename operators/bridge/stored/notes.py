@@ -1,0 +1,52 @@
+"""Notes of ours in the user's file: JSON in custom properties."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ....core.errors import DecompositionError
+from .record_text import parse_json
+
+_MANIFEST = Path(__file__).parents[3] / "blender_manifest.toml"
+
+
+def version() -> str:
+    """Return the version of the extension."""
+    manifest = tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))
+    return str(manifest["version"])
+
+
+def read_note(
+    owner: bpy.types.ID,
+    key: str,
+    parse: Callable[[str], dict[str, Any] | None] = parse_json,
+) -> dict[str, Any]:
+    """Return one of our notes, empty if there is none; raise if it is not ours."""
+    if key not in owner:
+        return {}
+    noted = parse(owner[key])
+    if noted is None:
+        raise not_ours(owner, key)
+    return noted
+
+
+def write_note(owner: bpy.types.ID, key: str, noted: dict[str, Any]) -> None:
+    """Write one of our notes; an empty one removes it."""
+    if noted:
+        owner[key] = json.dumps(noted)
+    elif key in owner:
+        del owner[key]
+
+
+def not_ours(owner: bpy.types.ID, key: str) -> DecompositionError:
+    """Return the error that a property under one of our names is the user's."""
+    return DecompositionError(
+        f"{owner.name} has a custom property {key} that this add-on did not write;"
+        " rename or delete it."
+    )

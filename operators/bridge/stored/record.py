@@ -1,0 +1,173 @@
+"""What is noted on an object for people and programs: its result, `wcd`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, fields
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ....core.errors import DecompositionError
+from ....core.parameters.hulls import HullParameters
+from ....core.parameters.parts import Parameters
+from .identity import Identity
+from .notes import read_note, version, write_note
+from .record_text import parse_record
+from .restore import has_parts, read_restore
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ....core.decomposition import Measurement
+    from ....core.hulls.build import HullDecomposition
+    from ....core.parts.find import Decomposition
+
+_RESULT = "wcd"
+_MEASURED = "measured"
+_SELECTION = "selection"
+_HULLS = "hulls"
+
+
+def has_record(obj: bpy.types.Object) -> bool:
+    """Return whether there is anything of ours on an object or its mesh."""
+    return _RESULT in obj or has_parts(obj)
+
+
+def record_of(obj: bpy.types.Object) -> dict[str, Any]:
+    """Return what is noted on an object, empty if nothing is."""
+    return read_note(obj, _RESULT, parse_record)
+
+
+def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
+    """Return the identities of a record's parts, in their order."""
+    return tuple(
+        Identity(part.get("number", place), part["name"])
+        for place, part in enumerate(record.get("parts", ()))
+    )
+
+
+def write_record(obj: bpy.types.Object, record: dict[str, Any]) -> None:
+    """Note a changed record on its object."""
+    write_note(obj, _RESULT, record)
+
+
+def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
+    """Return what the parts of an object were found with, None if it is not noted."""
+    try:
+        noted = record_of(obj).get("parameters")
+    except DecompositionError:  # a property of the user's
+        return None
+    if noted is None:
+        return None
+    known = {each.name for each in fields(Parameters)}  # other versions have others
+    return Parameters(**{name: noted[name] for name in known & noted.keys()})
+
+
+def check_records(obj: bpy.types.Object) -> None:
+    """Raise if a custom property under one of our names is not ours."""
+    read_restore(obj.data)
+    record_of(obj)
+
+
+def write_result(
+    obj: bpy.types.Object,
+    decomposition: Decomposition,
+    parameters: Parameters,
+    identities: Sequence[Identity],
+    materials: list[str],
+) -> None:
+    """Note a decomposition on its object, keeping all else."""
+    parts = zip(
+        identities,
+        materials,
+        decomposition.face_counts.tolist(),
+        decomposition.areas.tolist(),
+        decomposition.ranks.tolist(),
+        strict=True,
+    )
+    result = {
+        "version": version(),
+        "parameters": asdict(parameters),
+        "seed": parameters.seed,
+        "k": decomposition.n_parts,
+        "psi": float(decomposition.psi),
+        "psi_before": float(decomposition.psi_before),
+        "psi_by_k": {str(k): float(v) for k, v in decomposition.psi_by_k.items()},
+        "best_k": decomposition.best_k,
+        "parts": [
+            {
+                "name": identity.name,
+                "number": identity.number,
+                "material": material,
+                "faces": faces,
+                "area": area,
+                "convexity_rank": rank,
+            }
+            for identity, material, faces, area, rank in parts
+        ],
+        "notes": list(decomposition.notes),
+    }
+    beside = _beside_parts(obj)
+    for hull in beside.get(_HULLS, {}).get("hulls", ()):
+        hull["part"] = None  # it is around one of the parts that were before
+    write_note(obj, _RESULT, {**result, **beside})
+
+
+def write_measurement(
+    obj: bpy.types.Object,
+    measurement: Measurement,
+    parameters: dict[str, Any],
+    faces: int | None = None,
+) -> None:
+    """Note a measurement of an object, or of so many of its faces, keeping all else."""
+    result = record_of(obj) or {"version": version()}
+    noted = {
+        "convexity_rank": float(measurement.rank),
+        "standard_error": float(measurement.standard_error),
+        "samples": int(measurement.n_samples),
+        "parameters": parameters,
+        "notes": list(measurement.notes),
+    }
+    if faces is None:
+        result[_MEASURED] = noted
+    else:
+        result[_SELECTION] = {"faces": faces, **noted}
+    write_note(obj, _RESULT, result)
+
+
+def write_hull_record(
+    obj: bpy.types.Object,
+    found: HullDecomposition,
+    parameters: HullParameters,
+    hulls: list[dict[str, Any]],
+) -> None:
+    """Note the hulls of an object, keeping what else is noted."""
+    result = record_of(obj) or {"version": version()}
+    ratio = found.volume_ratio
+    result[_HULLS] = {
+        "parameters": asdict(parameters),
+        "largest_error": float(found.errors.max()),
+        "volume_ratio": ratio if math.isfinite(ratio) else None,
+        "hulls": hulls,
+        "notes": list(found.notes),
+    }
+    write_note(obj, _RESULT, result)
+
+
+def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
+    """Return what is noted on an object besides its decomposition."""
+    result = record_of(obj)
+    return {
+        key: result[key] for key in (_MEASURED, _SELECTION, _HULLS) if key in result
+    }
+
+
+def forget_parts(obj: bpy.types.Object) -> None:
+    """Remove what was noted of a decomposition, keeping all else."""
+    kept = _beside_parts(obj)
+    write_note(obj, _RESULT, {"version": version(), **kept} if kept else {})
+
+
+def forget_result(obj: bpy.types.Object) -> None:
+    """Remove everything that was noted on an object."""
+    write_note(obj, _RESULT, {})

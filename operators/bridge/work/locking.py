@@ -1,0 +1,82 @@
+"""Objects decomposed anew, all but their locked parts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ....core.errors import DecompositionError
+from ....core.parameters.parts import Parameters
+from ....core.steps.progress import Steps
+from ..parts.present_parts import PresentParts, edit_refusal, present_parts
+from ..rays.bvh import BvhRayCaster
+from .computing import decompose_object
+from .editing import Edited, edit_object
+
+if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ....core.parts.editing import Change
+    from ....core.sight.prepared import Shape
+    from ....core.sight.visibility import Visibility
+
+
+def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
+    """Return the work of decomposing an object, all but its locked parts if any.
+
+    Errors are those of `decompose_object` and `edit_object`, and of numbers of parts
+    that leave none to what is not locked.
+    """
+    locks = edit_refusal(obj) is None and any(row.locked for row in obj.wcd_parts)
+    if locks:
+        return _decompose_rest(obj, parameters)
+    steps = decompose_object(obj, parameters)
+
+    def work() -> Steps[Edited]:
+        return Edited((yield from steps), None, parameters)
+
+    return work()
+
+
+def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
+    """Return the work of decomposing what is not locked, from samples of its own."""
+    parts = present_parts(obj)
+    locked = np.flatnonzero(parts.locked)
+    members = ~np.isin(parts.labels, locked)
+    rest = _parameters_of_rest(parameters, len(np.unique(parts.labels[~members])))
+    if not members.any():
+        raise DecompositionError(
+            "All parts are locked, so that nothing is left to decompose; unlock some."
+        )
+
+    def change(shape: Shape, _: Visibility, parts: PresentParts) -> Steps[Change]:
+        from ....core.decomposition import decompose
+        from ....core.parts.editing import Change
+
+        found = yield from decompose(shape, rest, BvhRayCaster, members)
+        labels = parts.labels.copy()
+        first = len(parts.identities)
+        labels[members] = first + found.labels
+        ranks = {first + part: rank for part, rank in enumerate(found.ranks.tolist())}
+        return Change(labels, ranks)
+
+    return edit_object(obj, change, parameters)
+
+
+def _parameters_of_rest(parameters: Parameters, n_locked: int) -> Parameters:
+    """Return the parameters of what is not locked: numbers of parts count all."""
+    fewest = max(2, parameters.min_parts - n_locked)
+    most = max(fewest, parameters.max_parts - n_locked)
+    n_parts = parameters.parts
+    if n_parts and n_parts <= n_locked:
+        raise DecompositionError(
+            f"Parts is {n_parts}, and counts the {n_locked} that are locked; raise it"
+            f" to {n_locked + 1} at least, set it to 0, or unlock some."
+        )
+    return replace(
+        parameters,
+        parts=n_parts - n_locked if n_parts else 0,
+        min_parts=fewest,
+        max_parts=most,
+    )

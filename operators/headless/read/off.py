@@ -1,0 +1,98 @@
+"""Reads .off files, for which Blender has no importer."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.errors import DecompositionError
+from .finite_checks import not_finite
+
+# STOFF, COFF and NOFF add columns behind the coordinates; some writers glue the
+# first count to the keyword ("OFF490 518 0").
+_HEADER = re.compile(r"(ST)?C?N?OFF(?![A-Za-z])\s*(.*)")
+
+
+def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
+    """Return the vertices (V, 3) and the polygons of an .off file.
+
+    Colors, normals and texture coordinates are passed over.
+
+    Raises
+    ------
+    DecompositionError
+        If the file is not OFF, is cut short or refers to vertices it lacks.
+    """
+    text = path.read_bytes().decode("latin-1")
+    lines = [line for line in map(_without_comment, text.splitlines()) if line]
+    n_vertices, n_faces, body = _header(lines, path.name)
+    if len(body) < n_vertices + n_faces:
+        raise DecompositionError(
+            f"{path.name} is truncated: it promises {n_vertices} vertices and"
+            f" {n_faces} faces, one a line, but has {len(body)} lines of them."
+        )
+    vertices = _vertices(body[:n_vertices], path.name)
+    if not np.isfinite(vertices).all():
+        raise not_finite(path)
+    rows = body[n_vertices : n_vertices + n_faces]
+    return vertices, [_polygon(row, n_vertices, path.name) for row in rows]
+
+
+def _without_comment(line: str) -> str:
+    """Return `line` without a comment and outer blanks."""
+    return line.partition("#")[0].strip()
+
+
+def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
+    """Return the counts of vertices and faces, and the lines that follow them."""
+    match = _HEADER.fullmatch(lines[0]) if lines else None
+    if match is None:
+        raise DecompositionError(
+            f"{name} does not begin like an OFF file in text form; export it again"
+            " as plain OFF."
+        )
+    rest = match.group(2)
+    counts, body = (rest, lines[1:]) if rest else ("".join(lines[1:2]), lines[2:])
+    words = counts.split()
+    if len(words) < 2 or not all(word.isdigit() for word in words[:2]):
+        raise DecompositionError(
+            f"{name} does not state its numbers of vertices and faces; it is"
+            " truncated or a binary or other kind of OFF."
+        )
+    return int(words[0]), int(words[1]), body
+
+
+def _vertices(rows: list[str], name: str) -> NDArray[np.float64]:
+    """Return the first three numbers of each row."""
+    try:
+        values = [[float(word) for word in row.split(None, 3)[:3]] for row in rows]
+        return np.array(values, dtype=np.float64).reshape(len(rows), 3)
+    except ValueError as error:
+        raise DecompositionError(
+            f"{name} has a vertex that is not three numbers; it is damaged."
+        ) from error
+
+
+def _polygon(row: str, n_vertices: int, name: str) -> list[int]:
+    """Return the corners of the face in `row`."""
+    try:
+        words = row.split()
+        corners = [int(word) for word in words[1 : 1 + int(words[0])]]
+        complete = len(corners) == int(words[0])
+    except ValueError:
+        complete = False
+        corners = []
+    if not complete:
+        raise DecompositionError(
+            f"{name} has a face whose corners are not whole numbers, or too few; it"
+            " is truncated or damaged."
+        )
+    if corners and not 0 <= min(corners) <= max(corners) < n_vertices:
+        raise DecompositionError(
+            f"{name} has a face that refers to a vertex it does not have; it is"
+            " damaged."
+        )
+    return corners

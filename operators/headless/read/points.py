@@ -1,0 +1,66 @@
+"""Reads .xyz, .pwn and .pts files, for which Blender has no importer.
+
+A point a line: x y z, perhaps followed by the normal nx ny nz. A first line of one
+number states how many points follow; .pwn files may list all normals after all points.
+"""
+
+from __future__ import annotations
+
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.errors import DecompositionError
+from .finite_checks import not_finite
+
+Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
+
+
+def read_points(path: Path) -> Points:
+    """Return the points (N, 3) of a file, and their normals (N, 3) if it has them.
+
+    Where there are other than three columns behind the coordinates, they are no
+    normals, but intensities or colors, and passed over.
+
+    Raises
+    ------
+    DecompositionError
+        If the file is not of numbers in rows of one length, or is cut short.
+    """
+    text = path.read_bytes().decode("latin-1").replace(",", " ")
+    if not text.strip():
+        raise DecompositionError(f"{path.name} has no points; it is empty.")
+    first, _, rest = text.partition("\n")
+    n_points = int(first) if first.strip().isdigit() else None
+    try:
+        table = np.loadtxt(StringIO(text if n_points is None else rest), ndmin=2)
+    except ValueError as error:
+        raise DecompositionError(
+            f"{path.name} does not have numbers, as many on each line; it is damaged"
+            " or of another kind."
+        ) from error
+    if table.shape[1] < 3:
+        raise DecompositionError(
+            f"{path.name} does not have three coordinates on each line; it is damaged"
+            " or of another kind."
+        )
+    points, normals = _divided(table, n_points)
+    if n_points is not None and len(points) != n_points:
+        raise DecompositionError(
+            f"{path.name} promises {n_points} points but has {len(table)} lines of"
+            " them; it is truncated or damaged."
+        )
+    if not np.isfinite(points).all():
+        raise not_finite(path)
+    return points, normals
+
+
+def _divided(table: NDArray[np.float64], n_points: int | None) -> Points:
+    """Return points and normals: side by side, or the ones after the others."""
+    if table.shape[1] == 6:
+        return table[:, :3], table[:, 3:]
+    if table.shape[1] == 3 and n_points is not None and len(table) == 2 * n_points:
+        return table[:n_points], table[n_points:]
+    return table[:, :3], None

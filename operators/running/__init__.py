@@ -1,0 +1,1 @@
+"""How operators run long computations, and on which objects."""

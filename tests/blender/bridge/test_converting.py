@@ -1,0 +1,150 @@
+"""Curves, texts, surfaces and metaballs: decomposed on meshes beside them."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from hand_made import activate, face_values
+from hands import check_fingers, hand_curve
+from mathutils import Matrix
+from weak_convex_decomposition.operators.bridge.read.converting import converted
+
+FAST = {"samples": 200, "parts": 2}
+# At the start: no traceback comes before it.
+NO_OUTLINE = r"\AError: \S+ has no faces, and no closed outline in one plane"
+
+
+def blocks():
+    """Return the data that there is."""
+    names = ("objects", "meshes", "curves", "metaballs", "materials")
+    return {name: sorted(getattr(bpy.data, name).keys()) for name in names}
+
+
+def circles(*radii):
+    """Return a curve of circles, one in the other."""
+    for radius in radii:
+        bpy.ops.curve.primitive_bezier_circle_add(radius=radius)
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(True)
+    if len(radii) > 1:
+        bpy.ops.object.join()
+    return bpy.context.active_object
+
+
+def test_the_outline_of_a_hand_has_a_palm_and_five_fingers():
+    hand = hand_curve()
+    hand.location = (1, 2, 3)
+    bpy.ops.wcd.decompose()
+    carrier = bpy.context.active_object
+    assert (carrier.name, carrier.parent, hand.type) == ("Hand parts", hand, "CURVE")
+    assert list(hand.keys()) == []
+    bpy.context.view_layer.update()
+    assert carrier.matrix_world == hand.matrix_world
+    check_fingers(carrier, face_values(carrier.data, "wcd_part"))
+    assert "Hand is as it was" in json.loads(carrier["wcd"])["notes"][0]
+
+
+def test_running_again_replaces_the_mesh():
+    hand = hand_curve()
+    bpy.ops.wcd.decompose(**FAST)
+    after = blocks()
+    activate(hand)
+    bpy.ops.wcd.decompose(**FAST)
+    assert blocks() == after
+    assert len(json.loads(bpy.context.active_object["wcd"])["parts"]) == 2
+
+
+@pytest.mark.parametrize("runs", [1, 2])
+def test_one_undo_takes_back_what_a_run_made(runs):
+    """Blocks that undo leaves without a user are kept until the file is saved."""
+    hand_curve()
+    for _ in range(runs):
+        activate(bpy.data.objects["Hand"])
+        before = _in_scene()
+        bpy.ops.ed.undo_push(message="before")
+        bpy.ops.wcd.decompose("EXEC_DEFAULT", True, samples=200, parts=runs + 1)
+        after = _in_scene()
+    assert after != before
+    bpy.ops.ed.undo()
+    assert _in_scene() == before
+    bpy.ops.ed.redo()
+    assert _in_scene() == after
+
+
+def _in_scene():
+    """Return the objects, whether they are selected, and their records."""
+    return sorted(
+        (obj.name, obj.select_get(), obj.get("wcd"), len(obj.data.materials))
+        for obj in bpy.context.scene.objects
+    )
+
+
+def test_outlines_are_filled_however_they_are_turned():
+    area = sum(face.area for face in converted(hand_curve()).polygons)
+    hand = hand_curve()
+    turn = Matrix.Rotation(1, 4, "X") @ Matrix.Rotation(0.5, 4, "Y")
+    hand.data.transform(turn @ Matrix.Translation((3, 2, 1)))
+    mesh = converted(hand)
+    assert sum(face.area for face in mesh.polygons) == pytest.approx(area, rel=1e-4)
+    places = np.array([vertex.co for vertex in mesh.vertices])
+    corners = np.array([point.co[:3] for point in hand.data.splines[0].points])
+    gaps = np.linalg.norm(places[:, None] - corners, axis=2).min(axis=0)
+    assert gaps.max() < 1e-4
+
+
+def test_outlines_in_outlines_are_holes():
+    mesh = converted(circles(2, 1))
+    area = sum(face.area for face in mesh.polygons)
+    assert area == pytest.approx(3 * np.pi, rel=0.02)
+    lengths = [(a.co - b.co).length for a, b in ends(mesh)]
+    assert max(lengths) < 0.15
+
+
+def ends(mesh):
+    """Return the two vertices of each edge."""
+    return [[mesh.vertices[row] for row in edge.vertices] for edge in mesh.edges]
+
+
+@pytest.mark.parametrize(
+    "add",
+    [
+        lambda: bpy.ops.object.text_add(),
+        lambda: bpy.ops.object.metaball_add(),
+        lambda: bpy.ops.surface.primitive_nurbs_surface_sphere_add(),
+        lambda: bpy.ops.curve.primitive_bezier_circle_add(),
+    ],
+)
+def test_whatever_has_faces_as_a_mesh_is_decomposed(add):
+    add()
+    obj = bpy.context.active_object
+    before = blocks()
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    carrier = bpy.context.active_object
+    assert set(face_values(carrier.data, "wcd_part")) == {0, 1}
+    assert set(blocks()["objects"]) - set(before["objects"]) == {f"{obj.name} parts"}
+    activate(obj)
+    with pytest.raises(RuntimeError, match="Decompose makes one beside it"):
+        bpy.ops.wcd.measure()
+
+
+def test_a_curve_without_an_outline_has_its_sentence():
+    bpy.ops.curve.primitive_bezier_curve_add()
+    before = blocks()
+    with pytest.raises(
+        RuntimeError,
+        match=NO_OUTLINE,
+    ):
+        bpy.ops.wcd.decompose(**FAST)
+    assert blocks() == before
+
+
+def test_an_outline_that_is_not_flat_has_its_sentence():
+    hand_curve().data.splines[0].points[3].co.z = 1
+    before = blocks()
+    with pytest.raises(
+        RuntimeError,
+        match=NO_OUTLINE,
+    ):
+        bpy.ops.wcd.decompose(**FAST)
+    assert blocks() == before

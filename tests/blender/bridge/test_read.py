@@ -1,0 +1,128 @@
+import bpy
+import numpy as np
+import pytest
+from hand_made import activate, mesh_object
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.read.shape import (
+    read_shape,
+    reading_notes,
+)
+
+HEXAGON = [(np.cos(a), np.sin(a), 0.0) for a in np.linspace(0, 2 * np.pi, 7)[:-1]]
+
+
+def normals(mesh):
+    a, b, c = (mesh.vertices[mesh.triangles[:, i]] for i in range(3))
+    return np.cross(b - a, c - a)
+
+
+def test_polygons_of_any_size_become_triangles_that_know_them():
+    obj = mesh_object(
+        "mixed",
+        [*HEXAGON, (2.0, 0.0, 0.0), (2.0, 1.0, 0.0), (3.0, 0.0, 0.0)],
+        [range(6), (0, 6, 7, 1), (6, 8, 7)],
+    )
+    mesh = read_shape(obj)
+    assert mesh.polygons.tolist() == [0, 0, 0, 0, 1, 1, 2]
+    assert mesh.n_polygons == 3
+    assert mesh.vertices.shape == (9, 3)
+    areas = np.bincount(mesh.polygons, np.linalg.norm(normals(mesh), axis=1) / 2)
+    assert areas[0] == pytest.approx(3 * np.sqrt(3) / 2, rel=1e-6)
+
+
+def test_modifiers_are_named_but_not_read(suzanne):
+    before = read_shape(suzanne)
+    suzanne.modifiers.new("Smooth It", "SUBSURF").levels = 2
+    hidden = suzanne.modifiers.new("Hidden", "MIRROR")
+    hidden.show_viewport = False
+    bpy.context.view_layer.update()
+    assert len(read_shape(suzanne).triangles) == len(before.triangles)
+    (note,) = reading_notes(suzanne)
+    assert "Smooth It" in note
+    assert "Hidden" not in note
+
+
+def test_an_unmodified_object_needs_no_notes(suzanne):
+    assert reading_notes(suzanne) == ()
+
+
+def test_shared_meshes_and_shape_keys_are_noted(suzanne):
+    bpy.context.collection.objects.link(bpy.data.objects.new("twin", suzanne.data))
+    suzanne.shape_key_add(name="Basis")
+    suzanne.shape_key_add(name="smile").value = 1.0
+    shape, shared = reading_notes(suzanne)
+    assert "Basis" in shape
+    assert "2 objects share this mesh" in shared
+
+
+def test_non_uniform_scale_stretches_the_copy_alone(suzanne):
+    unscaled = read_shape(suzanne)
+    suzanne.scale = (1.0, 2.0, 3.0)
+    suzanne.rotation_euler = (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    scaled = read_shape(suzanne)
+    assert np.allclose(scaled.vertices, unscaled.vertices * (1, 2, 3), rtol=1e-5)
+    suzanne.scale = (1.0, 1.0, 1.0)
+    bpy.context.view_layer.update()
+    assert (read_shape(suzanne).vertices == unscaled.vertices).all()
+
+
+@pytest.mark.parametrize("scale", [5.0, -5.0, 0.001])
+def test_uniform_scale_and_rotation_change_nothing(suzanne, scale):
+    before = read_shape(suzanne)
+    suzanne.scale = (scale, scale, scale)
+    suzanne.rotation_euler = (1.0, 2.0, 3.0)
+    suzanne.location = (10.0, 20.0, 30.0)
+    bpy.context.view_layer.update()
+    after = read_shape(suzanne)
+    assert (after.vertices == before.vertices).all()
+    assert (after.triangles == before.triangles).all()
+
+
+def test_mirroring_keeps_normals_outward():
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    cube.scale = (1.0, -2.0, 1.0)
+    bpy.context.view_layer.update()
+    mesh = read_shape(cube)
+    centers = mesh.vertices[mesh.triangles].mean(axis=1)
+    assert ((normals(mesh) * centers).sum(axis=1) > 0).all()
+
+
+def test_a_scale_of_zero_is_refused(suzanne):
+    suzanne.scale = (1.0, 0.0, 1.0)
+    bpy.context.view_layer.update()
+    with pytest.raises(DecompositionError, match="scale is zero"):
+        read_shape(suzanne)
+
+
+def test_edit_mode_changes_are_read():
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    assert len(read_shape(cube).triangles) == 12
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    mesh = read_shape(cube)
+    assert mesh.n_polygons == 24
+    assert len(mesh.triangles) == 48
+    assert cube.mode == "EDIT"
+
+
+def test_reading_leaves_the_mesh_as_it_is(suzanne):
+    from snapshot import snapshot
+
+    before = snapshot(suzanne)
+    read_shape(suzanne)
+    assert snapshot(suzanne) == before
+
+
+def test_bad_meshes_are_refused_with_a_sentence():
+    empty = mesh_object("empty", [(0, 0, 0), (1, 0, 0)], [])
+    with pytest.raises(DecompositionError, match="no faces"):
+        read_shape(empty)
+    for bad in (np.nan, np.inf):
+        broken = mesh_object("b", [(0, 0, bad), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+        activate(broken)
+        with pytest.raises(DecompositionError, match="not finite"):
+            read_shape(broken)

@@ -1,0 +1,255 @@
+import io
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+
+import bpy
+import pytest
+from weak_convex_decomposition.core.parameters.parameter import info_of
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parameters.presets import preset
+from weak_convex_decomposition.core.steps.progress import Progress
+from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.request.options import parse
+from weak_convex_decomposition.operators.headless.screen import Screen
+
+ROOT = Path(__file__).parents[3]
+QUICK = ["--samples", "100", "--parts", "2"]
+
+
+@pytest.fixture
+def model(tmp_path):
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.wm.obj_export(filepath=str(tmp_path / "monkey.obj"))
+    return tmp_path / "monkey.obj"
+
+
+def run(*arguments):
+    return main([str(argument) for argument in arguments])
+
+
+def test_help_explains_every_parameter_with_its_default(capsys):
+    assert run("--help") == 0
+    words = " ".join(capsys.readouterr().out.split())
+    for field in fields(Parameters):
+        assert f"--{field.name.replace('_', '-')} " in words
+        assert info_of(field).help.replace("%%", "%") in words
+    assert words.count("(default: ") >= len(fields(Parameters))
+    assert "{name}" in words
+
+
+def test_version(capsys):
+    assert run("--version") == 0
+    version = (ROOT / "blender_manifest.toml").read_text().split('\nversion = "')[1]
+    assert capsys.readouterr().out.strip().endswith(version.split('"')[0])
+
+
+def test_without_options_parameters_have_their_defaults():
+    assert parse(["a.obj"], "wcd").parameters == Parameters()
+
+
+def test_options_reach_the_parameters():
+    arguments = "a.obj --parts 4 --cone-angle 60 --sight CONE --psi-pairs rays"
+    parameters = parse(arguments.split(), "wcd").parameters
+    assert parameters.parts == 4
+    assert parameters.cone_angle == pytest.approx(math.radians(60))
+    assert (parameters.sight, parameters.psi_pairs) == ("CONE", "RAYS")
+    assert parse(["a.obj", "--sight", "All_Pairs"], "wcd").parameters == Parameters()
+
+
+def test_options_change_a_preset():
+    parameters = parse(["a.obj", "--alpha=3", "--preset=paper"], "wcd").parameters
+    assert parameters == preset("PAPER").parameters(alpha=3.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("", "INPUT"),
+        ("a.obj --part 3", "unrecognized"),
+        ("a.obj --parts many", "invalid int value"),
+        ("a.obj --parts 1000", "Parts is 1000; choose a value from 0 to 256."),
+        ("a.obj --cone-angle 181", "181 is not from 1 to 180 degrees"),
+        ("a.obj --cone-angle wide", "invalid angle value"),
+        ("a.obj --cone-angle nan", "nan is not from 1 to 180 degrees"),
+        ("a.obj --alpha nan", "must be a number"),
+        ("a.obj --sight far", "not one of all-pairs, cone"),
+        ("a.obj --min-parts 9 --max-parts 3", "above Most Parts"),
+        ("a.obj --output {tmp}/b.stl", "--output has to end in one of .blend"),
+        ("a.obj --picture {tmp}/b.jpg", "--picture has to end in one of .png"),
+        ("a.obj b.obj --output {tmp}/b.glb", "--output needs {name}"),
+        ("a.obj x/a.off --output {tmp}/{name}.glb", "written twice"),
+        ("{tmp}/a.obj --output {tmp}/a.obj", "is an input, too"),
+        ("a.obj --report {tmp}/b.glb --output {tmp}/b.glb", "written twice"),
+        ("a.obj --output {tmp}/none/b.glb", "there is no folder"),
+        ("a.obj --report {tmp}", "is a folder"),
+    ],
+)
+def test_wrong_usage(tmp_path, capsys, arguments, message):
+    words = arguments.replace("{tmp}", str(tmp_path)).split()
+    assert run(*words) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert message in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_one_input_all_results(tmp_path, model, capfd):
+    report, output = tmp_path / "r.json", tmp_path / "out.blend"
+    capfd.readouterr()  # what Blender said about making the input
+    status = run(model, "--output", output, "--report", report, *QUICK, "--seed", 5)
+    out, err = capfd.readouterr()
+    assert status == 0
+    assert out.startswith("monkey.obj, Suzanne: 2 parts, psi ")
+    assert out.count("\n") == 1
+    assert err.startswith("monkey.obj, Suzanne: ")
+    (entry,) = json.loads(report.read_text())["inputs"]
+    (result,) = entry["objects"]
+    assert (entry["input"], entry["output"]) == (str(model), str(output))
+    assert entry["errors"] == []
+    assert (result["seed"], result["k"], len(result["parts"])) == (5, 2, 2)
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    record = json.loads(bpy.data.objects["Suzanne"]["wcd"])
+    assert record.items() <= result.items()
+    assert sum(part["faces"] for part in record["parts"]) == 500
+
+
+def test_the_operator_gives_the_same_parts(tmp_path, model):
+    assert run(model, "--output", tmp_path / "out.blend", *QUICK) == 0
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.obj_import(filepath=str(model))
+    obj = bpy.context.active_object
+    bpy.ops.wcd.decompose(samples=100, parts=2)
+    by_operator = [d.value for d in obj.data.attributes["wcd_part"].data]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    mesh = bpy.data.objects["Suzanne"].data
+    assert [d.value for d in mesh.attributes["wcd_part"].data] == by_operator
+
+
+def test_what_fails_leaves_the_rest_and_its_own_files_alone(tmp_path, model, capfd):
+    bad = tmp_path / "bad.ply"
+    bad.write_bytes(b"ply\nnonsense")
+    (tmp_path / "bad.glb").write_text("earlier")
+    report = tmp_path / "r.json"
+    pattern = tmp_path / "{name}.glb"
+    status = run(
+        bad, "none.obj", model, "--output", pattern, "--report", report, *QUICK
+    )
+    out, err = capfd.readouterr()
+    assert status == 1
+    assert out.count("\n") == 1
+    errors = [line for line in err.splitlines() if line.startswith("error: ")]
+    assert len(errors) == 2
+    assert "Traceback" not in err
+    assert (tmp_path / "bad.glb").read_text() == "earlier"
+    assert (tmp_path / "monkey.glb").stat().st_size > 10_000
+    assert not (tmp_path / "none.glb").exists()
+    entries = json.loads(report.read_text())["inputs"]
+    assert [f"error: {e}" for entry in entries for e in entry["errors"]] == errors
+    assert [entry["output"] is None for entry in entries] == [True, True, False]
+
+
+def test_every_object_is_decomposed_once(tmp_path, capfd):
+    bpy.ops.mesh.primitive_monkey_add()
+    first = bpy.context.active_object
+    shared = bpy.data.objects.new("Twin", first.data)
+    wire = bpy.data.meshes.new("Wire")
+    wire.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    flat = bpy.data.meshes.new("Flat")
+    flat.from_pydata([(0, 0, 0)] * 3, [], [(0, 1, 2)])
+    for obj in (
+        shared,
+        bpy.data.objects.new("Wire", wire),
+        bpy.data.objects.new("Flat", flat),
+    ):
+        bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
+    report = tmp_path / "r.json"
+    capfd.readouterr()  # what Blender said about making the input
+    assert run(tmp_path / "a.blend", "--report", report, "--quiet", *QUICK) == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert "Twin: It shares the mesh of Suzanne" in err
+    assert "Wire: It has no faces" in err
+    assert "error: a.blend, Flat: " in err
+    objects = json.loads(report.read_text())["inputs"][0]["objects"]
+    assert [obj["name"] for obj in objects] == ["Flat", "Suzanne", "Twin", "Wire"]
+    assert [bool(obj["error"]) for obj in objects] == [True, False, False, False]
+
+
+def test_picture_option(tmp_path, model):
+    assert run(model, "--picture", tmp_path / "{name}.png", *QUICK, "--quiet") == 0
+    assert (tmp_path / "monkey.png").read_bytes().startswith(b"\x89PNG")
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_progress_keeps_to_one_line_on_a_terminal():
+    now = iter(range(100))
+    out, err = io.StringIO(), Terminal()
+    screen = Screen(out, err, quiet=False, clock=lambda: next(now))
+    screen.progress("a", Progress("Samples", 0.25))
+    screen.progress("a", Progress("Sight", 0.5))
+    screen.result("done")
+    assert "\n" not in err.getvalue()
+    assert err.getvalue().endswith("\ra: Sight  50%\r" + " " * 13 + "\r")
+    assert out.getvalue() == "done\n"
+
+
+def test_progress_is_sparse_in_a_log():
+    err = io.StringIO()
+    times = iter([0.0, 0.0, 0.5, 3.0, 3.0, 9.0, 9.0])
+    screen = Screen(io.StringIO(), err, quiet=False, clock=lambda: next(times))
+    for stage in ("Samples", "Sight", "Sight", "Sight"):
+        screen.progress("a", Progress(stage, 0.5))
+    assert err.getvalue() == "a: Samples (50%)\na: Sight (50%)\n"
+
+
+def test_what_an_encoding_lacks_is_spelled_out():
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii", newline="\n")
+    Screen(stream, stream, quiet=False).result("Käse")
+    assert stream.buffer.getvalue() == b"K\\xe4se\n"
+
+
+def test_from_a_checkout_of_any_name(tmp_path, model):
+    checkout = tmp_path / "my check-out"
+    checkout.mkdir()
+    for name in ("__init__.py", "__main__.py", "blender_manifest.toml"):
+        shutil.copy(ROOT / name, checkout)
+    for name in ("core", "operators", "ui"):
+        shutil.copytree(ROOT / name, checkout / name)
+
+    # Set by bpy in this process; another bpy would say that it found it.
+    environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
+
+    def python_dot(*arguments):
+        return subprocess.run(
+            [sys.executable, ".", *map(str, arguments)],
+            cwd=checkout,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=100,
+        )
+
+    done = python_dot(model, "missing.obj", "--output", tmp_path / "{name}.ply", *QUICK)
+    assert done.returncode == 1
+    assert done.stdout.startswith("monkey.obj, Suzanne: 2 parts")
+    assert done.stdout.count("\n") == 1
+    assert "error: missing.obj does not exist." in done.stderr.splitlines()
+    assert "Traceback" not in done.stderr
+    assert (tmp_path / "monkey.ply").read_bytes().startswith(b"ply")
+    assert python_dot(model, *QUICK, "--quiet").returncode == 0
+    wrong = python_dot("--parts", "-1", model)
+    assert wrong.returncode == 2
+    assert wrong.stderr.startswith("usage: python . ")

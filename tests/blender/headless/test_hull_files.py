@@ -1,0 +1,182 @@
+import json
+import struct
+import xml.etree.ElementTree as ET
+
+import bpy
+import numpy as np
+import pytest
+from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.read.models import load
+from weak_convex_decomposition.operators.headless.request.options import parse
+
+QUICK = ["--samples=100", "--parts=2", "--max-hulls=3", "--naming=unreal"]
+NAMES = ["UCX_Suzanne_01", "UCX_Suzanne_02", "UCX_Suzanne_03"]
+
+
+@pytest.fixture
+def model(tmp_path):
+    bpy.ops.mesh.primitive_monkey_add(location=(1, 2, 3), rotation=(0.3, 0.5, 0))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "monkey.blend"), copy=True)
+    return tmp_path / "monkey.blend"
+
+
+def run(*arguments):
+    return main([str(argument) for argument in (*arguments, "--quiet")])
+
+
+def boxes(objects):
+    """Return the bounding box of each object's vertices in the world, by name."""
+    bpy.context.view_layer.update()
+    found = {}
+    for obj in objects:
+        places = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+        found[obj.name] = np.concatenate([places.min(axis=0), places.max(axis=0)])
+    return found
+
+
+def hull_boxes(model):
+    """Return the boxes of the hulls that the operator makes of a model."""
+    (suzanne,) = load(model)
+    bpy.context.view_layer.objects.active = suzanne
+    bpy.ops.wcd.decompose(samples=100, parts=2)
+    bpy.ops.wcd.build_hulls(max_hulls=3, naming="UNREAL")
+    return boxes(hulls_of(suzanne))
+
+
+def assert_same(read, written):
+    assert sorted(read) == sorted(written)
+    for name, box in read.items():
+        assert box == pytest.approx(written[name], abs=1e-4)
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj"])
+def test_models_come_back_with_names_and_places(tmp_path, model, ending):
+    path = tmp_path / f"hulls.{ending}"
+    assert run(model, "--hulls", path, *QUICK, "--up=Z") == 0
+    read = boxes(load(path, "Z"))
+    assert_same(read, hull_boxes(model))
+
+
+def test_usd_comes_back(tmp_path, model):
+    path = tmp_path / "hulls.usd"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.usd_import(filepath=str(path))
+    meshes = [obj for obj in bpy.data.objects if obj.type == "MESH"]
+    assert len(meshes) == 3
+    read = boxes(meshes)
+    expected = hull_boxes(model)
+    # Names of prims and of meshes below them.
+    assert sorted(name[: len(NAMES[0])] for name in read) == NAMES
+    for name, box in read.items():
+        assert box == pytest.approx(expected[name[: len(NAMES[0])]], abs=1e-4)
+
+
+def test_glb_marks_convex_colliders(tmp_path, model):
+    path = tmp_path / "hulls.glb"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    data = path.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    scene = json.loads(data[20 : 20 + length])
+    assert struct.unpack_from("<I", data, 8) == (len(data),)
+    assert scene["extensionsUsed"].count("KHR_physics_rigid_bodies") == 1
+    nodes = scene["nodes"]
+    assert sorted(node["name"] for node in nodes) == NAMES
+    for number, node in enumerate(nodes):
+        collider = node["extensions"]["KHR_physics_rigid_bodies"]["collider"]
+        assert collider == {"geometry": {"node": number, "convexHull": True}}
+
+
+def test_usd_marks_convex_colliders(tmp_path, model):
+    path = tmp_path / "hulls.usd"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    if not hasattr(bpy.utils, "expose_bundled_modules"):
+        return  # Blender 4.2 lends no USD to Python: written, and not marked
+    bpy.utils.expose_bundled_modules()
+    from pxr import Usd, UsdGeom, UsdPhysics
+
+    stage = Usd.Stage.Open(str(path))
+    meshes = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert len(meshes) == 3
+    for mesh in meshes:
+        assert mesh.HasAPI(UsdPhysics.CollisionAPI)
+        marked = UsdPhysics.MeshCollisionAPI(mesh)
+        assert marked.GetApproximationAttr().Get() == "convexHull"
+
+
+def test_stl_holds_all_hulls(tmp_path, model):
+    path = tmp_path / "hulls.stl"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    ((_, box),) = boxes(load(path, "Z")).items()
+    every = np.array(list(hull_boxes(model).values()))
+    expected = np.concatenate([every[:, :3].min(axis=0), every[:, 3:].max(axis=0)])
+    assert box == pytest.approx(expected, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("ending", "entries", "mesh", "attribute"),
+    [
+        ("urdf", "link/collision", "geometry/mesh", "filename"),
+        ("xml", "asset/mesh", ".", "file"),
+    ],
+)
+def test_simulators_get_a_file_a_hull(
+    tmp_path, model, ending, entries, mesh, attribute
+):
+    path = tmp_path / f"hulls.{ending}"
+    assert run(model, "--hulls", path, *QUICK) == 0
+    root = ET.parse(path).getroot()
+    found = root.findall(entries)
+    files = {e.get("name"): tmp_path / e.find(mesh).get(attribute) for e in found}
+    assert list(files) == NAMES
+    read = {}
+    for name, file in files.items():
+        ((_, read[name]),) = boxes(load(file, "Z")).items()
+    assert_same(read, hull_boxes(model))
+    if ending == "xml":
+        assert [geom.get("mesh") for geom in root.iter("geom")] == NAMES
+
+
+def test_the_report_and_the_model(tmp_path, model):
+    report, output = tmp_path / "r.json", tmp_path / "parts.blend"
+    words = ["--hulls", tmp_path / "h.glb", "--report", report, "--output", output]
+    assert run(model, *words, *QUICK) == 0
+    (entry,) = json.loads(report.read_text())["inputs"]
+    assert entry["hulls"] == str(tmp_path / "h.glb")
+    (result,) = entry["objects"]
+    assert [hull["name"] for hull in result["hulls"]["hulls"]] == NAMES
+    # The model is what it is without hulls.
+    assert [obj.name for obj in load(output)] == ["Suzanne"]
+
+
+@pytest.mark.parametrize(
+    ("word", "file"), [("mjcf", "hulls.xml"), ("URDF", "hulls.urdf"), ("obj", "a.obj")]
+)
+def test_a_format_adds_its_ending(tmp_path, model, word, file):
+    hulls = tmp_path / file if word == "obj" else tmp_path / "hulls"
+    words = [str(model), "--hulls", str(hulls), "--hulls-format", word]
+    (targets,) = parse(words, "wcd").targets
+    assert targets.hulls == tmp_path / file
+
+
+def test_wrong_usage(tmp_path, model, capsys):
+    assert run(model, "--hulls", tmp_path / "a.ply") == 2
+    assert "--hulls has to end in one of" in capsys.readouterr().err
+    assert run(model, "--hulls", tmp_path / "a.glb", "--max-hulls=0") == 2
+    assert "Most Hulls is 0" in capsys.readouterr().err
+    assert run(model, "--hulls-format=obj") == 2
+    assert "--hulls-format needs --hulls" in capsys.readouterr().err
+    words = ["--naming=template", "--template={name}"]
+    assert run(model, "--hulls", tmp_path / "a.glb", *words) == 2
+    assert "gives all hulls one name" in capsys.readouterr().err
+
+
+def test_hulls_of_a_model_are_built_anew(tmp_path, model):
+    (suzanne,) = load(model)
+    bpy.context.view_layer.objects.active = suzanne
+    bpy.ops.wcd.build_hulls(max_hulls=2, naming="UNREAL")
+    bpy.ops.wm.save_as_mainfile(filepath=str(model))
+    path, output = tmp_path / "hulls.obj", tmp_path / "parts.blend"
+    assert run(model, "--hulls", path, "--output", output, *QUICK) == 0
+    assert_same(boxes(load(path, "Z")), hull_boxes(model))

@@ -1,0 +1,202 @@
+import struct
+import warnings
+
+import bpy
+import numpy as np
+import pytest
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.headless.read.models import ENDINGS, load
+
+# A wedge unlike itself in every direction, Z up.
+MESH_ENDINGS = sorted(set(ENDINGS) - {".xyz", ".pwn", ".pts"})
+VERTICES = [(0, 0, 0), (3, 0, 0), (3, 2, 0), (0, 2, 0), (0, 0, 1), (0, 2, 1)]
+FACES = [(0, 3, 2, 1), (0, 1, 4), (3, 5, 2), (1, 2, 5, 4), (0, 4, 5, 3)]
+PLY = (
+    "ply\nformat {} 1.0\nelement vertex 3\n{}element face 1\n"
+    "property list uchar int vertex_indices\nend_header\n"
+)
+XYZ = "property float x\nproperty float y\nproperty float z\n"
+NORMAL = "property float nx\n"
+
+
+def write_off(path, header="OFF\n6 5 0"):
+    rows = [header, *(" ".join(map(str, v)) for v in VERTICES)]
+    rows += [" ".join(map(str, (len(f), *f))) for f in FACES]
+    path.write_text("\n".join(rows) + "\n")
+
+
+def write_wedge(path):
+    """Write the wedge to a file of any kind, by Blender's own means."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    mesh = bpy.data.meshes.new("wedge")
+    mesh.from_pydata(VERTICES, [], FACES)
+    bpy.context.collection.objects.link(bpy.data.objects.new("wedge", mesh))
+    bpy.context.view_layer.update()
+    name = {"filepath": str(path)}
+    scenes, files = bpy.ops.export_scene, bpy.ops.wm
+    exporters = {
+        ".obj": lambda: files.obj_export(**name),
+        ".ply": lambda: files.ply_export(**name),
+        ".stl": lambda: files.stl_export(**name),
+        ".off": lambda: write_off(path),
+        ".glb": lambda: scenes.gltf(**name),
+        ".gltf": lambda: scenes.gltf(**name, export_format="GLTF_SEPARATE"),
+        ".fbx": lambda: scenes.fbx(**name),
+        ".blend": lambda: files.save_as_mainfile(**name, copy=True),
+    }
+    with warnings.catch_warnings():
+        # The FBX exporter of Blender 5.2 does what NumPy 2.5 advises against.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        exporters[path.suffix]()
+    return path
+
+
+def world_vertices(obj):
+    return {tuple(np.round(obj.matrix_world @ v.co, 4)) for v in obj.data.vertices}
+
+
+@pytest.mark.parametrize("ending", MESH_ENDINGS)
+def test_each_kind_of_file_is_read_upright(tmp_path, ending):
+    path = write_wedge(tmp_path / f"wedge{ending}")
+    (obj,) = load(path, "Z" if ending == ".off" else None)
+    assert world_vertices(obj) == set(VERTICES)
+
+
+def test_the_up_axis_can_be_chosen(tmp_path):
+    (obj,) = load(write_wedge(tmp_path / "wedge.ply"), "Y")
+    assert world_vertices(obj) == {(x, -z, y) for x, y, z in VERTICES}
+
+
+def test_the_ending_may_be_in_capitals(tmp_path):
+    write_wedge(tmp_path / "wedge.stl").rename(tmp_path / "WEDGE.STL")
+    assert load(tmp_path / "WEDGE.STL")
+
+
+@pytest.mark.parametrize(
+    "header",
+    ["OFF 6 5 0", "OFF6 5 0", "# a\n\nOFF # b\n6 5", "COFF\n6 5 0", "NOFF\n6 5 0"],
+)
+def test_off_headers(tmp_path, header):
+    write_off(tmp_path / "wedge.off", header)
+    (obj,) = load(tmp_path / "wedge.off", "Z")
+    assert [tuple(p.vertices) for p in obj.data.polygons] == FACES
+
+
+def test_off_may_have_colors(tmp_path):
+    vertices = "0 0 0 9 9 9 255\n1 0 0 9 9 9 255\n0 1 0 9 9 9 255\n"
+    (tmp_path / "a.off").write_text(f"COFF\n3 1 0\n{vertices}3 0 1 2 9 9 9\n")
+    (obj,) = load(tmp_path / "a.off")
+    assert [tuple(p.vertices) for p in obj.data.polygons] == [(0, 1, 2)]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("hello", "does not begin like an OFF file"),
+        ("4OFF\n3 1 0\n", "does not begin like an OFF file"),
+        ("OFF BINARY\n", "does not state its numbers"),
+        ("OFF\n", "does not state its numbers"),
+        ("OFF\n900000000 1 0\n0 0 0\n", "is truncated"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", "is truncated"),
+        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "not three numbers"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "not three numbers"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "corners are not whole"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "does not have"),
+        ("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", "not finite"),
+    ],
+)
+def test_bad_off(tmp_path, text, message):
+    (tmp_path / "a.off").write_text(text)
+    with pytest.raises(DecompositionError, match=message):
+        load(tmp_path / "a.off")
+
+
+@pytest.mark.parametrize("share", [0.05, 0.5, 0.98])
+@pytest.mark.parametrize("ending", sorted(set(MESH_ENDINGS) - {".obj"}))
+def test_files_cut_short_are_refused(tmp_path, ending, share):
+    path = write_wedge(tmp_path / f"wedge{ending}")
+    data = path.read_bytes()
+    path.write_bytes(data[: int(len(data) * share)])
+    with pytest.raises(DecompositionError, match=r"wedge\.") as caught:
+        load(path)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("content", [b"", b"hello\n" * 50, bytes(range(256)) * 20])
+def test_files_of_another_kind_are_refused(tmp_path, ending, content):
+    (tmp_path / f"a{ending}").write_bytes(content)
+    with pytest.raises(DecompositionError, match=r"^a\.\S+ (is|has|cannot|does)"):
+        load(tmp_path / f"a{ending}")
+
+
+def test_missing_files_folders_and_unknown_endings(tmp_path):
+    with pytest.raises(DecompositionError, match="does not exist"):
+        load(tmp_path / "a.obj")
+    (tmp_path / "folder.obj").mkdir()
+    with pytest.raises(DecompositionError, match="is a folder"):
+        load(tmp_path / "folder.obj")
+    (tmp_path / "a.3ds").write_text("x")
+    with pytest.raises(DecompositionError, match=r"these are: \.obj \.ply"):
+        load(tmp_path / "a.3ds")
+
+
+def test_obj_cut_within_a_line(tmp_path):
+    (tmp_path / "a.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2"
+    )
+    with pytest.raises(DecompositionError, match="stops within a line"):
+        load(tmp_path / "a.obj")
+
+
+def test_wires_are_refused(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n")
+    with pytest.raises(DecompositionError, match="has edges but no faces"):
+        load(tmp_path / "a.obj")
+
+
+def test_a_blend_file_without_meshes(tmp_path):
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
+    with pytest.raises(DecompositionError, match="has no meshes or point clouds"):
+        load(tmp_path / "a.blend")
+
+
+def test_gltf_without_its_buffer(tmp_path):
+    path = write_wedge(tmp_path / "wedge.gltf")
+    path.with_suffix(".bin").unlink()
+    with pytest.raises(DecompositionError, match=r"cannot be read as \.gltf"):
+        load(path)
+
+
+TRIANGLE = [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]
+NOT_FINITE = {
+    "text.obj": b"v 0 0 0\nv 1 0 -NaN\nv 0 1 0\nf 1 2 3\n",
+    "text.stl": b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n"
+    b"vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
+    "binary.stl": bytes(80) + struct.pack("<I12fH", 1, *TRIANGLE, float("nan"), 0),
+    "text.ply": PLY.format("ascii", XYZ).encode() + b"0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
+    "binary.ply": PLY.format("binary_big_endian", NORMAL + XYZ).encode()
+    + struct.pack(">12f", *TRIANGLE, float("inf"))
+    + struct.pack(">B3i", 3, 0, 1, 2),
+}
+
+
+@pytest.mark.parametrize("name", NOT_FINITE)
+def test_coordinates_that_are_not_numbers(tmp_path, name):
+    (tmp_path / name).write_bytes(NOT_FINITE[name])
+    with pytest.raises(DecompositionError, match="not finite"):
+        load(tmp_path / name)
+
+
+def test_normals_may_be_no_numbers(tmp_path):
+    header = PLY.format("ascii", NORMAL + XYZ)
+    (tmp_path / "a.ply").write_text(
+        header + "nan 0 0 0\nnan 1 0 0\nnan 0 1 0\n3 0 1 2\n"
+    )
+    assert load(tmp_path / "a.ply")
+
+
+def test_the_users_extensions_stay_enabled(tmp_path):
+    load(write_wedge(tmp_path / "wedge.obj"))
+    assert hasattr(bpy.types, "WCD_OT_decompose")

@@ -1,0 +1,146 @@
+"""Point clouds in files: in, out and pictures."""
+
+import bpy
+import clouds
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.mesh.points import (
+    normals_of,
+    positions_of,
+)
+from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.read.models import load
+
+POINTS, NORMALS = clouds.drawn(shapes.dumbbell(), 600)
+FAST = ["--samples", "150", "--parts", "2", "--containers", "HOLLOW"]
+TABLE = np.c_[POINTS, NORMALS]
+
+
+def rows(table):
+    return "".join(" ".join(f"{value:.6f}" for value in row) + "\n" for row in table)
+
+
+def ply(table, kind="ascii", columns=("x", "y", "z", "nx", "ny", "nz")):
+    head = f"ply\nformat {kind} 1.0\nelement vertex {len(table)}\n"
+    head += "".join(f"property float {name}\n" for name in columns) + "end_header\n"
+    if kind == "ascii":
+        return (head + rows(table)).encode()
+    order = {"binary_little_endian": "<f4", "binary_big_endian": ">f4"}[kind]
+    return head.encode() + table.astype(order).tobytes()
+
+
+WITH_NORMALS = {
+    "a.xyz": rows(TABLE).encode(),
+    "comma.xyz": rows(TABLE).replace(" ", ", ").encode(),
+    "a.pts": f"600\n{rows(TABLE)}".encode(),
+    "rows.pwn": f"600\n{rows(TABLE)}".encode(),
+    "blocks.pwn": f"600\n{rows(POINTS)}{rows(NORMALS)}".encode(),
+    "comment.xyz": f"# a scan\n{rows(TABLE)}\n\n".encode(),
+    "ascii.ply": ply(TABLE),
+    "little.ply": ply(TABLE, "binary_little_endian"),
+    "big.ply": ply(TABLE, "binary_big_endian"),
+}
+
+
+@pytest.mark.parametrize("name", WITH_NORMALS)
+def test_points_and_normals_come_in(tmp_path, name):
+    path = tmp_path / name
+    path.write_bytes(WITH_NORMALS[name])
+    (obj,) = load(path, "Z")
+    assert positions_of(obj) == pytest.approx(POINTS, abs=1e-5)
+    assert normals_of(obj) == pytest.approx(NORMALS, abs=1e-5)
+
+
+@pytest.mark.parametrize("extra", [0, 1, 4])
+def test_other_columns_are_no_normals(tmp_path, extra):
+    path = tmp_path / "a.xyz"
+    path.write_text(rows(np.c_[POINTS, np.ones((600, extra))]))
+    (obj,) = load(path, "Z")
+    assert positions_of(obj) == pytest.approx(POINTS, abs=1e-5)
+    assert normals_of(obj) is None
+
+
+def headed(text, header, to):
+    """Return a .ply file with something else in its header."""
+    return ply(TABLE, text).replace(header, to, 1)
+
+
+BAD_FILES = {
+    "empty.xyz": (b"", "is empty"),
+    "words.xyz": (b"1 2 3\n1 2 three\n", "does not have numbers"),
+    "ragged.xyz": (b"1 2 3\n1 2\n", "does not have numbers"),
+    "two.xyz": (b"1 2\n3 4\n", "three coordinates"),
+    "nan.xyz": (b"1 2 3\n1 nan 3\n", "not finite"),
+    "short.pts": (b"9\n1 2 3\n", "promises 9 points"),
+    "blank.xyz": (b"\n\n", "has no points"),
+    "many.pwn": (f"600\n{rows(TABLE)}{rows(TABLE[:9])}".encode(), "promises 600"),
+    "few.pwn": (f"600\n{rows(POINTS)}{rows(NORMALS[:-1])}".encode(), "promises 600"),
+    "cut.ply": (ply(TABLE, "binary_little_endian")[:-100], "truncated"),
+    "lines.ply": (ply(TABLE)[:-3000], "truncated"),
+    "words.ply": (ply(TABLE)[:-30], "truncated"),
+    "more.ply": (headed("ascii", b"vertex 600", b"vertex 99999999999"), "truncated"),
+    "letters.ply": (ply(TABLE) + b"1 2 three 4 5 6\n", "words where numbers"),
+    "format.ply": (headed("ascii", b"ascii", b"nonsense"), "header is not one"),
+    "type.ply": (headed("ascii", b"float x", b"real x"), "header is not one"),
+    "negative.ply": (headed("ascii", b"vertex 6", b"vertex -6"), "header is not one"),
+    "endless.ply": (headed("ascii", b"end_header", b""), "header is not one"),
+    "places.ply": (headed("ascii", b"float x", b"float u"), "cannot be read"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_FILES)
+def test_bad_files_have_their_sentence_and_leave_the_output(tmp_path, name, capsys):
+    content, match = BAD_FILES[name]
+    path, output = tmp_path / name, tmp_path / "out.ply"
+    path.write_bytes(content)
+    output.write_text("mine")
+    with pytest.raises(DecompositionError, match=match):
+        load(path)
+    assert main([str(path), "--output", str(output), *FAST]) == 1
+    assert "Traceback" not in capsys.readouterr().err
+    assert output.read_text() == "mine"
+
+
+BAD_POINTS = {
+    "one point": (TABLE[:1], "too few points"),
+    "coincident": (np.ones((50, 3)), "at one place"),
+    "collinear": (POINTS * (1, 0, 0), "in a line"),
+    "zero normals": (np.c_[POINTS, 0 * NORMALS], "zero or not finite"),
+    "NaN normals": (np.c_[POINTS, np.nan * NORMALS], "zero or not finite"),
+}
+
+
+@pytest.mark.parametrize("ending", [".xyz", ".ply"])
+@pytest.mark.parametrize("case", BAD_POINTS)
+def test_bad_points_fail_on_the_command_line(tmp_path, case, ending, capsys):
+    table, match = BAD_POINTS[case]
+    path, output = tmp_path / f"a{ending}", tmp_path / "out.ply"
+    columns = ("x", "y", "z", "nx", "ny", "nz")[: table.shape[1]]
+    content = rows(table).encode() if ending == ".xyz" else ply(table, columns=columns)
+    path.write_bytes(content)
+    output.write_text("mine")
+    assert main([str(path), "--output", str(output), *FAST]) == 1
+    said = capsys.readouterr().err
+    assert match in said
+    assert "Traceback" not in said
+    assert output.read_text() == "mine"
+
+
+def test_parts_of_points_go_out(tmp_path):
+    path = tmp_path / "a.xyz"
+    path.write_text(rows(TABLE))
+    output, picture = tmp_path / "out.ply", tmp_path / "out.png"
+    arguments = [str(path), "--output", str(output), "--picture", str(picture), *FAST]
+    assert main(arguments) == 0
+    assert picture.stat().st_size > 1000
+    assert not [m for m in bpy.data.materials if m.name.startswith("Part 0")]
+    (obj,) = load(output)
+    assert len(obj.data.vertices) == 600
+    parts = np.empty(600, dtype=np.float32)
+    obj.data.attributes["part"].data.foreach_get("value", parts)
+    assert set(parts) == {0, 1}
+    colors = np.empty(2400, dtype=np.float32)
+    obj.data.color_attributes[0].data.foreach_get("color", colors)
+    assert len(np.unique(colors.reshape(-1, 4), axis=0)) == 2

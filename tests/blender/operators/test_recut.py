@@ -1,0 +1,107 @@
+"""New parts as settings change, and by the chart."""
+
+import json
+
+import bpy
+import pytest
+from snapshot import snapshot
+from weak_convex_decomposition.operators.settings import RECUT
+
+# A value of each setting that a live object follows.
+CHANGES = {
+    "parts": 3,
+    "alpha": 1.0,
+    "normalization": "STOCHASTIC",
+    "min_parts": 3,
+    "max_parts": 7,
+    "refinement": "EMBEDDING",
+    "smoothness": 0.0,
+    "smallest_part": 0.1,
+    "levels": 2,
+}
+
+
+@pytest.fixture
+def settings(suzanne):
+    settings = bpy.context.scene.wcd
+    settings.samples = 200
+    bpy.ops.wcd.decompose(samples=200)
+    settings.live = True
+    return settings
+
+
+def record(obj):
+    return json.loads(obj["wcd"])
+
+
+def test_every_setting_of_a_cut_is_tried():
+    assert list(CHANGES) == list(RECUT)
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_live_setting_gives_what_a_run_gives(suzanne, settings, name):
+    setattr(settings, name, CHANGES[name])
+    live = snapshot(suzanne)
+    assert record(suzanne)["parameters"][name] == CHANGES[name]
+    settings.live = False
+    bpy.ops.wcd.decompose(samples=200, **{name: CHANGES[name]})
+    assert snapshot(suzanne) == live
+
+
+def test_nothing_happens_unless_live(suzanne, settings):
+    settings.live = False
+    before = snapshot(suzanne)
+    settings.parts = 3
+    assert snapshot(suzanne) == before
+    settings.live = True  # catches up
+    assert record(suzanne)["k"] == 3
+
+
+def test_settings_change_nothing_without_parts(suzanne, settings):
+    bpy.ops.mesh.primitive_cube_add()
+    settings.parts = 3
+    assert "wcd" not in bpy.context.active_object
+    bpy.context.view_layer.objects.active = None
+    settings.parts = 4
+
+
+def test_other_settings_wait_for_the_next_cut(suzanne, settings):
+    before = snapshot(suzanne)
+    settings.seed = 1  # asks for other samples
+    assert snapshot(suzanne) == before
+    settings.parts = 3
+    parameters = record(suzanne)["parameters"]
+    assert (parameters["seed"], parameters["parts"]) == (1, 3)
+
+
+def test_settings_that_contradict_each_other_change_nothing(suzanne, settings):
+    before = snapshot(suzanne)
+    settings.min_parts = 20
+    assert snapshot(suzanne) == before
+
+
+def test_a_preset_cuts_once(suzanne, settings):
+    settings.parts = 3
+    settings.alpha = 1.0
+    bpy.ops.wcd.use_preset(preset="DEFAULT")
+    assert settings.live
+    settings.samples = 200
+    settings.parts = 4
+    assert record(suzanne)["parameters"]["alpha"] == 2.0
+
+
+def test_the_chart_chooses_a_number(suzanne, settings):
+    settings.live = False
+    first = record(suzanne)
+    for k in (1, 3, 6):
+        assert bpy.ops.wcd.choose_part_count(parts=k) == {"FINISHED"}
+        assert settings.parts == k
+        chosen = record(suzanne)
+        assert (chosen["k"], len(chosen["parts"])) == (k, k)
+        assert chosen["psi_by_k"] == first["psi_by_k"]
+        assert chosen["best_k"] == first["best_k"] == first["k"]
+
+
+def test_the_chart_needs_parts(suzanne):
+    with pytest.raises(RuntimeError, match="no parts to cut anew; press Decompose"):
+        bpy.ops.wcd.choose_part_count(parts=3)

@@ -1,0 +1,93 @@
+import bpy
+import numpy as np
+import pytest
+import shapes
+from hand_made import activate, in_mode, mesh_object
+from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+
+
+@pytest.fixture
+def table():
+    mesh = shapes.table()
+    obj = mesh_object("table", mesh.vertices.tolist(), mesh.triangles.tolist())
+    obj.location = (0, 0, 5)
+    bpy.context.view_layer.update()
+    return obj
+
+
+def test_the_object_falls_as_its_hulls_do(table):
+    bpy.ops.wcd.build_hulls()
+    assert bpy.ops.wcd.make_rigid() == {"FINISHED"}
+    assert table.rigid_body.collision_shape == "COMPOUND"
+    hulls = hulls_of(table)
+    assert len(hulls) >= 2
+    assert {hull.rigid_body.collision_shape for hull in hulls} == {"CONVEX_HULL"}
+    # A post between the legs, which only a table that is hollow below gets over.
+    size = np.ptp([v.co for v in table.data.vertices], axis=0)
+    middle = np.mean([v.co for v in table.data.vertices], axis=0)
+    bpy.ops.mesh.primitive_plane_add(size=100)
+    bpy.ops.rigidbody.object_add(type="PASSIVE")
+    height = 0.4 * size[2]
+    bpy.ops.mesh.primitive_cube_add(
+        size=1, location=(*middle[:2], height / 2), scale=(0.5, 0.5, height)
+    )
+    bpy.ops.rigidbody.object_add(type="PASSIVE")
+    scene = bpy.context.scene
+    for frame in range(1, 80):
+        scene.frame_set(frame)
+    low = min(
+        (
+            table.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world
+            @ v.co
+        ).z
+        for v in table.data.vertices
+    )
+    assert abs(low) < 0.1
+
+
+def test_clear_takes_the_bodies_back(table):
+    before = snapshot(table)
+    collections = len(bpy.data.collections)
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    bpy.ops.wcd.make_rigid(kind="PASSIVE")
+    bpy.ops.wcd.make_rigid(kind="ACTIVE")
+    assert table.rigid_body.type == "ACTIVE"
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    assert table.rigid_body is None
+    bpy.ops.wcd.make_rigid()
+    bpy.ops.wcd.clear()
+    assert table.rigid_body is None
+    assert bpy.context.scene.rigidbody_world is None
+    assert snapshot(table) == before
+    assert len(bpy.data.collections) == collections
+
+
+def test_the_users_simulation_stays(table):
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    bpy.ops.rigidbody.object_add()
+    activate(table)
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    bpy.ops.wcd.make_rigid()
+    bpy.ops.wcd.clear()
+    assert list(bpy.context.scene.rigidbody_world.collection.objects) == [cube]
+
+
+def test_the_users_rigid_body_is_refused(table):
+    bpy.ops.rigidbody.object_add()
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    with pytest.raises(RuntimeError, match="is a rigid body already"):
+        bpy.ops.wcd.make_rigid()
+    assert table.rigid_body.collision_shape == "CONVEX_HULL"
+    bpy.ops.wcd.clear()
+    assert table.rigid_body is not None
+
+
+def test_hulls_and_object_mode_are_needed(table):
+    with pytest.raises(RuntimeError, match="has no hulls"):
+        bpy.ops.wcd.make_rigid()
+    bpy.ops.wcd.build_hulls(max_hulls=1)
+    in_mode(table, "EDIT")
+    with pytest.raises(RuntimeError, match="Object Mode"):
+        bpy.ops.wcd.make_rigid()

@@ -1,0 +1,33 @@
+import numpy as np
+import pytest
+from weak_convex_decomposition.core.clusters.kmeans import cluster
+
+
+def clouds(n_clouds, n_points=20):
+    rng = np.random.default_rng(0)
+    centers = 10 * rng.normal(size=(n_clouds, 3))
+    numbers = np.repeat(np.arange(n_clouds), n_points)
+    return centers[numbers] + 0.01 * rng.normal(size=(len(numbers), 3)), numbers
+
+
+@pytest.mark.parametrize("n_clouds", [1, 2, 5])
+def test_separate_clouds_are_found(n_clouds):
+    points, numbers = clouds(n_clouds)
+    labels = cluster(points, n_clouds, 0)
+    assert labels.dtype == np.int64
+    assert sorted(set(labels)) == list(range(n_clouds))
+    pairs = set(zip(labels, numbers, strict=True))
+    assert len(pairs) == n_clouds
+
+
+def test_the_seed_decides():
+    points = np.random.default_rng(1).normal(size=(200, 4))
+    assert (cluster(points, 6, 3) == cluster(points, 6, 3)).all()
+
+
+def test_fewer_places_than_clusters_pass_without_a_warning():
+    """A convex shape puts all its samples in one place."""
+    labels = cluster(np.ones((20, 3)), 4, 0)
+    assert len(labels) == 20
+    assert labels.min() >= 0
+    assert labels.max() < 4

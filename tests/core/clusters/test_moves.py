@@ -1,0 +1,95 @@
+import numpy as np
+import pytest
+from scipy import sparse
+from weak_convex_decomposition.core.clusters.moves import MoveGains, raise_psi
+from weak_convex_decomposition.core.sight.pairs import PairVisibility
+
+ALPHAS = (0.5, 1.0, 2.0)
+
+
+def random_pairs(seed, n_samples=90, share=1.0):
+    """Return pairs of which each is known with a probability, half of them visible."""
+    rng = np.random.default_rng(seed)
+    known = np.triu(rng.random((n_samples, n_samples)) < share, 1)
+    visible = known & (rng.random(known.shape) < 0.5)
+    known, visible = (half + half.T + np.eye(n_samples) for half in (known, visible))
+    if share == 1.0:
+        return PairVisibility(visible.astype(np.float32), None)
+    return PairVisibility(
+        *(sparse.csr_array(matrix.astype(np.float32)) for matrix in (visible, known))
+    )
+
+
+def psi(pairs, labels, alpha):
+    return pairs.tally(labels, 4).psi(alpha)
+
+
+@pytest.mark.parametrize("alpha", ALPHAS)
+def test_blocks_that_see_each_other_are_found(alpha):
+    truth = np.repeat(np.arange(3), 40)
+    pairs = PairVisibility((truth[:, None] == truth).astype(np.float32), None)
+    start = truth.copy()
+    start[::7] = 0
+    labels = raise_psi(pairs, start, 3, alpha)
+    assert (labels == truth).all()
+    assert (start[::7] == 0).all()
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5])
+@pytest.mark.parametrize("alpha", ALPHAS)
+@pytest.mark.parametrize("seed", range(3))
+def test_psi_never_falls_and_no_single_move_raises_it(seed, alpha, share):
+    pairs = random_pairs(seed, share=share)
+    start = np.random.default_rng(seed).integers(4, size=90)
+    labels = raise_psi(pairs, start, 4, alpha)
+    reached = psi(pairs, labels, alpha)
+    assert reached > psi(pairs, start, alpha)
+    again = raise_psi(pairs, labels, 4, alpha)
+    assert psi(pairs, again, alpha) >= reached
+
+
+def test_samples_that_all_see_each_other_become_one():
+    pairs = PairVisibility(np.ones((60, 60), dtype=np.float32), None)
+    labels = raise_psi(pairs, np.arange(60) % 4, 4, 1.0)
+    assert len(set(labels)) == 1
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5])
+@pytest.mark.parametrize("alpha", ALPHAS)
+def test_pulls_tell_what_a_move_gains(alpha, share):
+    pairs = random_pairs(5, share=share)
+    labels = np.random.default_rng(5).integers(4, size=90)
+    pulls = MoveGains(pairs, labels, 4).of(slice(None), alpha)
+    for sample in (0, 17, 89):
+        for label in range(4):
+            moved = labels.copy()
+            moved[sample] = label
+            gain = psi(pairs, moved, alpha) - psi(pairs, labels, alpha)
+            told = (pulls[sample, label] - pulls[sample, labels[sample]]) / 90
+            assert gain == pytest.approx(told, abs=1e-9)
+    rows = slice(3, None, 30)
+    assert (MoveGains(pairs, labels, 4).of(rows, alpha) == pulls[rows]).all()
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5])
+def test_pulls_follow_the_labels(share):
+    pairs = random_pairs(6, share=share)
+    before, after = np.random.default_rng(6).integers(4, size=(2, 90))
+    pulls = MoveGains(pairs, before, 4)
+    changed = np.flatnonzero(before != after)
+    for samples in (changed[::2], changed[1::2]):
+        pulls.give(samples, after[samples])
+    anew = MoveGains(pairs, after, 4)
+    assert (pulls.of(slice(None), 2.0) == anew.of(slice(None), 2.0)).all()
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5])
+def test_hidden_pairs_can_be_revealed(share):
+    pairs = random_pairs(2, share=share)
+    first, second = pairs.hidden()
+    assert (first < second).all()
+    revealed = pairs.revealed(first[:10], second[:10])
+    rest = revealed.hidden()
+    assert [*zip(*rest, strict=True)] == [*zip(first[10:], second[10:], strict=True)]
+    assert (revealed.visible != revealed.visible.T).sum() == 0
+    assert len(pairs.hidden()[0]) == len(first)

@@ -1,0 +1,91 @@
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+
+CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+
+
+@pytest.mark.parametrize(
+    ("vertices", "triangles", "polygons", "text"),
+    [
+        (CORNERS, np.zeros((0, 3)), [], "no faces"),
+        (np.zeros((0, 3)), np.zeros((0, 3)), [], "no faces"),
+        ([[0, 0, np.nan], *CORNERS[1:]], [[0, 1, 2]], [0], "not finite"),
+        ([[0, 0, np.inf], *CORNERS[1:]], [[0, 1, 2]], [0], "not finite"),
+        (CORNERS, [[0, 1, 3]], [0], "missing vertices"),
+        (CORNERS, [[0, 1, -1]], [0], "missing vertices"),
+        (CORNERS, [[0, 1, 2]], [0, 1], "one polygon number"),
+        (CORNERS, [[0, 1, 2]], [-1], "one polygon number"),
+    ],
+)
+def test_bad_arrays_are_refused_with_a_sentence(vertices, triangles, polygons, text):
+    with pytest.raises(DecompositionError, match=text) as error:
+        TriangleMesh(vertices, triangles, polygons)
+    assert str(error.value).endswith(".")
+
+
+@pytest.mark.parametrize(
+    "vertices",
+    [
+        np.zeros((3, 3)),
+        [[0, 0, 0], [1, 1, 1], [2, 2, 2]],
+        [[5, 5, 5], [5, 5, 5], [6, 5, 5]],
+    ],
+)
+def test_faces_without_area_are_refused(vertices):
+    mesh = TriangleMesh(np.array(vertices, dtype=float), [[0, 1, 2]], [0])
+    with pytest.raises(DecompositionError, match="no area"):
+        mesh.normalized()
+
+
+def test_arrays_are_read_only_copies():
+    vertices = np.array(CORNERS, dtype=np.float32)
+    mesh = TriangleMesh(vertices, [[0, 1, 2]], [0])
+    vertices[0] = 9
+    assert mesh.vertices[0].tolist() == [0, 0, 0]
+    assert mesh.vertices.dtype == np.float64
+    assert mesh.triangles.dtype == np.int64
+    for array in (mesh.vertices, mesh.triangles, mesh.polygons):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+
+
+def test_areas_and_normals():
+    mesh = TriangleMesh(
+        [*CORNERS, [2, 0, 0]], [[0, 1, 2], [0, 2, 1], [0, 1, 3]], [0] * 3
+    )
+    assert mesh.areas.tolist() == [0.5, 0.5, 0]
+    assert mesh.normals.tolist() == [[0, 0, 1], [0, 0, -1], [0, 0, 0]]
+    assert mesh.n_polygons == 1
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
+def test_normalized_is_centered_with_a_diagonal_of_one(scale):
+    mesh = shapes.moved(shapes.box(), scale, shapes.any_rotation(1), (3e3 * scale,) * 3)
+    normal = mesh.normalized()
+    assert normal.diagonal == pytest.approx(1.0)
+    extremes = normal.vertices.max(axis=0) + normal.vertices.min(axis=0)
+    assert extremes == pytest.approx(np.zeros(3), abs=1e-9)
+
+
+def test_loose_vertices_do_not_count():
+    box = shapes.box()
+    loose = TriangleMesh([*box.vertices, [1e6, 0, 0]], box.triangles, box.polygons)
+    assert loose.diagonal == pytest.approx(np.sqrt(3))
+    used = loose.normalized().vertices[:-1]
+    assert used == pytest.approx(box.normalized().vertices)
+
+
+def test_welded_corners_are_equal_where_vertices_coincide():
+    box = shapes.box()
+    welded = shapes.split(box).welded_triangles
+    assert len(np.unique(welded)) == 8
+    same = box.triangles.ravel()[:, None] == box.triangles.ravel()
+    assert ((welded.ravel()[:, None] == welded.ravel()) == same).all()
+
+
+def test_welding_ignores_the_sign_of_zero():
+    mesh = TriangleMesh([*CORNERS, [-0.0, 0, 0]], [[0, 1, 2], [3, 2, 1]], [0, 1])
+    assert mesh.welded_triangles[0, 0] == mesh.welded_triangles[1, 0]

@@ -1,0 +1,52 @@
+import clouds
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+
+POINTS, NORMALS = clouds.drawn(shapes.sphere(), 50)
+
+
+BAD = {
+    "empty": (np.zeros((0, 3)), None, "too few points .*, 0"),
+    "one point": (POINTS[:1], None, "too few points .*, 1"),
+    "coincident": (np.ones((50, 3)), None, "at one place"),
+    "collinear": (POINTS * (1, 0, 0), None, "in a line"),
+    "NaN": (clouds.changed(POINTS, 3, np.nan), None, "not finite"),
+    "infinite": (clouds.changed(POINTS, 3, np.inf), None, "not finite"),
+    "zero normal": (POINTS, clouds.changed(NORMALS, 3, 0.0), "zero or not finite"),
+    "NaN normal": (POINTS, clouds.changed(NORMALS, 3, np.nan), "zero or not finite"),
+    "normals of others": (POINTS, NORMALS[:-1], "50 points but 49 normals"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_clouds_have_their_sentence(case):
+    points, normals, match = BAD[case]
+    with pytest.raises(DecompositionError, match=match) as error:
+        PointCloud(points, normals)
+    assert str(error.value).endswith(".")
+
+
+def test_a_slanted_line_is_one_wherever_it_lies():
+    line = np.linspace(0, 1, 50)[:, None] * (1, 2, 3) + 1000
+    with pytest.raises(DecompositionError, match="in a line"):
+        PointCloud(line)
+
+
+def test_the_arrays_are_copies_that_cannot_be_written():
+    points, normals = POINTS.copy(), 3 * NORMALS
+    cloud = PointCloud(points, normals)
+    points[0] = normals[0] = 9
+    assert cloud.points == pytest.approx(POINTS)
+    assert cloud.normals == pytest.approx(NORMALS)
+    for array in (cloud.points, cloud.normals):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+
+
+def test_normalized_is_centered_and_of_diagonal_one():
+    cloud = PointCloud(POINTS * 7 + (1, 2, 3), NORMALS).normalized()
+    assert cloud.diagonal == pytest.approx(1)
+    assert cloud.points.min(axis=0) == pytest.approx(-cloud.points.max(axis=0))

@@ -1,0 +1,85 @@
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from weak_convex_decomposition.core.geometry.sampling import sample_surface
+from weak_convex_decomposition.core.geometry.transfer import Transfer
+
+
+def carry(mesh, n_samples=300, seed=0):
+    samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
+    polygons = mesh.polygons[samples.triangles]
+    return samples, Transfer(samples, polygons, face_graph(mesh))
+
+
+def test_the_says_of_samples_sum_to_one():
+    _, transfer = carry(shapes.l_shape())
+    assert transfer.shares.shape == (104, 300)
+    assert transfer.shares.sum(axis=1) == pytest.approx(np.ones(104))
+    assert transfer.shares.data.min() > 0
+
+
+def test_samples_know_their_polygon():
+    mesh = shapes.l_shape()
+    samples, transfer = carry(mesh)
+    assert (transfer.polygon_of == mesh.polygons[samples.triangles]).all()
+    labels = np.arange(104)
+    assert (transfer.to_samples(labels) == transfer.polygon_of).all()
+
+
+@pytest.mark.parametrize("change", [lambda mesh: mesh, shapes.refined, shapes.split])
+def test_polygons_take_the_label_of_the_samples_around_them(change):
+    mesh = change(shapes.l_shape())
+    samples, transfer = carry(mesh)
+    labels = (samples.positions[:, 0] > 3.5).astype(int)
+    labels[samples.positions[:, 1] > 3.5] = 2
+    x, y, _ = transfer.surface.centers.T
+    polygons = transfer.to_polygons(labels, 3)
+    clear = (np.abs(x - 3.5) > 0.4) & (np.abs(y - 3.5) > 0.4)
+    expected = np.where(y > 3.5, 2, x > 3.5)
+    assert (polygons == expected)[clear].all()
+
+
+def test_the_two_sides_of_a_thin_wall_do_not_mix():
+    # Most polygons have no sample of their own.
+    wall = shapes.box((0, 0, 0), (1, 1, 0.01), 12)
+    samples, transfer = carry(wall, 60)
+    labels = (samples.normals[:, 2] > 0).astype(int)
+    polygons = transfer.to_polygons(labels, 2)
+    up = transfer.surface.normals[:, 2]
+    assert (polygons[up > 0.9] == 1).all()
+    assert (polygons[up < -0.9] == 0).all()
+
+
+def test_a_polygon_much_larger_than_the_samples_takes_what_most_of_them_have():
+    samples, transfer = carry(shapes.box())
+    # Two thirds of each side are 1, its middle excepted.
+    labels = (samples.positions.min(axis=1) > -1).astype(int)
+    labels[np.random.default_rng(0).random(300) < 0.3] = 0
+    assert (transfer.to_polygons(labels, 2) == 1).all()
+
+
+def n_connected(surface):
+    alike = np.zeros(surface.n_polygons, dtype=int)
+    return len(set(surface.pieces(alike, 0.0)))
+
+
+def test_shells_that_touch_are_linked_and_others_are_not():
+    crossing = shapes.joined(
+        shapes.box((0, 0, 0), (3, 1, 1), 3),
+        shapes.box((0.2, -1, 0.2), (0.8, 2, 0.8), 3),
+    )
+    apart = shapes.joined(shapes.box(), shapes.box((9, 0, 0), (10, 1, 1)))
+    assert n_connected(carry(crossing)[1].surface) == 1
+    assert n_connected(carry(apart)[1].surface) == 2
+
+
+def test_a_shell_without_samples_hangs_on_the_nearest_one():
+    speck = shapes.box((3.2, 0.5, 0.5), (3.2001, 0.5001, 0.5001))
+    mesh = shapes.joined(shapes.box(), speck, shapes.box((4, 0, 0), (5, 1, 1)))
+    samples, transfer = carry(mesh)
+    assert samples.triangles.max() >= 24
+    assert not ((samples.triangles >= 12) & (samples.triangles < 24)).any()
+    assert n_connected(transfer.surface) == 2
+    one, other = transfer.surface.links.T
+    assert ((one >= 6) & (one < 12) & (other >= 12)).any()

@@ -1,0 +1,75 @@
+import numpy as np
+import pytest
+import shapes
+from convexity_check import assert_convex
+from scipy.spatial import ConvexHull
+from weak_convex_decomposition.core.hulls.convex_hull import (
+    convex_hull,
+    hull_volume,
+    offset,
+    simplified,
+)
+
+CUBE = shapes.box().vertices
+
+
+def test_the_hull_of_a_cube():
+    inside = np.random.default_rng(0).random((50, 3))
+    hull = convex_hull(np.concatenate([inside, CUBE]), 1e-3)
+    assert_convex(hull)
+    assert len(hull.vertices) == 8
+    assert hull.volume == pytest.approx(1)
+    heights = hull.heights(np.array([[0.5, 0.5, 0.5], [2, 0.5, 0.5]]))
+    assert heights == pytest.approx([-0.5, 1])
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        [[1, 2, 3]],
+        [[1, 2, 3]] * 7,
+        [[0, 0, 0], [1, 1, 1]],
+        [[0, 0, 0], [1, 1, 1], [2, 2, 2], [5, 5, 5], [3, 3, 3]],
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
+        [[0, 0, 5], [1, 0, 5], [0, 1, 5], [1, 1, 5], [0.5, 0.5, 5]],
+        [[0, 0, 0], [1, 2, 3], [2, 1, 3], [3, 3, 6], [4, 5, 9]],  # z = x + y
+    ],
+    ids=["point", "same", "two", "line", "triangle", "square", "slanted"],
+)
+def test_flat_points_have_a_thin_hull(points):
+    points = np.array(points, dtype=float)
+    hull = convex_hull(points, 0.01)
+    assert_convex(hull)
+    assert hull.heights(points).max() < 1e-9
+    assert np.linalg.norm(hull.vertices.max(axis=0) - points.max(axis=0)) <= 0.01
+    assert hull_volume(points) == 0
+
+
+@pytest.mark.parametrize("most", [4, 5, 20, 64])
+def test_simplified_hulls_are_convex_and_within(most):
+    sphere = convex_hull(shapes.sphere(3).vertices, 1e-3)
+    hull = simplified(sphere, most, 0.0)
+    assert_convex(hull)
+    assert len(hull.vertices) == most
+    assert sphere.heights(hull.vertices).max() < 1e-9
+    # Not much worse than as many vertices can be: random ones are.
+    rng = np.random.default_rng(0)
+    rows = rng.permutation(len(sphere.vertices))[:most]
+    assert hull.volume > ConvexHull(sphere.vertices[rows]).volume
+
+
+def test_what_is_nearly_flat_has_no_vertices():
+    bumps = np.array([[0.5, 0.5, 1.001], [1.0005, 1, 1]])
+    hull = convex_hull(np.concatenate([CUBE, bumps]), 1e-3)
+    assert len(simplified(hull, 64, 0.0).vertices) == 9
+    assert len(simplified(hull, 64, 0.01).vertices) == 8
+    assert len(simplified(hull, 7, 0.01).vertices) == 7
+
+
+def test_offset_moves_every_face():
+    cube = convex_hull(CUBE, 1e-3)
+    assert offset(cube, 0) is cube
+    assert offset(cube, 0.25).volume == pytest.approx(1.5**3)
+    assert offset(cube, -0.25).volume == pytest.approx(0.5**3)
+    assert offset(cube, -0.5) is cube
+    assert_convex(offset(cube, 0.25))

@@ -1,0 +1,85 @@
+import numpy as np
+import pytest
+import shapes
+from convexity_check import assert_convex
+from weak_convex_decomposition.core.hulls.convex_hull import convex_hull
+from weak_convex_decomposition.core.hulls.fitting import enclose
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
+
+KINDS = ["BOX", "SPHERE", "CYLINDER", "CAPSULE"]
+TURN = shapes.any_rotation(3)
+BAR = shapes.box((0, 0, 0), (6, 2, 1)).vertices
+
+
+def around(points, kind, **values):
+    hull = convex_hull(np.asarray(points), 1e-3)
+    return enclose(hull, HullParameters(shape=kind, **values), 1.0)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(5))
+def test_shapes_contain_their_part(kind, seed):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(60, 3)) * rng.random(3)
+    shape = around(points, kind)
+    assert shape.heights(points).max() < 1e-9
+    assert np.linalg.det(shape.axes) == pytest.approx(1)
+    # Tight: a trifle smaller, and something is out of it.
+    smaller = around(points, kind, margin=-0.01)
+    assert smaller.heights(points).max() > 0.005
+
+
+@pytest.mark.parametrize(
+    ("kind", "volume"),
+    [
+        ("BOX", 12),
+        ("SPHERE", 4 / 3 * np.pi * (41 / 4) ** 1.5),
+        ("CYLINDER", 6 * np.pi * 5 / 4),
+    ],
+)
+def test_volumes_around_a_turned_bar(kind, volume):
+    shape = around(BAR @ TURN.T + 7, kind)
+    assert shape.volume == pytest.approx(volume, rel=0.01)
+
+
+def test_a_capsule_around_a_capsule():
+    ball = shapes.sphere(3).vertices
+    points = np.concatenate([ball - [0, 0, 3], ball + np.array([0, 0, 3])]) @ TURN.T
+    shape = around(points, "CAPSULE")
+    assert shape.volume == pytest.approx(np.pi * 6 + 4 / 3 * np.pi, rel=0.03)
+    assert abs(shape.axes[2] @ TURN[:, 2]) == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize("kind", [*KINDS, "HULL"])
+def test_outlines_are_convex_and_as_large(kind):
+    shape = around(BAR @ TURN.T + 7, kind)
+    outline = shape.outline()
+    assert_convex(outline)
+    assert outline.volume == pytest.approx(shape.volume, rel=0.05)
+    assert shape.heights(outline.vertices).max() < 1e-6
+
+
+@pytest.mark.parametrize("kind", [*KINDS, "HULL"])
+@pytest.mark.parametrize("points", [[[0, 0, 0]], [[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+def test_flat_parts_have_thin_shapes(kind, points):
+    shape = around(np.array(points, dtype=float), kind)
+    assert shape.volume > 0
+    assert shape.heights(np.array(points)).max() < 1e-9
+    assert shape.outline().volume > 0
+
+
+@pytest.mark.parametrize("kind", [*KINDS, "HULL"])
+def test_shapes_move_with_their_part(kind):
+    shape = around(BAR, kind)
+    moved = shape.moved(2.0, np.array([1.0, 2.0, 3.0]))
+    points = np.random.default_rng(0).normal(size=(100, 3)) * 5
+    heights = moved.heights(points * 2 + [1, 2, 3])
+    assert heights == pytest.approx(2 * shape.heights(points))
+    assert moved.volume == pytest.approx(8 * shape.volume)
+
+
+def test_margins_move_faces_outwards():
+    assert around(BAR, "HULL", margin=0.5).volume == pytest.approx(7 * 3 * 2)
+    assert around(BAR, "BOX", margin=0.5).volume == pytest.approx(7 * 3 * 2)
+    inside = around(BAR, "BOX", margin=-10)
+    assert 0 < inside.volume < 1e-6

@@ -1,0 +1,62 @@
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.hulls.piece import cut, join, whole
+from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
+from weak_convex_decomposition.core.steps.progress import run
+
+
+def solid_of(mesh, seed):
+    return run(solid_steps(mesh, seed))
+
+
+CUBE = solid_of(shapes.box((-1, -1, -1), (1, 1, 1)), 0)
+PLANES = [np.array([*normal, 0.1]) for normal in np.eye(3)]
+
+
+def cell_of(solid):
+    return whole(solid)
+
+
+def test_a_corner_inside_the_solid_is_kept():
+    cell, volume = cell_of(CUBE), 8.0
+    for plane in PLANES:
+        above = cut(CUBE, cell, plane)[1]
+        cell, volume = above, volume * 1.1 / 2
+        assert cell.hull.volume == pytest.approx(volume, rel=1e-6)
+        assert cell.volume == pytest.approx(volume, rel=0.05)
+    assert cell.hull.vertices.min(axis=0) == pytest.approx([-0.1] * 3)
+
+
+def test_both_sides_make_up_the_whole():
+    solid = solid_of(shapes.moved(shapes.u_shape(), scale=0.25), 0)
+    cell = cell_of(solid)
+    below, above = cut(solid, cell, np.array([1.0, 0.0, 0.0, -0.50001]))
+    assert below.volume + above.volume == pytest.approx(cell.volume)
+    assert len(below.boundary) + len(above.boundary) > len(cell.boundary)
+    assert below.planes == pytest.approx(-above.planes)
+    joint = join(below, above)
+    assert len(joint.boundary) == len(cell.boundary)
+    assert joint.volume == pytest.approx(cell.volume)
+    assert joint.hull.volume == pytest.approx(cell.hull.volume)
+    assert joint.error == pytest.approx(cell.error, abs=0.02)
+
+
+def test_the_error_of_a_convex_piece_is_small():
+    assert cell_of(CUBE).error < 0.05
+    assert cell_of(solid_of(shapes.sphere(3), 0)).error < 0.05
+
+
+@pytest.mark.parametrize("depth", [0.2, 0.5, 0.8])
+def test_the_error_of_a_slit_is_its_depth(depth):
+    slit = shapes.blocks(
+        (21, 20, 20),
+        ((0, 10), (0, 20), (0, 20)),
+        ((11, 21), (0, 20), (0, 20)),
+        ((0, 21), (0, 20), (0, round(20 * (1 - depth)))),
+    )
+    solid = solid_of(shapes.moved(slit, scale=2 / 21), 0)
+    cell = cell_of(solid)
+    # Of the slit's floor and, its own samples aside, nothing is nearer to the hull.
+    expected = min(20 * depth * 2 / 21, 10 * 2 / 21)
+    assert cell.error == pytest.approx(expected, abs=0.08)

@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.hulls.cross_section import contour, cross_section
+from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
+from weak_convex_decomposition.core.steps.progress import run
+
+
+def solid_of(mesh, seed):
+    return run(solid_steps(mesh, seed))
+
+
+PLANE = np.array([0.0, 0.0, 1.0, -0.5])
+
+
+@pytest.mark.parametrize(
+    ("make", "volume"),
+    [
+        (shapes.box, 1),
+        (shapes.table, 20 + 12),
+        (lambda: shapes.sphere(3), 4 / 3 * np.pi),
+        (lambda: shapes.hollow_sphere(subdivisions=3), 4 / 3 * np.pi * 7 / 8),
+        (lambda: shapes.moved(shapes.box(), rotation=shapes.any_rotation(1)), 1),
+        (shapes.cup, 1 - 0.8**2 * 0.9),
+        # Where shells overlap counts once.
+        (
+            lambda: shapes.joined(
+                shapes.box(), shapes.box((0.5, 0.1, 0.1), (1.5, 0.9, 0.9))
+            ),
+            1 + 0.5 * 0.64,
+        ),
+        (shapes.sheet, 0),
+    ],
+    ids=["box", "table", "sphere", "hollow", "turned", "cup", "overlap", "sheet"],
+)
+def test_the_volume_along_lines(make, volume):
+    solid = solid_of(make(), 0)
+    assert solid.volumes.sum() == pytest.approx(volume, rel=0.04, abs=1e-9)
+
+
+def test_chords_are_inside():
+    solid = solid_of(shapes.hollow_sphere(), 0)
+    radii = np.linalg.norm(solid.chords, axis=1)
+    assert radii.max() < 1
+    assert radii.min() > 0.47
+
+
+def test_contours_have_the_inside_on_their_left():
+    mesh = shapes.moved(shapes.sphere(2), rotation=shapes.any_rotation(2))
+    segments = contour(mesh.vertices[mesh.triangles], PLANE)
+    assert segments[..., 2] == pytest.approx(0.5)
+    starts, ends = segments[:, 0], segments[:, 1]
+    turn = starts[:, 0] * ends[:, 1] - starts[:, 1] * ends[:, 0]
+    assert turn.sum() / 2 == pytest.approx(np.pi * 0.75, rel=0.05)
+    assert (turn >= 0).all()
+
+
+def test_rims_end_at_other_planes():
+    section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3), 0), PLANE)
+    planes = np.array([[1.0, 0, 0, -0.25], [0, 1, 0, -5]])
+    rim = section.rim_within(planes)
+    assert rim.min(axis=0) == pytest.approx([-1, -1, 0.5])
+    assert rim.max(axis=0) == pytest.approx([0.25, 1, 0.5])
+    assert len(section.rim_within(np.array([[1.0, 0, 0, 5]]))) == 0
+    assert len(section.rim_within(np.zeros((0, 4)))) == 2 * len(section.rim)
+
+
+def test_cross_sections_leave_out_what_is_hollow():
+    solid = solid_of(shapes.hollow_sphere(0.5, 3), 0)
+    plane = np.array([0.6, 0.0, 0.8, 0.0])
+    points = cross_section(solid, plane).spread(solid.vertices)
+    radii = np.linalg.norm(points, axis=1)
+    assert np.abs(points @ plane[:3]).max() < 1e-12
+    assert radii.max() < 1
+    assert radii.min() > 0.48
+    assert len(points) * 0.04**2 == pytest.approx(np.pi * 0.75, rel=0.05)
+
+
+def test_open_shapes_have_no_cross_section():
+    sheet = solid_of(shapes.sheet(), 0)
+    low, high = sheet.vertices.min(axis=0), sheet.vertices.max(axis=0)
+    normal = np.eye(3)[np.ptp(sheet.vertices, axis=0).argmax()]
+    plane = np.r_[normal, -normal @ (low + high) / 2]
+    assert len(cross_section(sheet, plane).spread(sheet.vertices)) == 0
+
+
+def test_points_inside_a_cross_section():
+    section = cross_section(
+        solid_of(shapes.hollow_sphere(0.5, 3), 0), PLANE * [1, 1, 1, 0]
+    )
+    turns = np.linspace(0, 6, 20)
+    for radius, inside in ((0.3, False), (0.6, True), (0.9, True), (1.1, False)):
+        circle = radius * np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1)
+        assert (section.holds(circle) == inside).all()

@@ -1,0 +1,66 @@
+import re
+from dataclasses import dataclass, fields
+
+import pytest
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.parameters.parameter import (
+    Choice,
+    ParameterInfo,
+    check,
+    info_of,
+    parameter,
+)
+from weak_convex_decomposition.core.parameters.parts import Parameters
+
+
+@dataclass(frozen=True)
+class Settings:
+    count: int = parameter(3, ParameterInfo("Count", "How many", low=1, high=5))
+    weight: float = parameter(0.5, ParameterInfo("Weight", "How heavy", low=0.0))
+    color: str = parameter(
+        "RED",
+        ParameterInfo(
+            "Color",
+            "Which",
+            choices=(Choice("RED", "Red", "As blood"), Choice("TAN", "Tan", "As")),
+        ),
+    )
+
+
+COUNT, WEIGHT, COLOR = fields(Settings)
+
+
+def test_a_field_carries_its_default_and_its_knob():
+    assert Settings() == Settings(3, 0.5, "RED")
+    assert info_of(WEIGHT).label == "Weight"
+    assert [choice.label for choice in info_of(COLOR).choices] == ["Red", "Tan"]
+
+
+def test_check_lets_good_values_pass():
+    for field, values in ((COUNT, (1, 5)), (WEIGHT, (0, 1e9)), (COLOR, ("TAN",))):
+        for value in values:
+            check(field, value)
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "text"),
+    [
+        (COUNT, 6, "Count is 6; choose a value from 1 to 5."),
+        (COUNT, 0, "Count is 0; choose a value from 1 to 5."),
+        (COUNT, 2.5, "Count must be a whole number, not 2.5."),
+        (WEIGHT, "x", "Weight must be a number, not 'x'."),
+        (COLOR, "red", "Color cannot be 'red'; choose one of RED, TAN."),
+    ],
+)
+def test_check_says_what_is_wrong_and_what_to_do(field, value, text):
+    with pytest.raises(DecompositionError, match=f"^{re.escape(text)}$"):
+        check(field, value)
+
+
+@pytest.mark.parametrize("field", fields(Parameters), ids=lambda field: field.name)
+def test_every_parameter_has_a_label_a_help_and_a_good_default(field):
+    info = info_of(field)
+    assert info.label[0].isupper()
+    assert info.help[0].isupper()
+    assert not info.help.endswith(".")
+    check(field, field.default)

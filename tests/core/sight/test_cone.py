@@ -1,0 +1,126 @@
+import numpy as np
+import pytest
+import shapes
+from brute_caster import BruteCaster
+from weak_convex_decomposition.core.geometry.sampling import sample_surface
+from weak_convex_decomposition.core.sight.cone import (
+    cone_directions,
+    fan_directions,
+    see_cones,
+    see_uniform_pairs,
+)
+from weak_convex_decomposition.core.sight.lines import see_all_pairs, viewpoints
+from weak_convex_decomposition.core.sight.ray_march import RayMarcher
+from weak_convex_decomposition.core.steps.progress import run
+
+
+def look_at(mesh, n_samples):
+    mesh = mesh.normalized()
+    samples = sample_surface(mesh, n_samples, np.random.default_rng(0))
+    scene = RayMarcher(mesh, BruteCaster(mesh))
+    return scene, samples, viewpoints(scene, samples)
+
+
+@pytest.fixture(scope="module")
+def l_views():
+    return look_at(shapes.l_prism(), 300)
+
+
+@pytest.fixture(scope="module")
+def l_los(l_views):
+    return run(see_all_pairs(*l_views))
+
+
+@pytest.fixture(scope="module")
+def l_cones(l_views):
+    positive, negative = run(see_cones(*l_views, 30, np.radians(120)))
+    return positive.toarray(), negative.toarray()
+
+
+@pytest.mark.parametrize("degrees", [1, 60, 120, 180])
+@pytest.mark.parametrize("n_rays", [1, 30, 200])
+def test_directions_fill_the_cone_evenly(degrees, n_rays):
+    normals = np.random.default_rng(1).normal(size=(5, 3))
+    normals = np.concatenate([normals, np.eye(3), -np.eye(3)])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    half = np.radians(degrees) / 2
+    directions = cone_directions(normals, n_rays, 2 * half)
+    assert directions.shape == (len(normals), n_rays, 3)
+    assert np.linalg.norm(directions, axis=2) == pytest.approx(1.0)
+    cosines = -(directions * normals[:, None]).sum(axis=2)
+    assert cosines.min() > np.cos(half) - 1e-9
+    if n_rays < 30:
+        return
+    # Equal solid angles are equal steps of the cosine, and go around evenly.
+    caps = np.histogram(cosines[0], 5, (np.cos(half), 1.0))[0]
+    assert caps == pytest.approx(np.full(5, n_rays / 5), abs=1.01)
+    sideways = directions + cosines[:, :, None] * normals[:, None]
+    assert np.abs(sideways.mean(axis=1)).max() < 0.05 * np.sin(half)
+
+
+def test_the_matrices_are_symmetric_disjoint_and_of_zeros_and_ones(l_cones):
+    positive, negative = l_cones
+    for matrix in l_cones:
+        assert (matrix == matrix.T).all()
+        assert set(np.unique(matrix)) == {0.0, 1.0}
+    assert (positive.diagonal() == 1).all()
+    assert (negative.diagonal() == 0).all()
+    assert not (positive * negative).any()
+
+
+def test_entries_agree_with_all_pairs(l_cones, l_los):
+    positive, negative = (matrix > 0 for matrix in l_cones)
+    assert positive.sum() > 10 * 300
+    assert negative.sum() > 300
+    assert l_los[positive].mean() > 0.97
+    assert (~l_los[negative]).mean() > 0.9
+
+
+def test_most_pairs_are_unknown_to_cones(l_cones):
+    assert (l_cones[0] + l_cones[1]).mean() < 0.5
+
+
+def test_a_wider_cone_sees_more_pairs(l_views, l_cones):
+    narrow, _ = run(see_cones(*l_views, 30, np.radians(20)))
+    assert narrow.sum() < l_cones[0].sum()
+
+
+def test_a_convex_shape_hides_nothing():
+    positive, negative = run(see_cones(*look_at(shapes.box(), 100), 10, np.pi / 2))
+    assert negative.nnz == 0
+    assert positive.sum() > 300
+
+
+def test_a_fan_is_even_and_stays_in_its_plane():
+    plane = np.array([0.0, 0.6, 0.8])
+    normals = np.array([[1.0, 0.0, 0.0], [0.0, 0.8, -0.6]])
+    rays = fan_directions(normals, 6, np.radians(120), plane)
+    assert abs(rays @ plane).max() < 1e-12
+    assert np.linalg.norm(rays, axis=2) == pytest.approx(1)
+    angles = np.degrees(np.arccos(-np.einsum("nrd,nd->nr", rays, normals)))
+    assert angles == pytest.approx(np.tile([50, 30, 10, 10, 30, 50], (2, 1)))
+    between = np.einsum("nrd,nrd->nr", rays[:, 1:], rays[:, :-1])
+    assert between == pytest.approx(np.cos(np.radians(20)))
+
+
+def test_separate_solids_behind_each_other_are_known_to_be_hidden():
+    far = shapes.box((3, 0, 0), (4, 1, 1))
+    scene, samples, views = look_at(shapes.joined(shapes.box(), far), 100)
+    left = samples.positions[:, 0] < 0
+    positive, negative = run(see_cones(scene, samples, views, 30, np.radians(60)))
+    assert positive.toarray()[np.ix_(left, ~left)].sum() == 0
+    assert negative.toarray()[np.ix_(left, ~left)].sum() > 0
+
+
+def test_rays_out_of_an_open_shape_add_no_entry():
+    positive, negative = run(see_cones(*look_at(shapes.sheet(), 50), 10, np.pi / 2))
+    assert (positive.toarray() == np.eye(50)).all()
+    assert negative.nnz == 0
+
+
+def test_uniform_pairs_agree_with_all_pairs(l_views, l_los):
+    known = run(see_uniform_pairs(*l_views, np.random.default_rng(0)))
+    looked_up, visible = known.known.toarray(), known.visible.toarray()
+    assert (looked_up == looked_up.T).all()
+    assert (visible == looked_up * l_los).all()
+    assert known.rank_of_all()[0] == pytest.approx(l_los.mean(), abs=0.01)

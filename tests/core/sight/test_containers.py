@@ -1,0 +1,79 @@
+import numpy as np
+import pytest
+import shapes
+from brute_caster import BruteCaster
+from weak_convex_decomposition.core.decomposition import decompose, measure
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.sight.containers import find_enclosed, see_through
+from weak_convex_decomposition.core.sight.ray_march import RayMarcher
+from weak_convex_decomposition.core.steps.progress import run
+
+
+def grid_of(mesh):
+    return run(find_enclosed(RayMarcher(mesh, BruteCaster(mesh)), mesh))
+
+
+def seen_through(mesh, starts, ends):
+    starts, ends = np.atleast_2d(starts).astype(float), np.atleast_2d(ends)
+    return run(see_through(grid_of(mesh), starts, ends)).tolist()
+
+
+@pytest.mark.parametrize(
+    "make", [shapes.box, shapes.l_prism, shapes.sheet, lambda: shapes.sphere(1)]
+)
+def test_shapes_without_a_hollow_enclose_nothing(make):
+    assert not grid_of(make()).encloses
+
+
+@pytest.mark.parametrize("wall", [0.02, 0.1, 0.2])
+def test_a_cup_is_seen_through_from_wall_to_wall(wall):
+    cup = shapes.cup(wall)
+    starts = [[wall, 0.5, 0.5], [wall, 0.5, 0.9], [0.5, 0.5, wall], [0, 0.5, 0.5]]
+    ends = [[1 - wall, 0.5, 0.5], [1 - wall, 0.4, 0.5], [wall, 0.5, 0.7], [1, 0.5, 0.4]]
+    assert seen_through(cup, starts, ends) == [True] * 4
+
+
+def test_nothing_is_seen_through_the_open():
+    outer = np.array([[0, 0.5, 0.5], [0.5, 0, 0.5]])
+    pair = shapes.joined(shapes.cup(), shapes.moved(shapes.cup(), offset=(3, 0, 0)))
+    # From one cup to the other, and past the corner of one.
+    assert seen_through(pair, outer, outer + np.array([4, 0, 0])) == [False] * 2
+    assert seen_through(shapes.cup(), [-0.5, 0.5, 0.5], [0.5, -0.5, 0.5]) == [False]
+
+
+def test_a_cavity_is_enclosed_however_the_shape_lies():
+    assert grid_of(shapes.hollow_sphere()).encloses
+    turned = shapes.moved(shapes.cup(), rotation=shapes.any_rotation(3))
+    assert grid_of(turned).encloses
+
+
+def test_a_gap_between_two_plates_is_open():
+    plate = shapes.box(high=(1, 1, 0.05))
+    plates = shapes.joined(plate, shapes.moved(plate, offset=(0, 0, 1)))
+    assert not grid_of(plates).encloses
+
+
+@pytest.mark.parametrize(
+    "values", [{}, {"sight": "CONE"}, {"sight": "CONE", "psi_pairs": "RAYS"}]
+)
+def test_a_cup_stays_whole(values):
+    mesh = shapes.refined(shapes.cup())
+    values = {"samples": 300, "max_parts": 6, **values}
+    found = run(decompose(mesh, Parameters(**values), BruteCaster))
+    assert found.n_parts == 1
+    # Ranks are those of eq. 1: the hollow is not of the solid.
+    assert found.ranks[0] < 0.5 < found.psi_before
+    hollow = Parameters(**values, containers="HOLLOW")
+    assert run(decompose(mesh, hollow, BruteCaster)).n_parts > 1
+
+
+def test_measuring_knows_no_containers():
+    ranks = [
+        run(
+            measure(
+                shapes.cup(), Parameters(samples=200, containers=choice), BruteCaster
+            )
+        ).rank
+        for choice in ("FILLED", "HOLLOW")
+    ]
+    assert ranks[0] == ranks[1] < 0.5
