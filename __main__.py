@@ -31,7 +31,9 @@ def main() -> int:
     sys.modules[_PACKAGE] = package
     spec.loader.exec_module(package)
     package.register()
-    command_line = importlib.import_module(f"{_PACKAGE}.operators.headless.command_line")
+    command_line = importlib.import_module(
+        f"{_PACKAGE}.operators.headless.command_line"
+    )
     status = command_line.main(sys.argv[1:], program="python .")
     package.unregister()
     return status

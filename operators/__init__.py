@@ -4,7 +4,7 @@ import bpy
 
 from . import edit_parts, recut, show_parts, show_sight, use_parts
 from .bridge.parts import rows
-from .bridge.work import sight_cache as visibility_cache
+from .bridge.work import session_cache
 from .clear import WCD_OT_clear
 from .decompose import WCD_OT_decompose
 from .headless import command_line
@@ -39,7 +39,7 @@ def register() -> None:
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     command_line.register()
-    visibility_cache.register()
+    session_cache.register()
     show_sight.register()
     rows.register()
 
@@ -50,7 +50,7 @@ def unregister() -> None:
     modal.stop()
     show_sight.unregister()
     rows.unregister()
-    visibility_cache.unregister()
+    session_cache.unregister()
     command_line.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -23,7 +23,8 @@ def imports(path):
         if isinstance(node, ast.Import):
             yield from ((alias.name, 0) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            yield node.module or "", node.level
+            names = [node.module] if node.module else [a.name for a in node.names]
+            yield from ((name, node.level) for name in names)
 
 
 def run_python(code):
@@ -69,7 +70,7 @@ def test_operators_import_nothing_of_the_panels_above_them():
     for path in (ROOT / "operators").rglob("*.py"):
         depth = len(path.relative_to(ROOT).parts) - 1
         for module, level in imports(path):
-            above = level > depth and module.partition(".")[0] in {"ui", ""}
+            above = level > depth and module.partition(".")[0] == "ui"
             assert not above, f"{path} imports {module} from above"
 
 

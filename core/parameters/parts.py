@@ -28,7 +28,7 @@ class Parameters:
             high=256,
             usual=24,
             advanced=False,
-            recut=True,
+            affects_sight=False,
         ),
     )
     rays: int = parameter(
@@ -51,7 +51,7 @@ class Parameters:
             low=0.0,
             high=10.0,
             advanced=False,
-            recut=True,
+            affects_sight=False,
         ),
     )
     sight: str = parameter(
@@ -165,7 +165,7 @@ class Parameters:
                 Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
                 Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
             ),
-            recut=True,
+            affects_sight=False,
         ),
     )
     min_parts: int = parameter(
@@ -176,7 +176,7 @@ class Parameters:
             low=2,
             high=256,
             usual=24,
-            recut=True,
+            affects_sight=False,
         ),
     )
     max_parts: int = parameter(
@@ -187,7 +187,7 @@ class Parameters:
             low=2,
             high=256,
             usual=24,
-            recut=True,
+            affects_sight=False,
         ),
     )
     refinement: str = parameter(
@@ -207,7 +207,7 @@ class Parameters:
                     "Clusters stay as they are and seams keep to them, as in the paper",
                 ),
             ),
-            recut=True,
+            affects_sight=False,
         ),
     )
     smoothness: float = parameter(
@@ -218,7 +218,7 @@ class Parameters:
             low=0.0,
             high=100.0,
             usual=10.0,
-            recut=True,
+            affects_sight=False,
         ),
     )
     smallest_part: float = parameter(
@@ -229,7 +229,7 @@ class Parameters:
             low=0.0,
             high=0.5,
             subtype="FACTOR",
-            recut=True,
+            affects_sight=False,
         ),
     )
     levels: int = parameter(
@@ -241,7 +241,7 @@ class Parameters:
             " Parts is the number on the first level",
             low=1,
             high=4,
-            recut=True,
+            affects_sight=False,
         ),
     )
     seed: int = parameter(
