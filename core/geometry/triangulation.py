@@ -38,7 +38,7 @@ def triangulate(
     for size in np.unique(sizes):
         rows = np.flatnonzero(sizes == size)
         places = begins[rows, None] + np.arange(size - 2)
-        corners = np.stack([faces[row] for row in rows])
+        corners = np.stack([faces[row] for row in rows.tolist()])
         triangles[places] = _triangulate_alike(vertices, corners)
     return triangles, np.repeat(np.arange(len(sizes)), sizes - 2)
 
