@@ -194,8 +194,8 @@ def test_a_progress_that_raises_ends_the_work():
         (lambda: wcd.decompose(VERTICES, [1, 2, 3]), "Face 0 is no list"),
         (lambda: wcd.decompose(VERTICES, ["abc"]), "Face 0 is no list"),
         (lambda: wcd.decompose(VERTICES, [[0.0, 1.0, 2.0]]), "must be whole numbers"),
-        (lambda: wcd.decompose(l_shape(), FACES), "has faces of its own; leave out"),
-        (lambda: wcd.decompose(Trimesh(VERTICES, FACES), FACES), "has faces of its ow"),
+        (lambda: wcd.decompose(l_shape(), FACES), "A TriangleMesh is a shape already"),
+        (lambda: wcd.decompose(Trimesh(VERTICES, FACES), FACES), "is a shape already"),
         (lambda: wcd.decompose(VERTICES, FACES, part=3), "'part'; its .* parts, rays,"),
         (
             lambda: wcd.measure(VERTICES, FACES, k=3),

@@ -34,14 +34,15 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
     Raises
     ------
     TypeError
-        If it is nothing of that.
+        If it is none of these.
     DecompositionError
         If it has no surface that can be decomposed.
     """
     is_object = _is_blender_object(shape)
     named = hasattr(shape, "vertices") and hasattr(shape, "faces")
     if faces is not None and (is_object or named or isinstance(shape, _OWN)):
-        raise TypeError(f"{_name(shape)} has faces of its own; leave out `faces`.")
+        name = type(shape).__name__
+        raise TypeError(f"A {name} is a shape already; leave out `faces`.")
     if isinstance(shape, _OWN):
         return shape
     if is_object:
@@ -74,9 +75,9 @@ def labels_of(
     Raises
     ------
     TypeError
-        If labels are no whole numbers.
+        If labels are not whole numbers.
     DecompositionError
-        If they do not fit the mesh, or are needed and not given.
+        If they do not fit the mesh, or are needed and missing.
     """
     if labels is None:
         if needed:

@@ -41,5 +41,5 @@ def test_objects_without_a_surface_are_refused():
 
 
 def test_faces_beside_an_object_are_refused(suzanne):
-    with pytest.raises(TypeError, match="has faces of its own"):
+    with pytest.raises(TypeError, match="is a shape already; leave out `faces`"):
         wcd.decompose(suzanne, [[0, 1, 2]])
