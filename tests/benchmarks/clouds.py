@@ -138,7 +138,9 @@ def main() -> int:
     ]
     make_caster = BvhRayCaster
     if arguments.embree:
-        from embree_caster import EmbreeCaster as make_caster
+        from weak_convex_decomposition.operators.bridge.rays.embree import (
+            EmbreeRayCaster as make_caster,
+        )
 
     def measure(model: int) -> list[Score]:
         mesh = read_model(arguments.directory, model)
