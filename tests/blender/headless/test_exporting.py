@@ -9,8 +9,8 @@ from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.palette import part_color
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
-from weak_convex_decomposition.operators.headless.read.models import load
-from weak_convex_decomposition.operators.headless.write.models import ENDINGS, save
+from weak_convex_decomposition.operators.headless.read.load import load
+from weak_convex_decomposition.operators.headless.write.model_files import save
 
 OFF = """OFF
 8 6 0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.models import load
+from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.request.options import parse
 
 QUICK = ["--samples=100", "--parts=2", "--max-hulls=3", "--naming=unreal"]

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.read.models import ENDINGS, load
+from weak_convex_decomposition.operators.headless.read.load import load
 
 # A wedge unlike itself in every direction, Z up.
 MESH_ENDINGS = sorted(set(ENDINGS) - {".xyz", ".pwn", ".pts"})

@@ -11,7 +11,7 @@ from weak_convex_decomposition.operators.bridge.mesh.points import (
     positions_of,
 )
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.models import load
+from weak_convex_decomposition.operators.headless.read.load import load
 
 POINTS, NORMALS = clouds.drawn(shapes.dumbbell(), 600)
 FAST = ["--samples", "150", "--parts", "2", "--containers", "HOLLOW"]
