@@ -30,22 +30,22 @@ class Attempts:
         self._screen = screen
         self.errors: list[str] = []
 
-    def value(self, make: Callable[[], T], otherwise: T) -> T:
-        """Return the value of `make`, or `otherwise` if that fails."""
+    def value(self, make: Callable[[], T]) -> T | None:
+        """Return the value of `make`, None if that fails."""
         try:
             return make()
         except DecompositionError as error:
             self._screen.error(str(error))
             self.errors.append(str(error))
-            return otherwise
+            return None
 
     def written(self, path: Path | None, write: Callable[[Path], None]) -> Path | None:
         """Write to `path`; return it, or None if there is none or writing fails."""
         if path is None:
             return None
 
-        def written_path() -> Path | None:
+        def write_it() -> Path:
             write(path)
             return path
 
-        return self.value(written_path, None)
+        return self.value(write_it)

@@ -5,8 +5,6 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-import bpy
-
 from .attempts import Attempts
 from .build_hulls import build_hulls, with_hull_records
 from .decompose_objects import decompose_objects
@@ -29,27 +27,14 @@ def decompose_file(
     trial: EngineTrial,
     screen: Screen,
 ) -> InputResult:
-    """Decompose one input and write what is asked for.
+    """Decompose the input `path` and write its targets.
 
-    What fails is shown and noted; the rest is still done.
-
-    Parameters
-    ----------
-    path : Path
-        The input.
-    targets : Targets
-        The files to write.
-    request : Request
-        Parameters and the up axis.
-    trial : EngineTrial
-        Says which engine renders the picture.
-    screen : Screen
-        Shows progress, results and errors.
+    What fails is shown and noted; the rest is still done. The engine trial says which
+    engine renders the picture.
     """
     started = time.perf_counter()
     attempts = Attempts(screen)
-    nothing: list[bpy.types.Object] = []
-    objects = attempts.value(lambda: load(path, request.up), nothing)
+    objects = attempts.value(lambda: load(path, request.up)) or []
     results = decompose_objects(path.name, objects, request.parameters, screen)
     if not any(result.record for result in results):
         targets = Targets()  # there is nothing to write
@@ -67,6 +52,5 @@ def decompose_file(
     )
     if hulls:
         results = with_hull_records(objects, results)
-    seconds = time.perf_counter() - started
-    errors = tuple(attempts.errors)
+    errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     return InputResult(path, results, errors, output, picture, hulls, seconds)

@@ -43,10 +43,12 @@ def not_finite(path: Path) -> DecompositionError:
 
 
 def _obj_is_finite(data: bytes) -> bool:
+    """Return whether all positions are finite."""
     return _IN_OBJ.search(data) is None
 
 
 def _stl_is_finite(data: bytes) -> bool:
+    """Return whether all corners are finite."""
     n_triangles = n_stl_triangles(data[:84], len(data))
     if n_triangles is not None:
         triangles = np.frombuffer(data, _STL_TRIANGLE, n_triangles, offset=84)

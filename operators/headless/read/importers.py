@@ -20,18 +20,22 @@ from .point_files import read_points
 
 
 def _obj(path: Path, up: str) -> set[str]:
+    """Import .obj."""
     return set(bpy.ops.wm.obj_import(filepath=str(path), **axes(up)))
 
 
 def _ply(path: Path, up: str) -> set[str]:
+    """Import .ply."""
     return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))
 
 
 def _stl(path: Path, up: str) -> set[str]:
+    """Import .stl."""
     return set(bpy.ops.wm.stl_import(filepath=str(path), **axes(up)))
 
 
 def _off(path: Path, up: str) -> set[str]:
+    """Import .off by our reader."""
     vertices, polygons = read_off(path)
     mesh = bpy.data.meshes.new(path.stem)
     mesh.from_pydata(vertices, [], [row for row in polygons if len(row) > 2])
@@ -41,6 +45,7 @@ def _off(path: Path, up: str) -> set[str]:
 
 
 def _points(path: Path, up: str) -> set[str]:
+    """Import .xyz, .pwn or .pts by our reader."""
     points, normals = read_points(path)
     mesh = bpy.data.meshes.new(path.stem)
     mesh.from_pydata(points, [], [])
@@ -51,12 +56,14 @@ def _points(path: Path, up: str) -> set[str]:
 
 
 def _gltf(path: Path, _up: str) -> set[str]:
+    """Import .glb or .gltf."""
     _enable("io_scene_gltf2")
     # glTF splits vertices at sharp edges; merging them joins the faces again.
     return set(bpy.ops.import_scene.gltf(filepath=str(path), merge_vertices=True))
 
 
 def _fbx(path: Path, _up: str) -> set[str]:
+    """Import .fbx."""
     if "fbx_import" in dir(bpy.ops.wm):  # newer Blenders; it reads text FBX, too
         return set(bpy.ops.wm.fbx_import(filepath=str(path)))
     _enable("io_scene_fbx")
@@ -64,6 +71,7 @@ def _fbx(path: Path, _up: str) -> set[str]:
 
 
 def _blend(path: Path, _up: str) -> set[str]:
+    """Open .blend in place of the empty file; its scripts do not run."""
     return set(
         bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
     )

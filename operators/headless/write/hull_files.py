@@ -73,6 +73,7 @@ def _export(
 
 
 def _glb(path: Path, _up: str) -> None:
+    """Export .glb with colliders."""
     bpy.ops.export_scene.gltf(
         filepath=str(path),
         export_format="GLB",
@@ -84,6 +85,7 @@ def _glb(path: Path, _up: str) -> None:
 
 
 def _obj(path: Path, up: str) -> None:
+    """Export .obj."""
     bpy.ops.wm.obj_export(
         filepath=str(path),
         export_selected_objects=True,
@@ -95,6 +97,7 @@ def _obj(path: Path, up: str) -> None:
 
 
 def _stl(path: Path, up: str) -> None:
+    """Export .stl."""
     # Hulls are hidden in renders, and Blender 5.2 and later write what is rendered.
     known = bpy.ops.wm.stl_export.get_rna_type().properties
     mode = (
@@ -106,6 +109,7 @@ def _stl(path: Path, up: str) -> None:
 
 
 def _usd(path: Path, _up: str) -> None:
+    """Export .usd with colliders."""
     bpy.ops.wm.usd_export(
         filepath=str(path),
         selected_objects_only=True,

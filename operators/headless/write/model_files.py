@@ -49,10 +49,12 @@ def _move_materials(unfinished: Path, path: Path) -> None:
 
 
 def _blend(path: Path, _up: str) -> None:
+    """Save a copy as .blend."""
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
 
 
 def _glb(path: Path, _up: str) -> None:
+    """Export .glb."""
     # The extras hold the record, which is the custom property "wcd" of each object.
     bpy.ops.export_scene.gltf(
         filepath=str(path), export_format="GLB", export_extras=True
@@ -60,6 +62,7 @@ def _glb(path: Path, _up: str) -> None:
 
 
 def _obj(path: Path, up: str) -> None:
+    """Export .obj."""
     # Parts belong to the faces without modifiers.
     bpy.ops.wm.obj_export(
         filepath=str(path),
@@ -70,6 +73,7 @@ def _obj(path: Path, up: str) -> None:
 
 
 def _ply(path: Path, up: str) -> None:
+    """Export .ply with colors on the vertices."""
     with ply_copies():
         bpy.ops.wm.ply_export(
             filepath=str(path),
