@@ -34,7 +34,7 @@ def draw_picture(
     parameters: Parameters,
     colors: NDArray[np.float64],
 ) -> Picture:
-    """Draw one of `parameters.pictures.PICTURES`.
+    """Draw one of `parameters.choices.PICTURES`.
 
     Parameters
     ----------

@@ -17,7 +17,12 @@ Shape = TriangleMesh | PointCloud
 
 
 def content_key(shape: Shape) -> Hashable:
-    """Return a key that two shapes share only if all their arrays are equal."""
+    """Return a key that two shapes share only if all their arrays are equal.
+
+    Parameters
+    ----------
+    shape : TriangleMesh or PointCloud
+    """
     digest = blake2b()
     for field in fields(shape):
         array: NDArray[Any] | None = getattr(shape, field.name)

@@ -6,7 +6,15 @@ import math
 from dataclasses import dataclass
 
 from ..errors import DecompositionError
-from .parameter import Choice, ParameterInfo, parameter, settle
+from .choices import (
+    CONTAINERS,
+    NORMALIZATION,
+    PSI_PAIRS,
+    REFINEMENT,
+    SAMPLING,
+    SIGHT,
+)
+from .parameter import ParameterInfo, parameter, settle
 
 
 @dataclass(frozen=True)
@@ -59,19 +67,7 @@ class Parameters:
         ParameterInfo(
             "Lines of Sight",
             "Which lines of sight are looked up",
-            choices=(
-                Choice(
-                    "ALL_PAIRS",
-                    "All Pairs",
-                    "Between every two samples: the definition itself",
-                ),
-                Choice(
-                    "CONE",
-                    "Cone",
-                    "Rays in a cone around the inward normal, as in the paper:"
-                    " sparse, for many samples",
-                ),
-            ),
+            choices=SIGHT,
             advanced=False,
         ),
     )
@@ -80,19 +76,7 @@ class Parameters:
         ParameterInfo(
             "Sampling",
             "Where the samples are, between which lines of sight run",
-            choices=(
-                Choice(
-                    "AREA",
-                    "By Area",
-                    "Spread evenly over the surface, as many as Samples says",
-                ),
-                Choice(
-                    "FACES",
-                    "By Faces",
-                    "One on each triangle, small meshes being subdivided to 3000, as in"
-                    " the paper",
-                ),
-            ),
+            choices=SAMPLING,
         ),
     )
     samples: int = parameter(
@@ -120,19 +104,7 @@ class Parameters:
             "Psi From",
             "Pairs of samples from which cone sight estimates psi; all pairs"
             " counts every pair",
-            choices=(
-                Choice(
-                    "UNIFORM",
-                    "Uniform Pairs",
-                    "Pairs drawn at random: an estimate without bias",
-                ),
-                Choice(
-                    "RAYS",
-                    "Ray Hits",
-                    "Pairs that the cone's rays found, as in the paper: biased"
-                    " towards near and visible pairs",
-                ),
-            ),
+            choices=PSI_PAIRS,
         ),
     )
     containers: str = parameter(
@@ -141,19 +113,7 @@ class Parameters:
             "Containers",
             "Whether what the shape encloses, such as the hollow of a cup, is seen"
             " through",
-            choices=(
-                Choice(
-                    "FILLED",
-                    "Filled",
-                    "The enclosed outside counts as inside, so that thin walls around"
-                    " it stay whole; shapes that enclose nothing are not affected",
-                ),
-                Choice(
-                    "HOLLOW",
-                    "Hollow",
-                    "Lines of sight run through the inside alone, as in the paper",
-                ),
-            ),
+            choices=CONTAINERS,
         ),
     )
     normalization: str = parameter(
@@ -161,10 +121,7 @@ class Parameters:
         ParameterInfo(
             "Normalization",
             "How the matrix of lines of sight is normalized",
-            choices=(
-                Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
-                Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
-            ),
+            choices=NORMALIZATION,
             affects_sight=False,
         ),
     )
@@ -195,18 +152,7 @@ class Parameters:
         ParameterInfo(
             "Refinement",
             "What k-means' clusters and their seams are refined by",
-            choices=(
-                Choice(
-                    "PSI",
-                    "Psi",
-                    "Samples change their part, and seams move, where psi gains by it",
-                ),
-                Choice(
-                    "EMBEDDING",
-                    "Embedding",
-                    "Clusters stay as they are and seams keep to them, as in the paper",
-                ),
-            ),
+            choices=REFINEMENT,
             affects_sight=False,
         ),
     )

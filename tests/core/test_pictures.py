@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from computed import parts_of
 from shapes import dumbbell
+from weak_convex_decomposition.core.parameters.choices import PICTURES
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parameters.pictures import PICTURES
 from weak_convex_decomposition.core.pictures import draw_picture
 
 COLORS = np.array([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]])

@@ -23,8 +23,8 @@ from ..stored.record import identities_of, record_of, write_hull_record
 from .rigid_bodies import soften
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ....core.geometry.primitives import CollisionShape
     from ....core.hulls.build import HullDecomposition
-    from ....core.hulls.primitives import CollisionShape
 
 # Custom property of hulls, and of the collections made for them.
 _TAG = "wcd_hull"

@@ -1,5 +1,5 @@
 import json
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from types import SimpleNamespace
 
 import bpy
@@ -145,14 +145,6 @@ def test_operators_have_one_undo_step_each():
     for name in ("decompose", "measure", "clear"):
         cls = getattr(bpy.types, f"WCD_OT_{name}")
         assert {"REGISTER", "UNDO"} <= cls.bl_options
-
-
-def test_every_parameter_is_a_property_of_operator_and_settings():
-    operator = bpy.ops.wcd.decompose.get_rna_type().properties
-    settings = bpy.context.scene.wcd.bl_rna.properties
-    for field in fields(Parameters):
-        assert field.name in operator
-        assert field.name in settings
 
 
 def test_a_preset_sets_every_setting_of_the_scene():

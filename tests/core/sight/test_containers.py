@@ -40,7 +40,7 @@ def test_nothing_is_seen_through_the_open():
 
 
 def test_a_cavity_is_enclosed_however_the_shape_lies():
-    assert grid_of(shapes.hollow_sphere()).encloses
+    assert grid_of(shapes.hollow_sphere(0.5, 1)).encloses
     turned = shapes.moved(shapes.cup(), rotation=shapes.any_rotation(3))
     assert grid_of(turned).encloses
 
