@@ -1,4 +1,4 @@
-"""Lines of sight of points that are clicked on, drawn over the viewports."""
+"""Show in the viewports what the points see that the user clicks on."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..core.steps.progress import Steps
 from . import sight_overlay
 from .bridge.mesh.points import vertices_now
 from .bridge.read.shape import stretch
-from .bridge.read.target import refusal
+from .bridge.refusals import measure_refusal
 from .bridge.work.computing import point_viewer_of
 from .running import modal
 from .running.computation import Computation
@@ -29,13 +29,13 @@ _HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hid
 
 
 class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
-    """Show which samples the points see that are clicked on."""
+    """Show which samples a point sees that the user clicks on."""
 
     bl_idname = "wcd.show_sight"
     bl_label = "Show Lines of Sight"
     bl_description = (
-        "Click points of the active object to see what they see: samples in line of"
-        " sight are green, others blue. Nothing is written to the object"
+        "Click points of the active object to see what they see. Samples in line of"
+        " sight are green, others are blue. Nothing is written to the object"
     )
     bl_options: ClassVar[set[str]] = set()
 
@@ -43,10 +43,10 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return refusal(obj, writes_mesh=False)
+        return measure_refusal(obj)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Show what the middle of a face sees, at once."""
+        """Show what the middle of a face sees."""
         if self.face < 0:
             self.report(
                 {"ERROR"},
@@ -57,7 +57,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         return super().execute(context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Compute what is needed; then show what the points see that are clicked."""
+        """Make the object ready; then show what each clicked point sees."""
         if self._lookout is None:
             answer = super().modal(context, event)
             return answer if answer != {"FINISHED"} else self._wait()
@@ -97,12 +97,12 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         return f"{len(value.samples):,} samples"
 
     def _wait(self) -> set[str]:
-        """Go on to wait for clicks."""
+        """Wait for clicks."""
         modal.show_status(self._overlay.workspace, _HINT)
         return {"RUNNING_MODAL"}
 
     def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:
-        """Show what the point sees that is at a place of a viewport."""
+        """Show what the point under the cursor sees."""
         try:
             obj = self._targets[0].find()
         except DecompositionError as error:
@@ -128,7 +128,7 @@ WCD_OT_show_sight.__annotations__ = {
     **annotations(SELECTION),
     "face": bpy.props.IntProperty(
         name="Face",
-        description="Face whose middle looks around, -1 for none; for scripts",
+        description="For scripts: the face whose middle is looked from, -1 for none",
         default=-1,
         min=-1,
         options={"SKIP_SAVE"},
@@ -137,11 +137,11 @@ WCD_OT_show_sight.__annotations__ = {
 
 
 class WCD_OT_hide_sight(bpy.types.Operator):
-    """Take lines of sight off the viewports."""
+    """Remove lines of sight from the viewports."""
 
     bl_idname = "wcd.hide_sight"
     bl_label = "Hide Lines of Sight"
-    bl_description = "Take the lines of sight off the viewports"
+    bl_description = "Remove the lines of sight from the viewports"
     bl_options: ClassVar[set[str]] = set()
 
     @classmethod
@@ -160,7 +160,7 @@ CLASSES = (WCD_OT_show_sight, WCD_OT_hide_sight)
 
 @bpy.app.handlers.persistent
 def stop(*_: object) -> None:
-    """Hide the overlay, and what the status bar says of it."""
+    """Hide the overlay, and clear its text from the status bar."""
     overlay = sight_overlay.current
     sight_overlay.hide()
     if overlay is not None:
@@ -169,7 +169,7 @@ def stop(*_: object) -> None:
 
 @bpy.app.handlers.persistent
 def _stop_if_stale(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
-    """Hide the overlay as soon as the shape is another than the one it was made of."""
+    """Hide the overlay if its object's vertices have moved."""
     overlay = sight_overlay.current
     if overlay is None:
         return
@@ -199,7 +199,7 @@ def unregister() -> None:
 
 
 def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
-    """Return a ray in object space that comes down on the middle of a face."""
+    """Return a ray in object space that hits the middle of a face from outside."""
     polygons = obj.data.polygons
     if face >= len(polygons):
         raise DecompositionError(
@@ -213,7 +213,7 @@ def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
 def _viewport_at(
     context: bpy.types.Context, x: int, y: int
 ) -> tuple[bpy.types.Region, int, int] | None:
-    """Return the viewport at a place of the window, and the place in it."""
+    """Return the viewport at a point of the window, and the point in its pixels."""
     for area in context.window.screen.areas:
         there = [region for region in area.regions if _holds(region, x, y)]
         if area.type == "VIEW_3D" and {r.type for r in there} == {"WINDOW"}:
@@ -222,4 +222,5 @@ def _viewport_at(
 
 
 def _holds(region: Any, x: int, y: int) -> bool:
+    """Return whether a point of the window is in a region."""
     return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height

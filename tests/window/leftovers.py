@@ -5,7 +5,7 @@ from weak_convex_decomposition.operators import recut, sight_overlay
 from weak_convex_decomposition.operators.bridge.work import (
     sight_cache as visibility_cache,
 )
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 
 def leftovers():
@@ -13,7 +13,6 @@ def leftovers():
     found = {
         "computation": running.current is not None,
         "overlay": sight_overlay.current is not None,
-        "draw handler": sight_overlay._handler is not None,
         "timer": bpy.app.timers.is_registered(recut._invoke),
     }
     return [name for name, there in found.items() if there]

@@ -15,13 +15,13 @@ from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 from ....core.steps.progress import Progress, Steps, within
-from ..hulls.hull_objects import hull_refusal
+from ..mesh.selection import selected_faces
 from ..parts.palette import part_srgb
 from ..parts.parted import part_identities, part_labels
 from ..parts.write import check_writable
 from ..rays.bvh import BvhRayCaster
-from ..read.converting import CONVERTIBLE
-from ..read.shape import read_shape, reading_notes, selected_faces
+from ..read.shape import read_shape, reading_notes
+from ..refusals import CONVERTIBLE, hull_refusal
 from ..stored.record import check_records, noted_parameters
 from .sight_cache import is_seen, see_once
 

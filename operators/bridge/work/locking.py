@@ -11,8 +11,9 @@ import numpy as np
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.steps.progress import Steps
-from ..parts.present_parts import PresentParts, edit_refusal, present_parts
+from ..parts.present_parts import PresentParts, present_parts
 from ..rays.bvh import BvhRayCaster
+from ..refusals import edit_refusal
 from .computing import decompose_object
 from .editing import Edited, edit_object
 

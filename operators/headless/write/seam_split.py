@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ...bridge.mesh.corners import corner_faces, corner_vertices
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
-from ...bridge.parts.erase import PART_LAYER
 from ...bridge.parts.palette import part_color
+from ...bridge.stored.names import PART_LAYER
 from ..read.models import mesh_objects
 
 _NUMBER = "part"

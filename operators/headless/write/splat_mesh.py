@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 
 from ...bridge.mesh.points import count_points, normals_of, positions_of, read_vectors
-from ...bridge.parts.erase import NORMAL_LAYER, PART_LAYER
 from ...bridge.parts.materials import part_materials
 from ...bridge.stored.identity import usual_identities
+from ...bridge.stored.names import NORMAL_LAYER, PART_LAYER
 
 
 def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:

@@ -14,7 +14,6 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 from weak_convex_decomposition.operators.hulls import WCD_OT_build_hulls
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
-from weak_convex_decomposition.operators.running import current as running
 from weak_convex_decomposition.operators.running import modal
 from weak_convex_decomposition.operators.running.computation import Computation
 
@@ -66,7 +65,7 @@ class Window:
         self.status = text
 
     def is_clean(self):
-        return not self.timers and self.status is None and running.current is None
+        return not self.timers and self.status is None and modal.current is None
 
 
 @pytest.fixture
@@ -142,8 +141,8 @@ def test_several_objects_have_one_progress_and_esc_leaves_all(window):
     assert [snapshot(obj) for obj in objects] == before
     pressed = press(WCD_OT_decompose, window)
     while pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
-        shares.append(running.current.job.progress.fraction)
-        stages.append(running.current.job.progress.stage.partition(":")[0])
+        shares.append(modal.current.job.progress.fraction)
+        stages.append(modal.current.job.progress.stage.partition(":")[0])
     assert shares == sorted(shares)
     assert set(stages) >= {"Cube", "Cube.001", "Cube.002"}
     assert all("wcd_part" in obj.data.attributes for obj in objects)
@@ -166,7 +165,7 @@ def test_progress_is_told_and_other_events_pass(suzanne, window, monkeypatch):
     pressed = press(WCD_OT_decompose, window)
     shares = []
     while pressed.modal(None, MOUSE) == pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
-        progress = running.current.job.progress
+        progress = modal.current.job.progress
         shares.append(progress.fraction)
         assert f"{progress.stage}, {progress.fraction:.0%}" in window.status
     assert shares == sorted(shares)
