@@ -17,7 +17,7 @@ from .bridge.work.computing import summary
 from .bridge.work.locking import decompose_unlocked
 from .running.computation import Computation
 from .running.on_objects import OnEach
-from .settings import ADVANCED, FRONT, annotations, draw, parameters_from
+from .settings import ADVANCED, FRONT, draw, parameters_from, properties_for
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from .bridge.work.editing import Edited
@@ -61,7 +61,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         return summary(value.decomposition)
 
 
-WCD_OT_decompose.__annotations__ = annotations()
+WCD_OT_decompose.__annotations__ = properties_for()
 
 
 class WCD_OT_clear(OnEach, bpy.types.Operator):

@@ -14,7 +14,7 @@ from .bridge.refusals import assign_refusal, edit_refusal, merge_refusal
 from .bridge.work import edits
 from .bridge.work.editing import edit_object
 from .running.computation import Replacement
-from .settings import annotations
+from .settings import properties_for
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from .bridge.work.editing import Edited
@@ -133,7 +133,7 @@ class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
         return edit_object(obj, edits.smoothing(chosen, self.smoothness))
 
 
-WCD_OT_smooth_seams.__annotations__ = {"scope": SCOPE, **annotations(["smoothness"])}
+WCD_OT_smooth_seams.__annotations__ = {"scope": SCOPE, **properties_for(["smoothness"])}
 
 
 class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):

@@ -13,7 +13,7 @@ from .bridge.refusals import hull_refusal, rigid_refusal
 from .bridge.work.computing import build_hulls_of, hull_summary
 from .running.computation import Computation
 from .running.on_objects import OnEach
-from .settings import HULLS, annotations, draw, hull_parameters_from, parameters_from
+from .settings import HULLS, draw, hull_parameters_from, parameters_from, properties_for
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ..core.hulls.build import HullDecomposition
@@ -50,7 +50,7 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         return hull_summary(value)
 
 
-WCD_OT_build_hulls.__annotations__ = annotations(HULLS)
+WCD_OT_build_hulls.__annotations__ = properties_for(HULLS)
 
 
 class WCD_OT_make_rigid(OnEach, bpy.types.Operator):

@@ -15,7 +15,7 @@ from .bridge.refusals import measure_refusal, selection_refusal
 from .bridge.stored.record import write_measurement
 from .bridge.work.computing import measure_object, measure_selection_of
 from .running.computation import Computation
-from .settings import MEASURE, SELECTION, annotations, draw, parameters_from
+from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from ..core.decomposition import Measurement
@@ -48,7 +48,7 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
         return _figures(value)
 
 
-WCD_OT_measure.__annotations__ = annotations(MEASURE)
+WCD_OT_measure.__annotations__ = properties_for(MEASURE)
 
 
 class WCD_OT_measure_selection(Computation, bpy.types.Operator):
@@ -86,7 +86,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
         return f"{_figures(value)} of {n_faces:,} faces"
 
 
-WCD_OT_measure_selection.__annotations__ = annotations(SELECTION)
+WCD_OT_measure_selection.__annotations__ = properties_for(SELECTION)
 
 
 def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:

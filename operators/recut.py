@@ -18,7 +18,7 @@ from .bridge.work.computing import is_quick
 from .bridge.work.locking import decompose_unlocked
 from .running import modal
 from .running.computation import Replacement
-from .settings import annotations, parameters_from
+from .settings import parameters_from, properties_for
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
     from .bridge.work.editing import Edited
@@ -124,4 +124,4 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
         return super()._commit(obj, value)
 
 
-WCD_OT_choose_part_count.__annotations__ = annotations(("parts",))
+WCD_OT_choose_part_count.__annotations__ = properties_for(("parts",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import Field, fields
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
 import bpy
 import numpy as np
@@ -25,8 +25,8 @@ MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
 
 
-def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
-    """Return the annotations that give a Blender class these parameters."""
+def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
+    """Return parameters as Blender properties, for the annotations of a class."""
     return {name: _property(_FIELDS[name]) for name in names}
 
 
@@ -42,12 +42,12 @@ def _recut(settings: Any, context: bpy.types.Context) -> None:
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
-    """Return the `Parameters` of an object whose class has these `annotations`."""
+    """Return the `Parameters` of an object whose class has these properties."""
     return Parameters(**{name: _value(owner, _FIELDS[name]) for name in names})
 
 
 def hull_parameters_from(owner: Any) -> HullParameters:
-    """Return the `HullParameters` of an object whose class has these `annotations`."""
+    """Return the `HullParameters` of an object whose class has these properties."""
     return HullParameters(**{name: _value(owner, _FIELDS[name]) for name in HULLS})
 
 
@@ -110,11 +110,11 @@ def _bounds(info: ParameterInfo, number: type) -> dict[str, Any]:
 
 def _value(owner: Any, field: Field[Any]) -> Any:
     """Return a setting as the user typed it, before Blender rounded it to float32."""
-    value = getattr(owner, field.name)
+    value, default = getattr(owner, field.name), cast(Any, field.default)
     if not isinstance(value, float):
         return value
-    if value == float(np.float32(field.default)):
-        return field.default
+    if value == float(np.float32(default)):
+        return default
     return float(f"{value:.7g}")
 
 

@@ -14,12 +14,13 @@ from ..core.steps.progress import Steps
 from . import sight_overlay
 from .bridge.mesh.points import vertices_now
 from .bridge.read.shape import stretch
+from .bridge.read.target import Target
 from .bridge.refusals import measure_refusal
 from .bridge.work.computing import point_viewer_of
 from .running import modal
 from .running.computation import Computation
 from .running.on_objects import OnActive
-from .settings import SELECTION, annotations, parameters_from
+from .settings import SELECTION, parameters_from, properties_for
 from .sight_overlay import Overlay
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
@@ -39,7 +40,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = set()
 
-    _lookout: PointViewer | None = None
+    _viewer: Any = None  # the `PointViewer`, once it is made
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
@@ -58,7 +59,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Make the object ready; then show what each clicked point sees."""
-        if self._lookout is None:
+        if self._viewer is None:
             answer = super().modal(context, event)
             return answer if answer != {"FINISHED"} else self._wait()
         if sight_overlay.current is not self._overlay:  # hidden, or shown anew
@@ -84,7 +85,8 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     def _commit(self, obj: bpy.types.Object, value: PointViewer) -> str:
         ray = None if self.face < 0 else _above_face(obj, self.face)
-        self._lookout = value
+        self._viewer = value
+        self._target = Target.of(obj)
         self._overlay = Overlay(
             obj.session_uid,
             stretch(obj),
@@ -104,7 +106,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
     def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:
         """Show what the point under the cursor sees."""
         try:
-            obj = self._targets[0].find()
+            obj = self._target.find()
         except DecompositionError as error:
             stop()
             self.report({"WARNING"}, str(error))
@@ -119,13 +121,13 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
     def _show(self, origin: Vector, direction: Vector) -> None:
         """Show what the first point along a ray in object space sees."""
         scale = self._overlay.scale
-        view = self._lookout.look(np.array(origin) * scale, np.array(direction) * scale)
+        view = self._viewer.look(np.array(origin) * scale, np.array(direction) * scale)
         if view is not None:
             sight_overlay.show_view(view)
 
 
 WCD_OT_show_sight.__annotations__ = {
-    **annotations(SELECTION),
+    **properties_for(SELECTION),
     "face": bpy.props.IntProperty(
         name="Face",
         description="For scripts: the face whose middle is looked from, -1 for none",

@@ -50,7 +50,8 @@ class WCD_UL_parts(bpy.types.UIList):
         columns = headings(result, width)
         split = line.split(factor=_name_share(width, len(columns)))
         split.prop(row, "name", text="", emboss=False)
-        _numbers(split, *map(_figures(result, index).get, columns))
+        figures = _figures(result, index)
+        _numbers(split, *(figures[name] for name in columns))
         lock = "LOCKED" if row.locked else "UNLOCKED"
         line.prop(row, "locked", text="", icon=lock, emboss=False)
 

@@ -6,12 +6,15 @@ wrong and what to do about it. They have no full stop: whoever shows them adds o
 
 from __future__ import annotations
 
-import bpy
+from typing import Any, TypeAlias
 
 from .mesh.points import is_cloud
 from .stored.names import HULL_TAG
 from .stored.record import has_record, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
+
+# An object of Blender, or None if there is no active one.
+Candidate: TypeAlias = Any
 
 # Types of objects that Blender makes meshes of.
 CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
@@ -22,7 +25,7 @@ _LEAVE_EDIT_MODE = "Edit Mode could not undo this; switch to Object Mode"
 _ENTER_EDIT_MODE = "Faces are selected in Edit Mode; switch the mode"
 
 
-def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | None:
+def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
     """Return why an object cannot be worked on at all."""
     if obj is None:
         return "There is no active object; select a mesh"
@@ -45,12 +48,12 @@ def refusal(obj: bpy.types.Object | None, writes_mesh: bool = True) -> str | Non
     return None
 
 
-def measure_refusal(obj: bpy.types.Object | None) -> str | None:
+def measure_refusal(obj: Candidate) -> str | None:
     """Return why an object cannot be measured: its mesh is read, and not written."""
     return refusal(obj, writes_mesh=False)
 
 
-def decompose_refusal(obj: bpy.types.Object | None) -> str | None:
+def decompose_refusal(obj: Candidate) -> str | None:
     """Return why an object, or a mesh made of it, cannot be decomposed."""
     if obj is None or obj.type not in CONVERTIBLE:
         return refusal(obj)
@@ -64,7 +67,7 @@ def decompose_refusal(obj: bpy.types.Object | None) -> str | None:
     return None
 
 
-def recut_refusal(obj: bpy.types.Object | None) -> str | None:
+def recut_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be replaced by others."""
     reason = refusal(obj)
     if reason is None and not noted_parameters(obj):
@@ -72,7 +75,7 @@ def recut_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def clear_refusal(obj: bpy.types.Object | None) -> str | None:
+def clear_refusal(obj: Candidate) -> str | None:
     """Return why nothing can be cleared from an object."""
     reason = refusal(obj, writes_mesh=False)
     if reason is None and not has_record(obj):
@@ -80,7 +83,7 @@ def clear_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def selection_refusal(obj: bpy.types.Object | None) -> str | None:
+def selection_refusal(obj: Candidate) -> str | None:
     """Return why the selected faces of an object cannot be measured."""
     reason = measure_refusal(obj)
     if reason is None and obj.mode != "EDIT":
@@ -91,7 +94,7 @@ def selection_refusal(obj: bpy.types.Object | None) -> str | None:
 # The parts of an object, to be used.
 
 
-def decomposed_refusal(obj: bpy.types.Object | None) -> str | None:
+def decomposed_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be used."""
     reason = refusal(obj)
     if reason is None and not has_parts(obj):
@@ -99,7 +102,7 @@ def decomposed_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def picture_refusal(obj: bpy.types.Object | None) -> str | None:
+def picture_refusal(obj: Candidate) -> str | None:
     """Return why no picture of an object's parts can be made."""
     reason = decomposed_refusal(obj)
     if reason is None and obj.mode != "OBJECT":
@@ -107,7 +110,7 @@ def picture_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def parts_refusal(obj: bpy.types.Object | None) -> str | None:
+def parts_refusal(obj: Candidate) -> str | None:
     """Return why parts that consist of faces cannot be used."""
     reason = decomposed_refusal(obj)
     if reason is None and is_cloud(obj):
@@ -115,7 +118,7 @@ def parts_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def object_mode_refusal(obj: bpy.types.Object | None) -> str | None:
+def object_mode_refusal(obj: Candidate) -> str | None:
     """Return why parts cannot be used for what undo in Edit Mode cannot take back."""
     reason = parts_refusal(obj)
     if reason is None and obj.mode != "OBJECT":
@@ -126,7 +129,7 @@ def object_mode_refusal(obj: bpy.types.Object | None) -> str | None:
 # The parts of an object, to be edited by hand.
 
 
-def edit_refusal(obj: bpy.types.Object | None) -> str | None:
+def edit_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be edited."""
     reason = refusal(obj)
     if reason is None and not (
@@ -136,7 +139,7 @@ def edit_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def merge_refusal(obj: bpy.types.Object | None) -> str | None:
+def merge_refusal(obj: Candidate) -> str | None:
     """Return why no parts of an object can be merged."""
     reason = edit_refusal(obj)
     if reason is None and sum(row.chosen for row in obj.wcd_parts) < 2:
@@ -144,7 +147,7 @@ def merge_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def faces_refusal(obj: bpy.types.Object | None) -> str | None:
+def faces_refusal(obj: Candidate) -> str | None:
     """Return why the faces of parts cannot be selected."""
     reason = edit_refusal(obj)
     if reason is None and is_cloud(obj):
@@ -152,7 +155,7 @@ def faces_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def assign_refusal(obj: bpy.types.Object | None) -> str | None:
+def assign_refusal(obj: Candidate) -> str | None:
     """Return why selected faces cannot be given to a part."""
     reason = faces_refusal(obj)
     if reason is None and obj.mode != "EDIT":
@@ -160,7 +163,7 @@ def assign_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def isolate_refusal(obj: bpy.types.Object | None) -> str | None:
+def isolate_refusal(obj: Candidate) -> str | None:
     """Return why the faces of parts cannot be hidden."""
     reason = faces_refusal(obj)
     if reason is None and obj.mode != "EDIT":
@@ -171,7 +174,7 @@ def isolate_refusal(obj: bpy.types.Object | None) -> str | None:
 # Hulls.
 
 
-def hull_refusal(obj: bpy.types.Object | None) -> str | None:
+def hull_refusal(obj: Candidate) -> str | None:
     """Return why hulls cannot be made for an object."""
     reason = refusal(obj, writes_mesh=False)
     if reason is None and is_cloud(obj):
@@ -181,7 +184,7 @@ def hull_refusal(obj: bpy.types.Object | None) -> str | None:
     return reason
 
 
-def rigid_refusal(obj: bpy.types.Object | None) -> str | None:
+def rigid_refusal(obj: Candidate) -> str | None:
     """Return why an object cannot become a rigid body of its hulls."""
     reason = hull_refusal(obj)
     if reason is None and not any(HULL_TAG in child for child in obj.children):

@@ -7,9 +7,11 @@ those of face 1, and so on.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from .attributes import BoolArray, IntArray, read_ints
 
@@ -31,7 +33,7 @@ def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
 
 
 def boundary_edges(
-    mesh: bpy.types.Mesh, labels: IntArray, chosen: Sequence[int]
+    mesh: bpy.types.Mesh, labels: NDArray[np.integer[Any]], chosen: Sequence[int]
 ) -> BoolArray:
     """Return which edges lie between a chosen part and another part.
 

@@ -42,7 +42,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     bare = _copy(obj)
     implode(bare)
     clear(bare)
-    pieces = []
+    pieces: list[bpy.types.Object] = []
     for part in parts.tolist():
         piece = _copy(bare)
         piece.name = piece.data.name = f"{obj.name} {identities[part].name}"

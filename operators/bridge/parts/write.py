@@ -125,7 +125,7 @@ def _write_mesh(
     obj.active_material_index = active_slot
     layers = layers_of(obj)
     labels = decomposition.labels.astype(np.int32)
-    if not uniform:
+    if before is not None and not uniform:
         layers.set_faces(MATERIAL_LAYER, before)
     layers.set_faces(PART_LAYER, labels)
     layers.set_material_indices(labels + len(slots))

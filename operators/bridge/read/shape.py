@@ -60,9 +60,10 @@ def _read_cloud(obj: bpy.types.Object) -> PointCloud:
     """Return the points of a cloud, with their normals if it has any."""
     factors, normals = stretch(obj), normals_of(obj)
     points = positions_of(obj).astype(np.float64) * factors
-    if normals is not None:  # stretching tilts normals the other way
-        normals = normals.astype(np.float64) / factors
-    return PointCloud(points, normals)
+    if normals is None:
+        return PointCloud(points)
+    # Stretching tilts normals the other way.
+    return PointCloud(points, normals.astype(np.float64) / factors)
 
 
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:

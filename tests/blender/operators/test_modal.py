@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 import weak_convex_decomposition as package
+from hands import hand_curve
 from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.parameters.parts import Parameters
@@ -246,6 +247,24 @@ def test_what_changed_meanwhile_is_left_alone(suzanne, window, cls, change, sent
     assert sentence in error or "Object Mode alone; switch the mode" in error
     assert [(obj.name, snapshot(obj)) for obj in bpy.data.objects] == there
     assert window.is_clean()
+
+
+def test_a_curve_gets_its_mesh_at_the_end_and_esc_leaves_none(window):
+    hand = hand_curve()
+    before = [obj.name for obj in bpy.data.objects], len(bpy.data.meshes)
+    pressed = press(WCD_OT_decompose, window)
+    pressed.modal(None, TIMER)
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert ([obj.name for obj in bpy.data.objects], len(bpy.data.meshes)) == before
+    pressed = press(WCD_OT_decompose, window)
+    assert finish(pressed) == {"FINISHED"}
+    (carrier,) = hand.children
+    assert carrier.name in bpy.context.scene.objects
+    assert len(bpy.data.meshes) == before[1] + 1
+    pressed = press(WCD_OT_decompose, window)
+    assert bpy.ops.wcd.cancel() == {"FINISHED"}
+    assert "CANCELLED" in pressed.modal(None, MOUSE)
+    assert hand.children == (carrier,)
 
 
 def test_undo_meanwhile_is_noticed(suzanne, window):
