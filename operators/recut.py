@@ -45,7 +45,9 @@ class _Recut(Replacement):
     ) -> Steps[Edited]:
         parameters = self._wanted(context)
         if not is_quick(obj, parameters):
-            self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
+            self.report(
+                {"INFO"}, "The shape or its sampling has changed: it is sampled again"
+            )
         return decompose_unlocked(obj, parameters)
 
 

@@ -62,7 +62,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         if self._viewer is None:
             answer = super().modal(context, event)
             return answer if answer != {"FINISHED"} else self._wait()
-        if sight_overlay.current is not self._overlay:  # hidden, or shown anew
+        if sight_overlay.current is not self._overlay:  # hidden, or replaced by another
             return {"FINISHED", "PASS_THROUGH"}
         if event.value != "PRESS":
             return {"PASS_THROUGH"}

@@ -71,7 +71,7 @@ def recut_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be replaced by others."""
     reason = refusal(obj)
     if reason is None and not noted_parameters(obj):
-        return f"{obj.name} has no parts to cut anew; press Decompose"
+        return f"{obj.name} has no parts to replace; press Decompose"
     return reason
 
 
@@ -167,7 +167,7 @@ def isolate_refusal(obj: Candidate) -> str | None:
     """Return why the faces of parts cannot be hidden."""
     reason = faces_refusal(obj)
     if reason is None and obj.mode != "EDIT":
-        return "Faces are hidden in Edit Mode alone; switch the mode"
+        return "Faces can be hidden in Edit Mode only; switch the mode"
     return reason
 
 
@@ -180,7 +180,7 @@ def hull_refusal(obj: Candidate) -> str | None:
     if reason is None and is_cloud(obj):
         return f"Hulls need faces, and {obj.name} has none; give it a surface first"
     if reason is None and obj.mode != "OBJECT":
-        return "Hulls are objects: made in Object Mode alone; switch the mode"
+        return "Hulls are objects, which are made in Object Mode only; switch the mode"
     return reason
 
 

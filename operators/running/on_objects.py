@@ -9,7 +9,7 @@ import bpy
 
 from ...core.errors import DecompositionError
 
-if TYPE_CHECKING:  # a class of its own at run time: Blender registers the whole alone
+if TYPE_CHECKING:  # at run time the whole operator has this base, and its halves not
     from bpy.types import Operator
 else:
     Operator = object
@@ -41,9 +41,9 @@ class OnObjects(Operator):
         return chosen_objects(context, cls._refusal)
 
     def _conclude(self, failures: Sequence[str], n_objects: int) -> set[str]:
-        """Report what failed; return what an operator on so many objects is to return.
+        """Report the failures among `n_objects`; return the answer of the operator.
 
-        Scripts get an error as an exception. So errors are reported only if nothing was
+        Scripts get an error as an exception. So failures are errors only if nothing was
         done; otherwise they are warnings.
         """
         none_done = len(failures) == n_objects

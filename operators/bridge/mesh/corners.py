@@ -1,7 +1,7 @@
 """The corners of a mesh's faces, which Blender calls loops.
 
 A face has one corner for each of its vertices. The corners of face 0 come first, then
-those of face 1, and so on.
+the corners of face 1, and so on.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ def selected_faces(obj: bpy.types.Object) -> BoolArray:
 def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
     """Select edges, and nothing else unless `extend`.
 
-    Where Blender is set to select faces alone, it is set to select edges.
+    If Blender is in face select mode, it is set to edge select mode.
     """
     mesh = obj.data
     settings = bpy.context.scene.tool_settings

@@ -37,7 +37,7 @@ def placed_carrier(obj: bpy.types.Object) -> bpy.types.Object:
     """Return the object to be written to: a mesh itself, or the carrier of a curve.
 
     The carrier is placed beside the curve, instead of an earlier one, and becomes the
-    active object. It is made anew if undo has removed it since it was read.
+    active object. It is made again if undo has removed it meanwhile.
     """
     if obj.type not in CONVERTIBLE:
         return obj

@@ -244,7 +244,7 @@ def test_what_changed_meanwhile_is_left_alone(suzanne, window, cls, change, sent
     there = [(obj.name, snapshot(obj)) for obj in bpy.data.objects]
     assert finish(pressed) == {"CANCELLED"}
     (error,) = errors_of(pressed)
-    assert sentence in error or "Object Mode alone; switch the mode" in error
+    assert sentence in error or "Object Mode only; switch the mode" in error
     assert [(obj.name, snapshot(obj)) for obj in bpy.data.objects] == there
     assert window.is_clean()
 
