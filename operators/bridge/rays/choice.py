@@ -1,4 +1,4 @@
-"""Which ray caster there is: Blender's, or Embree."""
+"""Choose a ray caster: Blender's, or else Embree."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING
 
 from ....core.errors import DecompositionError
 
-if TYPE_CHECKING:  # imports SciPy, which importing the package must not
+if TYPE_CHECKING:  # loads SciPy, which importing the package must not
     from ....core.sight.ray_march import MakeCaster
 
 
 def choose_ray_caster() -> MakeCaster:
-    """Return the class that casts rays on this Python.
+    """Return the first ray caster that is installed.
 
-    Blender's `BVHTree` comes first, so that scripts find the parts that the window
-    finds. Embree is next, by the package embreex.
+    Blender's `BVHTree` comes first, so that scripts find the same parts as Blender's
+    window. Embree comes second, through the package embreex.
 
     Returns
     -------
     type
-        Makes a `RayCaster` of a `TriangleMesh`.
+        Class whose instances cast rays: `RayCaster` of a `TriangleMesh`.
 
     Raises
     ------
@@ -29,8 +29,8 @@ def choose_ray_caster() -> MakeCaster:
         If neither is installed.
     """
     with suppress(ImportError):
-        import_module("bpy")  # the wheel brings mathutils along, once it is loaded
-    with suppress(ImportError):  # the package mathutils alone has no BVHTree
+        import_module("bpy")  # the bpy wheel provides mathutils once it is loaded
+    with suppress(ImportError):  # the package mathutils on PyPI has no BVHTree
         from .bvh import BvhRayCaster
 
         return BvhRayCaster
