@@ -1,7 +1,7 @@
 """Run the command line without Blender's window, in one of three ways.
 
-`wcd INPUT …` after installation with pip, `python -m weak_convex_decomposition INPUT …`,
-or `python . INPUT …` in the folder of a checkout. All need the module bpy.
+After installation with pip, `wcd INPUT …` or `python -m weak_convex_decomposition
+INPUT …`; in the folder of a checkout, `python . INPUT …`. All need the module bpy.
 """
 
 import os

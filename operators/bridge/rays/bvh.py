@@ -32,7 +32,7 @@ class BvhRayCaster:
 
     @cached_property
     def _tree(self) -> BVHTree:
-        """The tree; built at the first ray, as a separate step of half the set-up time."""
+        """The tree, built at the first ray. It takes half of the set-up time."""
         tree = BVHTree.FromPolygons(*self._polygons, all_triangles=True)
         del self._polygons
         return tree

@@ -30,7 +30,7 @@ def choose_ray_caster() -> MakeCaster:
     """
     with suppress(ImportError):
         import_module("bpy")  # the bpy wheel provides mathutils once it is loaded
-    with suppress(ImportError):  # the package mathutils on PyPI has no BVHTree
+    with suppress(ImportError):  # mathutils without Blender has no BVHTree
         from .bvh import BvhRayCaster
 
         return BvhRayCaster
