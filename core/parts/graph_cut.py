@@ -53,7 +53,7 @@ def distances_to_parts(
     sizes = np.maximum(members.sum(axis=0), 1.0)
     centers = (members.T @ embedding) / sizes[:, None]
     squared = ((embedding[:, None, :] - centers[None]) ** 2).sum(axis=2)
-    # One variance for all parts: if each had its own, wide parts would swallow others.
+    # One variance for all: with variances of their own, wide parts swallow narrow ones.
     variance = (members * squared).sum() / len(labels) + np.finfo(float).tiny
     costs: NDArray[np.float64] = np.minimum(squared / (2 * variance), _MOST_DISLIKE)
     return costs
