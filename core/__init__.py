@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.fitting import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
+    from .parts.describe import describe as describe
     from .parts.editing import Change as Change
     from .parts.editing import compacted as compacted
     from .parts.editing import give as give
     from .parts.editing import merge as merge
     from .parts.editing import mirror as mirror
-    from .parts.find import describe as describe
     from .parts.part_memo import PartMemo as PartMemo
     from .parts.seam_smoothing import smooth_seams as smooth_seams
     from .pictures import draw_picture as draw_picture
@@ -39,7 +39,7 @@ _HOMES = {
     "give": "parts.editing",
     "merge": "parts.editing",
     "mirror": "parts.editing",
-    "describe": "parts.find",
+    "describe": "parts.describe",
     "PartMemo": "parts.part_memo",
     "smooth_seams": "parts.seam_smoothing",
     "draw_picture": "pictures",

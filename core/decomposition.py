@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,9 +11,10 @@ from .cache import ShapeCache
 from .geometry.shape import Shape
 from .parameters.parts import Parameters
 from .parts.find import find_parts
-from .parts.levels import split_again
+from .parts.levels import with_pieces
 from .results import Decomposition
-from .steps.progress import Steps, within
+from .sight.prepared import PreparedShape
+from .steps.progress import Steps, within, within_turn
 
 # Progress at the end of the stages surface, lines of sight and parts. With further
 # levels, these three are only the first quarter.
@@ -63,8 +66,28 @@ def decompose_in_steps(
     # Section 4: embed and cluster the samples, choose the number of parts by psi
     # (eq. 5), cut the seams (eq. 4).
     found = yield from within(find_parts(memo, parameters), seen, done)
-    if parameters.levels == 1:
-        return found
     # Section 5: split the parts further.
-    again = split_again(prepared, memo.visibility, found, parameters)
-    return (yield from within(again, done, 1.0))
+    fresh, one = np.arange(found.n_parts), replace(parameters, parts=0, levels=1)
+    for level in range(1, parameters.levels):
+        pieces = {}
+        for turn, part in enumerate(fresh.tolist()):
+            alone = prepared.part(found.labels == part)
+            pieces[part] = yield from within(
+                within_turn(
+                    within_turn(_parts_alone(alone, one, cache), turn, len(fresh)),
+                    level - 1,
+                    parameters.levels - 1,
+                ),
+                done,
+                1.0,
+            )
+        found, fresh = with_pieces(memo.visibility, found, pieces, parameters)
+    return found
+
+
+def _parts_alone(
+    shape: PreparedShape, parameters: Parameters, cache: ShapeCache
+) -> Steps[Decomposition]:
+    """Return the parts of a part, from samples that all lie on it."""
+    memo = yield from within(cache.see(shape, parameters), 0.0, 0.8)
+    return (yield from within(find_parts(memo, parameters), 0.8, 1.0))

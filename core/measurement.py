@@ -71,7 +71,7 @@ def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> PreparedShape:
     members = shape.part(faces)
     if area <= _LEAST_AREA or len(members.sampled) == 0:
         raise DecompositionError(
-            "The faces chosen have no area, or a flat mesh has none of them at its"
-            " outline; select others."
+            "The chosen faces have no area, or none lies at the outline of the flat"
+            " mesh; select other faces."
         )
     return members

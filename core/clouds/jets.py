@@ -6,17 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ..geometry.frames import frames, unit
+from ..geometry.frames import frames, unit, with_normals
 from ..steps.progress import Progress, Steps
-from .splats import placed, spacing_of
 
-# Most points at which noise is measured.
-_PROBES = 1000
-# Points in each neighborhood that noise is measured in, with the point itself.
-_NEAREST = 10
-# Quantile of the measured noise that is used: neighborhoods at edges are thick
-# without noise.
-_FLATTEST = 0.2
 # Least factor of the weight of points that face elsewhere. Most of them are beyond an
 # edge.
 _LEAST_WEIGHT = 0.01
@@ -29,33 +21,11 @@ _LEAST = 1e-6
 _FITS_PER_STEP = 2**12
 
 
-def noise_of(points: NDArray[np.float64]) -> float:
-    """Return the noise of a cloud: thickness of small neighborhoods over their width.
-
-    It is 0 where points lie exactly in planes, and somewhat above 0.5 where they fill a
-    volume.
-
-    Parameters
-    ----------
-    points : (N, 3) float
-
-    Returns
-    -------
-    float
-        A ratio, without unit.
-    """
-    probes = points[:: -(-len(points) // _PROBES)]
-    _, nearest = cKDTree(points).query(probes, min(_NEAREST, len(points)))
-    near = points[nearest]
-    spread = near - near.mean(axis=1, keepdims=True)
-    variances = np.linalg.eigvalsh(np.einsum("nki,nkj->nij", spread, spread))
-    variances = np.maximum(variances, np.finfo(float).tiny)
-    thickness = np.sqrt(variances[:, 0] / variances[:, 1])
-    return float(np.quantile(thickness, _FLATTEST))
-
-
 def jet_normals(
-    points: NDArray[np.float64], normals: NDArray[np.float64], n_neighbors: int
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    weight: float,
+    n_neighbors: int,
 ) -> Steps[NDArray[np.float64]]:
     """Return the normals of jets fitted to the nearest points of each point.
 
@@ -68,6 +38,8 @@ def jet_normals(
     points : (N, 3) float
     normals : (N, 3) float
         Rough normals, unit vectors.
+    weight : float
+        Distance that normals one unit apart add, from `normal_weight`.
     n_neighbors : int
         Points that each jet is fitted to, with the point itself.
 
@@ -81,7 +53,7 @@ def jet_normals(
     Cazals and Pouget, "Estimating differential quantities using polynomial fitting of
     osculating jets", 2003.
     """
-    places = placed(points, normals, spacing_of(points))
+    places = with_normals(points, normals, weight)
     tree, found = cKDTree(places), []
     for start in range(0, len(points), _FITS_PER_STEP):
         yield Progress("Normals", start / len(points))

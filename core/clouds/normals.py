@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..steps.progress import Steps, within
-from .jets import jet_normals, noise_of
-from .splats import areas_of_points, thinned_splats
+from .jets import jet_normals
+from .splats import areas_of_points, noise_of, normal_weight, thinned_splats
 from .winding import outward_directions
 
 # Nearest points that a jet is fitted to: the least, the most, and the most as a share
@@ -56,14 +56,17 @@ def estimate_normals(
     kept, _, _ = thinned_splats(points, np.broadcast_to(np.eye(3)[2], points.shape))
     few = points[kept]
     noise = noise_of(few)
+    clean = _FOR_NOISE * noise_of(points) <= _FEWEST
+    fitted = points if clean else few
+    weight = normal_weight(fitted)
     blur = float(np.clip(_BLUR_OF_NOISE * noise, _LEAST_BLUR, _MOST_BLUR))
     outward = yield from within(outward_directions(few, blur), 0.0, 0.7)
     _, nearest = cKDTree(few).query(points)
-    if _FOR_NOISE * noise_of(points) <= _FEWEST:
-        few, outward, nearest = points, outward[nearest], np.arange(len(points))
-    most = max(min(_MOST, int(_MOST_OF_ALL * len(few))), _FEWEST)
+    if clean:
+        outward, nearest = outward[nearest], np.arange(len(points))
+    most = max(min(_MOST, int(_MOST_OF_ALL * len(fitted))), _FEWEST)
     n_neighbors = int(np.clip(_FOR_NOISE * noise, _FEWEST, most))
-    jets = jet_normals(few, outward, n_neighbors)
+    jets = jet_normals(fitted, outward, weight, n_neighbors)
     normals = yield from within(jets, 0.7, 1.0)
     return normals[nearest], _TILT_OF_NOISE * noise
 

@@ -73,7 +73,7 @@ def splat_surface(cloud: PointCloud) -> Steps[SplatSurface]:
     elif face_inwards(points, normals):
         normals = -normals
         notes = (
-            "The normals of the points face inwards; they were turned for this"
+            "The normals of the points face inwards; they were flipped for this"
             " computation only.",
         )
     found = normals if notes else None

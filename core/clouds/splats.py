@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ..geometry.frames import frames
+from ..geometry.frames import frames, with_normals
 from ..geometry.mesh import TriangleMesh
 from ..geometry.sampling import sample_surface
 
@@ -19,16 +19,21 @@ _COVER = 1.5
 _LEAST_AREA, _MOST_AREA = 0.02, 25.0
 # Distance, in spacings of points, that opposite normals add.
 _NORMAL_WEIGHT = 3.0
-# Points that the spacing is measured at, at most.
+# Points that spacing and noise are measured at, at most.
 _PROBES = 1000
+# Points in each neighborhood that noise is measured in, with the point itself.
+_NEAREST = 10
+# Quantile of the measured noise that is used: neighborhoods at edges are thick
+# without noise.
+_FLATTEST = 0.2
 # Points that noise is averaged over, with the point itself.
 _AVERAGED = 12
 # Most splats of a cloud. Clouds of more points are thinned out.
 _MOST_SPLATS = 20_000
 
 
-def spacing_of(points: NDArray[np.float64]) -> float:
-    """Return the median side of the square that a point stands for.
+def normal_weight(points: NDArray[np.float64]) -> float:
+    """Return the distance that normals one unit apart add when points are compared.
 
     Parameters
     ----------
@@ -37,10 +42,12 @@ def spacing_of(points: NDArray[np.float64]) -> float:
     Returns
     -------
     float
-        In the units of `points`.
+        In the units of `points`: a multiple of the median side of the square that a
+        point stands for.
     """
     probes = points[:: -(-len(points) // _PROBES)]
-    return float(np.sqrt(np.median(_areas_around(points, probes))))
+    spacing = float(np.sqrt(np.median(_areas_around(points, probes))))
+    return _NORMAL_WEIGHT / 2 * spacing
 
 
 def nearest_points(
@@ -66,28 +73,35 @@ def nearest_points(
     (Q, n_nearest) int
         Rows of `points`, nearest first.
     """
-    spacing = spacing_of(points)
-    tree = cKDTree(placed(points, normals, spacing))
-    _, nearest = tree.query(placed(*queries, spacing), n_nearest)
+    weight = normal_weight(points)
+    tree = cKDTree(with_normals(points, normals, weight))
+    _, nearest = tree.query(with_normals(*queries, weight), n_nearest)
     return nearest.reshape(len(queries[0]), n_nearest).astype(np.int64)
 
 
-def placed(
-    points: NDArray[np.float64], normals: NDArray[np.float64], spacing: float
-) -> NDArray[np.float64]:
-    """Return coordinates whose distances combine positions and normals.
+def noise_of(points: NDArray[np.float64]) -> float:
+    """Return the noise of a cloud: thickness of small neighborhoods over their width.
+
+    It is 0 where points lie exactly in planes, and somewhat above 0.5 where they fill a
+    volume.
 
     Parameters
     ----------
-    points, normals : (N, 3) float
-    spacing : float
-        Spacing of the cloud, from `spacing_of`.
+    points : (N, 3) float
 
     Returns
     -------
-    (N, 6) float
+    float
+        A ratio, without unit.
     """
-    return np.hstack([points, _NORMAL_WEIGHT / 2 * spacing * normals])
+    probes = points[:: -(-len(points) // _PROBES)]
+    _, nearest = cKDTree(points).query(probes, min(_NEAREST, len(points)))
+    near = points[nearest]
+    spread = near - near.mean(axis=1, keepdims=True)
+    variances = np.linalg.eigvalsh(np.einsum("nki,nkj->nij", spread, spread))
+    variances = np.maximum(variances, np.finfo(float).tiny)
+    thickness = np.sqrt(variances[:, 0] / variances[:, 1])
+    return float(np.quantile(thickness, _FLATTEST))
 
 
 def areas_of_points(

@@ -94,11 +94,13 @@ class MoveGains:
 def raise_psi(
     pairs: PairVisibility, labels: NDArray[np.int64], n_labels: int, alpha: float
 ) -> NDArray[np.int64]:
-    """Return labels of higher psi: samples move to the label that psi gains most by.
+    """Move samples to the label that raises psi most.
 
     k-means does not optimize psi. Psi is the Constant Potts Model of community
     detection at resolution alpha / (1 + alpha), for which such local moves are
-    standard.
+    standard. Samples of one turn move at once, and the gain of each leaves out the
+    moves of the others; it stops when no sample gains by a move of its own, or after
+    10 sweeps.
 
     Parameters
     ----------
@@ -118,17 +120,17 @@ def raise_psi(
     """
     labels = labels.copy()
     samples = np.arange(len(labels))
-    pulls = MoveGains(pairs, labels, n_labels)
+    gains = MoveGains(pairs, labels, n_labels)
     settled = 0
     for turn in range(_SWEEPS * _TURNS):
         asked = slice(turn % _TURNS, None, _TURNS)
-        turns, here = pulls.of(asked, alpha), labels[asked]
-        best, rows = turns.argmax(axis=1), samples[: len(here)]
-        better = turns[rows, best] > turns[rows, here]
+        by_label, here = gains.of(asked, alpha), labels[asked]
+        best, rows = by_label.argmax(axis=1), samples[: len(here)]
+        better = by_label[rows, best] > by_label[rows, here]
         moved = samples[asked][better]
         if len(moved):
             labels[moved] = best[better]
-            pulls.give(moved, labels[moved])
+            gains.give(moved, labels[moved])
         settled = 0 if len(moved) else settled + 1
         if settled == _TURNS:
             break

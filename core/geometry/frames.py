@@ -1,4 +1,4 @@
-"""Unit vectors, coordinate axes and heights above planes."""
+"""Unit vectors, coordinate axes, directions around normals, heights above planes."""
 
 from __future__ import annotations
 
@@ -79,3 +79,109 @@ def heights_above(
     """
     heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
     return heights
+
+
+def with_normals(
+    points: NDArray[np.float64], normals: NDArray[np.float64], weight: float
+) -> NDArray[np.float64]:
+    """Return coordinates whose distances combine positions and normals.
+
+    The two sides of a thin wall are close, but their normals point away from each
+    other. In these coordinates they are apart.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+    weight : float
+        Distance that normals one unit apart add.
+
+    Returns
+    -------
+    (N, 6) float
+    """
+    return np.hstack([points, weight * normals])
+
+
+def cone_directions(
+    normals: NDArray[np.float64], n_rays: int, opening: float
+) -> NDArray[np.float64]:
+    """Return directions spread evenly in a cone around each inward normal.
+
+    Parameters
+    ----------
+    normals : (N, 3) float
+        Outward unit vectors.
+    n_rays : int
+        Directions r in each cone.
+    opening : float
+        Full angle of the cone in radians.
+
+    Returns
+    -------
+    directions : (N, r, 3) float
+        Unit vectors, on a spiral. Each covers the same solid angle.
+    """
+    steps = np.arange(n_rays) + 0.5
+    heights = 1.0 - steps / n_rays * (1.0 - np.cos(opening / 2))
+    radii = np.sqrt(1.0 - heights**2)
+    turns = steps * np.pi * (3.0 - np.sqrt(5.0))
+    tangents, bitangents = frames(normals)
+    return (
+        -normals[:, None] * heights[:, None]
+        + tangents[:, None] * (radii * np.cos(turns))[:, None]
+        + bitangents[:, None] * (radii * np.sin(turns))[:, None]
+    )
+
+
+def fan_directions(
+    normals: NDArray[np.float64],
+    n_rays: int,
+    opening: float,
+    plane: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return directions in a plane, spread evenly around each inward normal.
+
+    Parameters
+    ----------
+    normals : (N, 3) float
+        Outward unit vectors in the plane.
+    n_rays : int
+        Directions r in each fan.
+    opening : float
+        Full angle of the fan in radians.
+    plane : (3,) float
+        Unit normal of the plane.
+
+    Returns
+    -------
+    directions : (N, r, 3) float
+        Unit vectors in the plane.
+    """
+    angles = ((np.arange(n_rays) + 0.5) / n_rays - 0.5) * opening
+    sideways = np.cross(plane, normals)
+    return (
+        -normals[:, None] * np.cos(angles)[:, None]
+        + sideways[:, None] * np.sin(angles)[:, None]
+    )
+
+
+def tripod_directions(normals: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Return three directions around each normal, 30° off it and well apart.
+
+    Parameters
+    ----------
+    normals : (N, 3) float
+        Unit vectors.
+
+    Returns
+    -------
+    list of three (N, 3) float
+        Unit vectors.
+    """
+    axes = frames(normals)
+    turns = 2 * np.pi * np.arange(3) / 3
+    return [
+        normals * np.sqrt(0.75)
+        + 0.5 * (axes[0] * np.cos(turn) + axes[1] * np.sin(turn))
+        for turn in turns
+    ]

@@ -132,11 +132,11 @@ class TriangleMesh:
         differ by rounding.
         """
         center = self.vertices[self.triangles.ravel()].mean(axis=0)
-        grain = _SAME_PLACE * self.diagonal or 1.0
-        grains = np.round((self.vertices - center) / grain).astype(np.int64)
+        step = _SAME_PLACE * self.diagonal or 1.0
+        rounded = np.round((self.vertices - center) / step).astype(np.int64)
         # One number sorts faster than three. Only vertices that no face uses lie
         # outside the grid.
-        cells = np.clip(grains + _CELLS // 2, 0, _CELLS - 1)
+        cells = np.clip(rounded + _CELLS // 2, 0, _CELLS - 1)
         places = cells @ (_CELLS**2, _CELLS, 1)
         _, place_of = np.unique(places, return_inverse=True)
         welded: NDArray[np.int64] = place_of.reshape(-1)[self.triangles]

@@ -51,8 +51,8 @@ def oriented(
     triangles = np.where(flips[:, None], mesh.triangles[:, ::-1], mesh.triangles)
     kind = "inside out" if flips.all() else "wound inconsistently"
     return replace(mesh, triangles=triangles), (
-        f"The faces are {kind}; they were turned for this computation only"
-        " (Mesh > Normals > Recalculate Outside turns them for good).",
+        f"The faces are {kind}; they were flipped for this computation only"
+        " (Mesh > Normals > Recalculate Outside flips them permanently).",
     )
 
 

@@ -116,7 +116,7 @@ def _lengths_of_normals(
     if len(normals) != n_points:
         raise DecompositionError(
             f"The point cloud has {n_points} points but {len(normals)} normals; give"
-            " each point one, or none at all to have them estimated."
+            " one per point, or no normals to have them estimated."
         )
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     if not np.isfinite(lengths).all() or lengths.min() < _LEAST_NORMAL:

@@ -34,12 +34,16 @@ class Shells:
     closed : (S,) bool
         Windable shells that bound a volume: every edge has an even number of the
         shell's triangles.
+    crowded : bool
+        Whether some edge has more than two triangles: shells touch there, or one
+        touches itself.
     """
 
     of_triangle: NDArray[np.int64]
     against: NDArray[np.bool_]
     windable: NDArray[np.bool_]
     closed: NDArray[np.bool_]
+    crowded: bool
 
 
 def find_shells(mesh: TriangleMesh) -> Shells:
@@ -78,7 +82,7 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     closed = windable.copy()
     closed[open_edges] = False
     against = (side ^ minority[shells]) & windable[shells]
-    return Shells(shells, against, windable, closed)
+    return Shells(shells, against, windable, closed, bool((uses > 2).any()))
 
 
 def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:

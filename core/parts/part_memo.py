@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..clusters.embedding import embed
 from ..geometry.symmetry import Side, find_sides
 from ..parameters.parts import Parameters
-from ..sight.pairs import PairTally
+from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
 from ..steps.memo import Memo
 from ..steps.progress import Steps

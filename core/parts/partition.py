@@ -12,7 +12,7 @@ from ..clusters.kmeans import cluster
 from ..clusters.moves import raise_psi
 from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
-from ..sight.pairs import PairTally
+from ..sight.pair_tally import PairTally
 from ..steps.progress import Progress, Steps
 from .merging import connected_parts, merge_to
 from .part_memo import Candidate, PartMemo, digest

@@ -58,21 +58,23 @@ class SeamCutter:
         Smooth seams cost psi, but at most what the moves of samples gained over
         k-means. If a part would become too small, its nodes keep their labels.
         """
-        n_parts, by = count_parts(parts), self._partitioner
+        n_parts, partitioner = count_parts(parts), self._partitioner
         if n_parts == 1 or self._smoothness == 0:
             return parts
         enough = -np.inf
-        if by.by_psi:
-            enough = min(by.psi(by.plain(n_parts)), by.psi(parts))
-        labels = by.transfer.to_samples(parts)
-        costs = by.transfer.shares @ self._data_costs(labels, n_parts)
+        if partitioner.by_psi:
+            enough = min(
+                partitioner.psi(partitioner.plain(n_parts)), partitioner.psi(parts)
+            )
+        labels = partitioner.transfer.to_samples(parts)
+        costs = partitioner.transfer.shares @ self._data_costs(labels, n_parts)
         for share in _SOFTER:
-            steps = cut_seams(by.graph, parts, costs, share * self._smoothness)
+            steps = cut_seams(partitioner.graph, parts, costs, share * self._smoothness)
             cut = yield from within(steps, 0.0, 0.9)
-            areas = np.bincount(cut, by.graph.areas, n_parts)
-            swallowed = areas <= by.smallest_area
-            cut = by.tidied(np.where(swallowed[parts], parts, cut), n_parts)
-            if count_parts(cut) == n_parts and by.psi(cut) >= enough:
+            areas = np.bincount(cut, partitioner.graph.areas, n_parts)
+            swallowed = areas <= partitioner.smallest_area
+            cut = partitioner.tidied(np.where(swallowed[parts], parts, cut), n_parts)
+            if count_parts(cut) == n_parts and partitioner.psi(cut) >= enough:
                 return (yield from within(self._evened(cut, enough), 0.9, 1.0))
         return parts
 
@@ -80,22 +82,22 @@ class SeamCutter:
         self, parts: NDArray[np.int64], enough: float
     ) -> Steps[NDArray[np.int64]]:
         """Return parts symmetric to the mirror plane, if psi is still high enough."""
-        by = self._partitioner
-        if not by.by_psi:
+        partitioner = self._partitioner
+        if not partitioner.by_psi:
             return parts
-        even = yield from by.symmetric(parts, {count_parts(parts)})
+        even = yield from partitioner.symmetric(parts, {count_parts(parts)})
         best = max(even, key=lambda each: each.psi, default=None)
-        least = max(enough, by.psi(parts) - 2 * by.negligible)
+        least = max(enough, partitioner.psi(parts) - 2 * partitioner.negligible)
         return parts if best is None or best.psi < least else best.parts
 
     def _data_costs(
         self, labels: NDArray[np.int64], n_labels: int
     ) -> NDArray[np.float64]:
         """Return the data term of eq. 4: the cost of each label per sample, (N, K)."""
-        by = self._partitioner
-        if not by.by_psi:
-            return distances_to_parts(by.embedding(n_labels), labels, n_labels)
-        gains = MoveGains(by.visibility.psi_pairs, labels, n_labels).of(
-            slice(None), by.parameters.alpha
+        partitioner = self._partitioner
+        if not partitioner.by_psi:
+            return distances_to_parts(partitioner.embedding(n_labels), labels, n_labels)
+        gains = MoveGains(partitioner.visibility.psi_pairs, labels, n_labels).of(
+            slice(None), partitioner.parameters.alpha
         )
         return gains.max(axis=1, keepdims=True) - gains

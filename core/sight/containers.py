@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ..geometry.frames import cone_directions
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps, within
-from .cone import cone_directions
 from .lines import RAYS_PER_STEP
 from .pairs import PairVisibility
 from .ray_march import PASS, RayMarcher
@@ -28,7 +28,7 @@ _DIRECTIONS = 24
 # Try every third direction first.
 _FIRST = 3
 # A cell is not enclosed if a smaller share of its first rays hits the shape.
-_HOPELESS = 0.3
+_CLEARLY_OPEN = 0.3
 # A container has at least one cell where this share of rays hits the shape.
 _ENCLOSED = 0.75
 # It also holds the connected outside cells with at least this share.
@@ -125,7 +125,7 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     for number, direction in enumerate(directions[order]):
         if number == n_first:
             # Most cells are decided by now: they are inside, or clearly open.
-            doubtful = (front >= back) & (front + back >= _HOPELESS * n_first)
+            doubtful = (front >= back) & (front + back >= _CLEARLY_OPEN * n_first)
             cells = np.flatnonzero(doubtful)
         tried[cells] += 1
         for start in range(0, len(cells), RAYS_PER_STEP):

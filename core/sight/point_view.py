@@ -12,8 +12,9 @@ from ..geometry.sampling import Samples, sample_surface
 from ..parameters.parts import Parameters
 from ..results import View
 from ..steps.progress import Progress, Steps, run
-from .lines import Viewpoints, see_pairs, viewpoints
+from .lines import see_pairs
 from .prepared import PreparedShape
+from .viewpoints import Viewpoints, viewpoints
 
 Rows = TypeVar("Rows", Samples, Viewpoints)
 

@@ -169,7 +169,7 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     mesh, notes = oriented(mesh, shells)
     yield Progress("Surface", 0.8)
     targets = set_apart(mesh, shells)
-    if targets is not mesh:  # faces that coincided are now separate shells
+    if targets is not mesh and shells.crowded:  # those that touched are apart now
         shells = find_shells(targets)
     closed = shells.closed[shells.of_triangle]
     return PreparedShape(
@@ -191,7 +191,7 @@ def _prepare_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[Prepared
         cloud.center,
         cloud.diagonal,
         found.mesh,
-        RayMarcher(found.mesh, make_caster, grain=found.size, tilt=found.tilt),
+        RayMarcher(found.mesh, make_caster, splat_size=found.size, tilt=found.tilt),
         len(found.points),
         found.nodes,
         lambda: neighbor_graph(found.points, found.normals, found.areas),

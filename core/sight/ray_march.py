@@ -9,7 +9,7 @@ shells it ends a ray, as in the paper; within a closed shell, rays pass through 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import Protocol
 
@@ -26,7 +26,7 @@ _MOST_CROSSINGS = 64
 _MOST_BEHIND = 8
 # Splats this close to the ends of a ray are ignored, in sizes of a splat: they are the
 # uneven surface around the ends.
-_GRAINS_AT_ENDS = 2.0
+_SPLATS_AT_ENDS = 2.0
 
 
 class RayCaster(Protocol):
@@ -73,7 +73,7 @@ class RayMarcher:
         Returns a `RayCaster` for `mesh`.
     closed : (T,) bool, optional
         Which triangles belong to closed shells. By default none do.
-    grain : float, optional
+    splat_size : float, optional
         Size of the splats of a point cloud, 0 for a mesh with faces.
     tilt : float, optional
         Sine of the largest error of the normals.
@@ -91,7 +91,7 @@ class RayMarcher:
         mesh: TriangleMesh,
         make_caster: MakeCaster,
         closed: NDArray[np.bool_] | None = None,
-        grain: float = 0.0,
+        splat_size: float = 0.0,
         tilt: float = 0.0,
     ) -> None:
         self.mesh = mesh
@@ -99,7 +99,7 @@ class RayMarcher:
         self.closed = np.zeros(len(mesh.triangles), bool) if closed is None else closed
         self.area = float(mesh.areas.sum())
         self.diagonal = mesh.diagonal
-        self.grain = grain
+        self.splat_size = splat_size
         self.tilt = tilt
         self._make_caster = make_caster
 
@@ -139,7 +139,7 @@ class RayMarcher:
         """
         n_rays = len(origins)
         exits, distances = np.full(n_rays, -1), np.full(n_rays, np.inf)
-        skipped = np.minimum(_GRAINS_AT_ENDS * self.grain, reach / 3)
+        skipped = np.minimum(_SPLATS_AT_ENDS * self.splat_size, reach / 3)
         reach = reach - skipped
         travelled, depths = skipped, depths.copy()
         going = np.arange(n_rays)
@@ -206,26 +206,28 @@ class RayMarcher:
             depths = np.zeros(len(rays), dtype=np.int64)
 
     def shells_around(
-        self, origins: NDArray[np.float64], directions: NDArray[np.float64]
+        self, points: NDArray[np.float64], directions: Sequence[NDArray[np.float64]]
     ) -> NDArray[np.int64]:
-        """Count the closed shells around points with one ray from each.
+        """Count the closed shells around points, by some rays from each.
 
         Parameters
         ----------
-        origins : (M, 3) float
-            The points.
-        directions : (M, 3) float
-            Unit vectors.
+        points : (M, 3) float
+        directions : sequence of (M, 3) float
+            Unit vectors of the rays.
 
         Returns
         -------
         counts : (M,) int
-            Exits of the ray minus its entries; negative if it enters through a hole.
+            Exits of a ray minus its entries. The median ignores one ray that slips
+            through between two triangles.
         """
         if not self.closed.any():
-            return np.zeros(len(origins), dtype=np.int64)
-        far = np.full(len(origins), 2 * self.diagonal)
+            return np.zeros(len(points), dtype=np.int64)
+        far = np.full(len(points), 2 * self.diagonal)
         # Start with so many shells that no ray ends before its last crossing.
-        bottom = np.full(len(origins), _MOST_CROSSINGS + 1)
-        _, _, depths = self.march(origins, directions, far, bottom)
-        return bottom - depths
+        bottom = np.full(len(points), _MOST_CROSSINGS + 1)
+        counts = [
+            bottom - self.march(points, each, far, bottom)[2] for each in directions
+        ]
+        return np.maximum(np.median(counts, axis=0), 0).astype(np.int64)

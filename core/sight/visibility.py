@@ -11,11 +11,12 @@ from ..geometry.sampling import Samples, take_samples
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps, within
-from .cone import see_cones, see_uniform_pairs
+from .cone import see_cones
 from .containers import see_through_containers
-from .lines import see_all_pairs, viewpoints
+from .lines import see_all_pairs, see_uniform_pairs
 from .pairs import Matrix, PairVisibility
 from .prepared import PreparedShape
+from .viewpoints import viewpoints
 
 # Most samples whose matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
@@ -98,8 +99,8 @@ def find_lines_of_sight(
     all_pairs = parameters.sight == "ALL_PAIRS"
     if all_pairs and len(samples) > _MOST_FOR_ALL_PAIRS:
         raise DecompositionError(
-            f"The lines of sight between all pairs of {len(samples):,} faces are too"
-            " many; choose Cone for Lines of Sight or By Area for Sampling."
+            f"{len(samples):,} faces have too many pairs to look up all lines of"
+            " sight; choose Cone for Lines of Sight or By Area for Sampling."
         )
     yield Progress("Ray tree", 0.0)
     _ = shape.marcher.caster  # takes half of the time of this stage: a separate step
@@ -110,15 +111,17 @@ def find_lines_of_sight(
             see_all_pairs(shape.marcher, samples, views), 0.02, 1.0
         )
         return LinesOfSight(samples, pairs, pairs)
+    drawn = None
+    if parameters.psi_pairs == "UNIFORM":
+        drawn = yield from within(
+            see_uniform_pairs(shape.marcher, samples, views, rng), 0.02, 0.2
+        )
     in_cones = yield from within(
         see_cones(shape, samples, views, parameters.rays, parameters.cone_angle),
-        0.02,
-        0.8,
+        0.2,
+        1.0,
     )
-    if parameters.psi_pairs == "RAYS":
-        return LinesOfSight(samples, in_cones, in_cones)
-    drawn = see_uniform_pairs(shape.marcher, samples, views, rng)
-    return LinesOfSight(samples, in_cones, (yield from within(drawn, 0.8, 1.0)))
+    return LinesOfSight(samples, in_cones, drawn or in_cones)
 
 
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
+from typing import ParamSpec
+
 from threadpoolctl import ThreadpoolController
 
 from .progress import Steps, T
 
+Given = ParamSpec("Given")
 
-def on_one_thread(steps: Steps[T]) -> Steps[T]:
-    """Run `steps` with linear algebra limited to one thread.
+
+def on_one_thread(compute: Callable[Given, Steps[T]]) -> Callable[Given, Steps[T]]:
+    """Limit the linear algebra of a computation to one thread.
 
     With more threads, the rounding of sums would depend on the number of cores. Where
     other programs keep the cores busy, threads would wait for each other most of the
@@ -16,23 +22,28 @@ def on_one_thread(steps: Steps[T]) -> Steps[T]:
 
     Parameters
     ----------
-    steps : Steps
-        The computation.
+    compute : callable
+        Returns the steps of the computation.
 
     Returns
     -------
-    Steps
-        The same reports and the same value.
+    callable
+        Returns steps with the same reports and the same value.
     """
-    controller = ThreadpoolController()
-    try:
-        while True:
-            with controller.limit(limits=1):
-                try:
-                    progress = next(steps)
-                except StopIteration as stop:
-                    value: T = stop.value
-                    return value
-            yield progress
-    finally:
-        steps.close()
+
+    @wraps(compute)
+    def limited(*args: Given.args, **kwargs: Given.kwargs) -> Steps[T]:
+        steps, controller = compute(*args, **kwargs), ThreadpoolController()
+        try:
+            while True:
+                with controller.limit(limits=1):
+                    try:
+                        progress = next(steps)
+                    except StopIteration as stop:
+                        value: T = stop.value
+                        return value
+                yield progress
+        finally:
+            steps.close()
+
+    return limited

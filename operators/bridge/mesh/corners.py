@@ -1,4 +1,4 @@
-"""The corners of a mesh's faces, which Blender calls loops.
+"""The triangles of a mesh, and the corners of its faces, which Blender calls loops.
 
 A face has one corner for each of its vertices. The corners of face 0 come first, then
 the corners of face 1, and so on.
@@ -13,12 +13,31 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import BoolArray, IntArray, read_ints
+from .attributes import BoolArray, IntArray, read_floats, read_ints
 
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
     """Return the vertex of each corner, (C,)."""
     return read_ints(mesh.loops, "vertex_index")
+
+
+def triangles_of(
+    mesh: bpy.types.Mesh,
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the vertices of a mesh, its triangles, and the face of each triangle.
+
+    Returns
+    -------
+    vertices : (V, 3) float
+    triangles : (T, 3) int
+    faces : (T,) int
+    """
+    mesh.calc_loop_triangles()
+    return (
+        read_floats(mesh.vertices, "co", 3).astype(np.float64),
+        read_ints(mesh.loop_triangles, "vertices", 3).astype(np.int64),
+        read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
+    )
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> IntArray:

@@ -19,7 +19,7 @@ from ..refusals import refusal
 from ..stored.identity import Identity, usual_identities
 from ..stored.names import COLOR_LAYER, LAYERS, MATERIAL_LAYER, NORMAL_LAYER, PART_LAYER
 from ..stored.record import check_records, write_result
-from ..stored.restore import Restore, read_restore, write_restore
+from ..stored.restore import Restore, write_restore
 from .erase import erase_parts
 from .materials import discard_unused, part_materials, points_material
 from .palette import part_color
@@ -87,8 +87,7 @@ def check_writable(obj: bpy.types.Object) -> None:
     if reason:
         raise DecompositionError(f"{reason}.")
     flush_edits(obj)
-    check_records(obj)
-    written = read_restore(obj.data) is not None
+    written = check_records(obj)
     for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
         # Points and faces both: the user may turn a mesh into points, or back.

@@ -197,7 +197,9 @@ def _polygon(face: object, row: int) -> NDArray[np.int64]:
     """Return the vertex numbers of one face, (N,), N at least 3."""
     corners = _numbers(face)
     if corners is None or corners.ndim != 1:
-        raise TypeError(f"Face {row} is no list of vertex numbers, but {_name(face)}.")
+        raise TypeError(
+            f"Face {row} must be a list of vertex numbers, not {_name(face)}."
+        )
     if len(corners) < 3:
         raise DecompositionError(
             f"Face {row} has {len(corners)} corners; leave out faces of fewer than 3."

@@ -7,6 +7,8 @@ anywhere.
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import bmesh
 import bpy
@@ -16,6 +18,7 @@ from mathutils import Matrix, Vector
 from ....core.errors import DecompositionError
 from ..mesh.attributes import read_floats, read_ints
 from ..mesh.corners import corner_vertices
+from ..refusals import CONVERTIBLE
 
 # A shape is flat if its points are this close to a plane, as a share of its size.
 _FLAT = 1e-4
@@ -23,6 +26,25 @@ _FLAT = 1e-4
 _LONGEST = 1 / 60
 # Edges are halved this often at most, to a thousandth of their length.
 _MOST_HALVINGS = 10
+
+
+@contextmanager
+def mesh_of(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Give the mesh of an object, or one made of a curve that is removed at the end.
+
+    Raises
+    ------
+    DecompositionError
+        If no faces can be made of a curve.
+    """
+    if obj.type not in CONVERTIBLE:
+        yield obj.data
+        return
+    mesh = converted(obj)
+    try:
+        yield mesh
+    finally:
+        bpy.data.meshes.remove(mesh)
 
 
 def converted(obj: bpy.types.Object) -> bpy.types.Mesh:

@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
-from ..mesh.attributes import read_floats, read_ints
+from ..mesh.corners import triangles_of
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
 from ..parts.exploding import exploding
-from ..refusals import CONVERTIBLE
 from .carrier import is_waiting
-from .converting import converted
+from .converting import mesh_of
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
 _SAME_SCALE = 1e-5
@@ -34,36 +33,16 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     DecompositionError
         If an object has no usable faces or points, or a scale of zero.
     """
+    factors = stretch(obj)
     if is_cloud(obj):
-        return _read_cloud(obj)
+        read = normals_of(obj)
+        # Stretching tilts normals the other way.
+        normals = None if read is None else read.astype(np.float64) / factors
+        return PointCloud(positions_of(obj).astype(np.float64) * factors, normals)
     flush_edits(obj)
-    if obj.type not in CONVERTIBLE:
-        return _read_mesh(obj.data, stretch(obj))
-    mesh = converted(obj)
-    try:
-        return _read_mesh(mesh, stretch(obj))
-    finally:
-        bpy.data.meshes.remove(mesh)
-
-
-def _read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMesh:
-    """Return the triangles of a mesh, its axes multiplied by factors."""
-    mesh.calc_loop_triangles()
-    return TriangleMesh(
-        read_floats(mesh.vertices, "co", 3).astype(np.float64) * factors,
-        read_ints(mesh.loop_triangles, "vertices", 3).astype(np.int64),
-        read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
-    )
-
-
-def _read_cloud(obj: bpy.types.Object) -> PointCloud:
-    """Return the points of a cloud, with their normals if it has any."""
-    factors, normals = stretch(obj), normals_of(obj)
-    points = positions_of(obj).astype(np.float64) * factors
-    if normals is None:
-        return PointCloud(points)
-    # Stretching tilts normals the other way.
-    return PointCloud(points, normals.astype(np.float64) / factors)
+    with mesh_of(obj) as mesh:
+        vertices, triangles, polygons = triangles_of(mesh)
+    return TriangleMesh(vertices * factors, triangles, polygons)
 
 
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:

@@ -65,10 +65,16 @@ def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
     return Parameters(**{name: noted[name] for name in known & noted.keys()})
 
 
-def check_records(obj: bpy.types.Object) -> None:
-    """Raise if a custom property under one of our names is not ours."""
-    read_restore(obj.data)
+def check_records(obj: bpy.types.Object) -> bool:
+    """Return whether we have written to the mesh of an object.
+
+    Raises
+    ------
+    DecompositionError
+        If a custom property under one of our names is not ours.
+    """
     record_of(obj)
+    return read_restore(obj.data) is not None
 
 
 def write_result(

@@ -6,12 +6,6 @@ returns the computation as `Steps`, which give the result when they are run.
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterable
-from dataclasses import replace
-from importlib import import_module
-from typing import Any, TypeVar
-
 import bpy
 import numpy as np
 
@@ -28,20 +22,8 @@ from ..parts.write import check_writable
 from ..read.shape import read_shape, reading_notes
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
+from .libraries import with_libraries
 from .session_cache import has_seen, session_cache
-
-Result = TypeVar("Result")  # of any kind that has notes
-
-# In the order in which they import one another.
-_LIBRARIES = (
-    "scipy.linalg",
-    "scipy.spatial",
-    "scipy.optimize",
-    "scipy.stats",
-    "sklearn.utils",
-    "sklearn.neighbors",
-    "sklearn.cluster",
-)
 
 
 def decompose_object(
@@ -55,13 +37,13 @@ def decompose_object(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    shape = read_shape(obj)
+    notes, shape = reading_notes(obj), read_shape(obj)
 
     def work() -> Steps[Decomposition]:
         cache = session_cache()
         return (yield from core.decompose_in_steps(shape, parameters, cache))
 
-    return _with_libraries(reading_notes(obj), work())
+    return with_libraries(notes, work())
 
 
 def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
@@ -85,12 +67,12 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
         At once, if the object cannot be read.
     """
     check_records(obj)
-    shape = read_shape(obj)
+    notes, shape = reading_notes(obj), read_shape(obj)
 
     def work() -> Steps[Measurement]:
         return (yield from core.measure_in_steps(shape, parameters, session_cache()))
 
-    return _with_libraries(reading_notes(obj), work())
+    return with_libraries(notes, work())
 
 
 def measure_selection_of(
@@ -104,17 +86,17 @@ def measure_selection_of(
         At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
-    shape, faces = read_shape(obj), selected_faces(obj)
+    notes, shape, faces = reading_notes(obj), read_shape(obj), selected_faces(obj)
     if not faces.any():
         raise DecompositionError(
-            "No faces are selected; select those to be measured in Edit Mode."
+            "No faces are selected; select the faces to measure in Edit Mode."
         )
 
     def work() -> Steps[Measurement]:
         cache = session_cache()
         return (yield from core.measure_in_steps(shape, parameters, cache, faces))
 
-    return _with_libraries(reading_notes(obj), work())
+    return with_libraries(notes, work())
 
 
 def point_viewer_of(
@@ -127,14 +109,14 @@ def point_viewer_of(
     DecompositionError
         At once, if the object cannot be read.
     """
-    shape = read_shape(obj)
+    notes, shape = reading_notes(obj), read_shape(obj)
 
     def work() -> Steps[core.PointViewer]:
         prepared = yield from within(session_cache().prepare(shape), 0.0, 0.4)
         viewer = core.point_viewer_in_steps(prepared, parameters)
         return (yield from within(viewer, 0.4, 1.0))
 
-    return _with_libraries(reading_notes(obj), work())
+    return with_libraries(notes, work())
 
 
 def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
@@ -161,7 +143,7 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
         yield Progress("Picture", 0.9)
         return core.draw_picture(kind, memo, labels, parameters, colors)
 
-    return _with_libraries((), work())
+    return with_libraries((), work())
 
 
 def build_hulls_of(
@@ -188,7 +170,7 @@ def build_hulls_of(
     if reason:
         raise DecompositionError(f"{reason}.")
     check_records(obj)
-    shape, labels = read_shape(obj), part_labels(obj)
+    notes, shape, labels = reading_notes(obj), read_shape(obj), part_labels(obj)
 
     def work() -> Steps[HullDecomposition]:
         cache, known, start = session_cache(), labels, 0.0
@@ -201,18 +183,7 @@ def build_hulls_of(
         )
         return (yield from within(steps, start, 1.0))
 
-    return _with_libraries(reading_notes(obj), work())
-
-
-def load_libraries() -> Steps[None]:
-    """Load the libraries of the core, one per step, so that the window responds.
-
-    They take a second to load, which enabling the extension must not.
-    """
-    for name in _LIBRARIES:
-        if name not in sys.modules:
-            yield Progress("Libraries", 0.0)
-            import_module(name)
+    return with_libraries(notes, work())
 
 
 def hull_summary(found: HullDecomposition) -> str:
@@ -222,13 +193,6 @@ def hull_summary(found: HullDecomposition) -> str:
         f" largest error {found.errors.max():.3f},"
         f" volume of hulls / volume {found.volume_ratio:.2f}"
     )
-
-
-def _with_libraries(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
-    """Load the libraries, run `steps`, and put `notes` before those of the result."""
-    yield from load_libraries()
-    value: Any = yield from steps
-    return replace(value, notes=(*notes, *value.notes))
 
 
 def summary(decomposition: Decomposition) -> str:

@@ -19,7 +19,7 @@ from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
 from ..read.shape import read_shape, reading_notes
 from ..stored.identity import Identity, identities_after, with_sides
-from .computing import load_libraries
+from .libraries import load_libraries
 from .session_cache import session_cache
 
 MakeChange: TypeAlias = Callable[

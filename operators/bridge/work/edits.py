@@ -60,7 +60,7 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
         If there is no face to assign.
     """
     if not faces.any():
-        raise DecompositionError("No face is selected; select those to be assigned.")
+        raise DecompositionError("No face is selected; select the faces to assign.")
 
     def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
         yield Progress("Assign", 0.0)
@@ -115,8 +115,8 @@ def _nothing_split(name: str, n_parts: int) -> DecompositionError:
             f"{name} has too few faces to be split; subdivide it, or choose another."
         )
     return DecompositionError(
-        f"{name} stays whole: psi gains nothing by a split; give a number of parts to"
-        " split it all the same."
+        f"{name} was not split, because a split would not raise psi; set a number of"
+        " parts to split it anyway."
     )
 
 

@@ -57,7 +57,7 @@ def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edit
     rest = _parameters_of_rest(parameters, len(np.unique(parts.labels[~members])))
     if not members.any():
         raise DecompositionError(
-            "All parts are locked, so that nothing is left to decompose; unlock some."
+            "All parts are locked, so nothing is left to decompose; unlock some."
         )
 
     def change(
@@ -81,8 +81,8 @@ def _parameters_of_rest(parameters: Parameters, n_locked: int) -> Parameters:
     n_parts = parameters.parts
     if n_parts and n_parts <= n_locked:
         raise DecompositionError(
-            f"Parts is {n_parts}, and counts the {n_locked} that are locked; raise it"
-            f" to {n_locked + 1} at least, set it to 0, or unlock some."
+            f"Parts is {n_parts}, but {n_locked} parts are locked and count too; raise"
+            f" it to {n_locked + 1} at least, set it to 0, or unlock some."
         )
     return replace(
         parameters,

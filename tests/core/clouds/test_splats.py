@@ -7,8 +7,8 @@ from weak_convex_decomposition.core.clouds import splats as splats_module
 from weak_convex_decomposition.core.clouds.splats import (
     areas_of_points,
     nearest_points,
+    normal_weight,
     smoothed,
-    spacing_of,
     splats,
     thinned_splats,
 )
@@ -31,7 +31,8 @@ def test_areas_follow_the_density():
     assert areas.sum() == pytest.approx(6, rel=0.2)
     ratio = np.median(areas[~dense]) / np.median(areas[dense])
     assert ratio == pytest.approx(4, rel=0.2)
-    assert spacing_of(points) ** 2 == pytest.approx(np.median(areas), rel=0.2)
+    spacing = np.sqrt(np.median(areas))
+    assert normal_weight(points) == pytest.approx(1.5 * spacing, rel=0.1)
 
 
 def test_the_far_side_of_a_thin_wall_is_not_near():

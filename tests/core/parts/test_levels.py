@@ -7,7 +7,7 @@ from computed import decompose, parts_of, prepare
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.find import describe
+from weak_convex_decomposition.core.parts.describe import describe
 from weak_convex_decomposition.core.sight.visibility import find_lines_of_sight
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -118,7 +118,7 @@ def test_a_part_without_area_is_refused_with_a_sentence():
     flat = shapes.sheet(6)
     x, y = face_graph(flat).centers[:, :2].T
     inner = (abs(x - 0.5) < 0.3) & (abs(y - 0.5) < 0.3)
-    with pytest.raises(DecompositionError, match="no surface"):
+    with pytest.raises(DecompositionError, match="no area that samples could lie on"):
         split(flat, inner)
 
 

@@ -4,14 +4,17 @@ import numpy as np
 import pytest
 import shapes
 from computed import prepare
-from weak_convex_decomposition.core.geometry.sampling import sample_surface
-from weak_convex_decomposition.core.sight.cone import (
+from weak_convex_decomposition.core.geometry.frames import (
     cone_directions,
     fan_directions,
-    see_cones,
+)
+from weak_convex_decomposition.core.geometry.sampling import sample_surface
+from weak_convex_decomposition.core.sight.cone import see_cones
+from weak_convex_decomposition.core.sight.lines import (
+    see_all_pairs,
     see_uniform_pairs,
 )
-from weak_convex_decomposition.core.sight.lines import see_all_pairs, viewpoints
+from weak_convex_decomposition.core.sight.viewpoints import viewpoints
 from weak_convex_decomposition.core.steps.progress import run
 
 

@@ -7,8 +7,8 @@ from weak_convex_decomposition.core.sight.lines import (
     faces_inside,
     see_all_pairs,
     see_pairs,
-    viewpoints,
 )
+from weak_convex_decomposition.core.sight.viewpoints import viewpoints
 from weak_convex_decomposition.core.steps.progress import run
 
 BOXES_AS_L = shapes.joined(

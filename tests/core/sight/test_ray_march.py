@@ -12,7 +12,7 @@ def scene_of(mesh):
 
 def march(mesh, origin, reach=100.0):
     scene, origins = scene_of(mesh), np.array([origin], dtype=float)
-    around = scene.shells_around(origins, np.array([[-0.36, 0.48, 0.8]]))
+    around = scene.shells_around(origins, [np.array([[-0.36, 0.48, 0.8]])])
     exits, distances, depths = scene.march(origins, X, np.array([reach]), around)
     return exits[0], distances[0], depths[0]
 
@@ -92,6 +92,6 @@ def test_surfaces_along_keep_track_of_which_ray_is_which():
 @pytest.mark.parametrize("direction", [(1, 0, 0), (-0.6, 0, 0.8), (0.36, 0.48, 0.8)])
 def test_shells_around_a_point_are_counted(point, count, direction):
     counts = scene_of(OVERLAP).shells_around(
-        np.array([point], dtype=float), np.array([direction], dtype=float)
+        np.array([point], dtype=float), [np.array([direction], dtype=float)]
     )
     assert counts.tolist() == [count]

@@ -28,7 +28,7 @@ def counting():
 
 
 def test_steps_work_on_one_thread_and_others_between_them_on_more():
-    steps = on_one_thread(counting())
+    steps = on_one_thread(counting)()
     for _ in range(2):
         assert next(steps).fraction == 0.1
         assert threads() == 2
@@ -47,8 +47,8 @@ def test_errors_and_cancelling_give_the_threads_back():
             closed.append(threads())
 
     with pytest.raises(ValueError, match="broken"):
-        run(on_one_thread(failing()))
-    cancelled = on_one_thread(failing())
+        run(on_one_thread(failing)())
+    cancelled = on_one_thread(failing)()
     next(cancelled)
     cancelled.close()
     assert len(closed) == 2

@@ -1,0 +1,124 @@
+"""Measures given parts: area, number of faces, convexity rank and psi."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.face_graph import FaceGraph
+from ..geometry.transfer import Transfer
+from ..parameters.parts import Parameters
+from ..results import Decomposition
+from ..sight.visibility import Visibility
+from .partition import count_parts
+
+
+def describe(
+    visibility: Visibility,
+    labels: NDArray[np.int64],
+    parameters: Parameters,
+    psi_by_k: dict[int, float],
+    best_k: int,
+) -> Decomposition:
+    """Measure given parts: area, number of faces, convexity rank and psi.
+
+    Parameters
+    ----------
+    visibility : Visibility
+        Visibility of the shape that the parts belong to.
+    labels : (P,) int
+        Part of each polygon, or of each point of a cloud, in 0…K − 1, each used. They
+        are not renumbered.
+    parameters : Parameters
+        Only `alpha`, the weight in psi, is used.
+    psi_by_k : dict of int to float
+        Psi for the numbers of parts that were tried, stored as it is.
+    best_k : int
+        The number of parts that a search chooses, stored as it is.
+
+    Returns
+    -------
+    Decomposition
+    """
+    n_parts, transfer = count_parts(labels), visibility.transfer
+    parts = visibility.shape.labels_of_nodes(labels)
+    samples = transfer.to_samples(parts)
+    pairs = visibility.psi_pairs
+    whole = pairs.tally(np.zeros_like(samples), 1)
+    areas = np.bincount(parts, transfer.graph.areas, n_parts)
+    return Decomposition(
+        labels=labels,
+        areas=areas.astype(np.float64) * visibility.shape.diagonal**2,
+        face_counts=np.bincount(labels),
+        ranks=visibility.rank_pairs.tally(samples, n_parts).ranks(),
+        psi_before=whole.psi(parameters.alpha),
+        psi=pairs.tally(samples, n_parts).psi(parameters.alpha),
+        psi_by_k=psi_by_k,
+        best_k=best_k,
+        notes=visibility.shape.notes,
+        normals=visibility.shape.normals,
+    )
+
+
+def by_size(parts: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
+    """Renumber parts by area, the largest first.
+
+    Parameters
+    ----------
+    parts : (P,) int
+        Part of each node of `graph`, in 0…K − 1.
+    graph : FaceGraph
+
+    Returns
+    -------
+    parts : (P,) int
+    """
+    order = np.argsort(-graph.areas_of(parts), kind="stable")
+    return np.argsort(order)[parts]
+
+
+def notes_on(
+    found: Decomposition, visibility: Visibility, parameters: Parameters
+) -> tuple[str, ...]:
+    """Say what kept the parts from being as they were asked for.
+
+    Parameters
+    ----------
+    found : Decomposition
+    visibility : Visibility
+        Visibility of the shape.
+    parameters : Parameters
+        That the parts were found with.
+
+    Returns
+    -------
+    tuple of str
+        Sentences to the user.
+    """
+    on_shells = _notes_on_shells(visibility.transfer)
+    return on_shells + _notes_on_count(parameters, max(found.psi_by_k))
+
+
+def _notes_on_shells(transfer: Transfer) -> tuple[str, ...]:
+    """Return a note if most shells are too small for a sample of their own."""
+    if transfer.n_unsampled <= transfer.n_shells / 2:
+        return ()
+    return (
+        f"{transfer.n_unsampled:,} of {transfer.n_shells:,} loose pieces are too small"
+        " for a sample and join the nearest piece that has one; raise Samples to"
+        " separate them.",
+    )
+
+
+def _notes_on_count(parameters: Parameters, most: int) -> tuple[str, ...]:
+    """Return a note if the shape cannot be split into the number of parts asked for."""
+    wanted = parameters.parts or parameters.min_parts
+    # By default the search may well end with one part: that deserves no note.
+    alone = not parameters.parts and wanted == 2
+    if most >= wanted or alone:
+        return ()
+    return (
+        f"Only {most} of the {wanted} parts could be made: there are too few faces or"
+        " samples, or Smallest Part is too large; subdivide the mesh, raise Samples or"
+        " lower Smallest Part.",
+    )

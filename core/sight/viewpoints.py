@@ -1,0 +1,75 @@
+"""Points just below the surface that the rays of samples start at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.frames import tripod_directions
+from ..geometry.sampling import Samples
+from .ray_march import PASS, RayMarcher
+
+# Depth of viewpoints below the surface, in diagonals of the bounding box.
+_OFFSET = 1e-3
+# The same for splats, in sizes of a splat; the larger of the two counts.
+_OFFSET_OF_SPLAT = 0.5
+# Largest depth as a share of the thickness, for thin shapes.
+_OFFSET_OF_THICKNESS = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Viewpoints:
+    """Points just below the surface that the rays of the samples start at.
+
+    Attributes
+    ----------
+    positions : (N, 3) float
+        Samples moved inwards along their normals.
+    depths : (N,) int
+        Number of closed shells around each viewpoint, with the sample's own shell.
+    enclosed : (N,) bool
+        Whether another closed shell is around the sample.
+    """
+
+    positions: NDArray[np.float64]
+    depths: NDArray[np.int64]
+    enclosed: NDArray[np.bool_]
+
+
+def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
+    """Move samples below the surface and count the closed shells around them.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
+
+    Returns
+    -------
+    Viewpoints
+        One for each sample.
+    """
+    outwards = tripod_directions(samples.normals)
+    nudge = PASS * marcher.diagonal
+    inwards = -samples.normals
+    own = marcher.closed[samples.triangles].astype(np.int64)
+    _, thickness, _ = marcher.march(
+        samples.positions + nudge * inwards,
+        inwards,
+        np.full(len(samples), 2 * marcher.diagonal),
+        own,
+    )
+    deepest = max(_OFFSET * marcher.diagonal, _OFFSET_OF_SPLAT * marcher.splat_size)
+    offsets = np.minimum(deepest, _OFFSET_OF_THICKNESS * thickness)
+    offsets = np.maximum(offsets, nudge)
+    positions = samples.positions + offsets[:, None] * inwards
+    outside = samples.positions + nudge * samples.normals
+    return Viewpoints(
+        positions,
+        np.maximum(marcher.shells_around(positions, outwards), own),
+        marcher.shells_around(outside, outwards) > 0,
+    )
