@@ -1,24 +1,16 @@
-"""Make gallery.png, the picture of the README, from shapes made on the spot.
+"""The solid shapes of the figures: Blender's primitives, and shapes built here."""
 
-    python .pictures/make_gallery.py
+from __future__ import annotations
 
-Suzanne is Blender's own primitive; the others are metaballs, a skin modifier and
-boxes. The command line decomposes and renders them.
-"""
+from math import cos, pi, radians, sin
 
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
-
+import bmesh
 import bpy
 import numpy as np
+from scipy.spatial import ConvexHull
 
-HERE = Path(__file__).resolve().parent
-SIDE = 440  # pixels of a view in the gallery
-TOWARDS_CAMERA = 0.4  # radians: the camera stands to the right of the front
 # Elements of the bear: center and radius; mirrored ones have both signs of x.
-BEAR = [
+_BEAR = [
     ((0, 0, 0), 2.1),
     ((0, -0.1, 2.2), 1.8),
     ((0, -1.1, 2.0), 0.8),
@@ -35,7 +27,7 @@ BEAR = [
     ),
 ]
 # Joints of the dog: place and radius of the skin; then its bones.
-DOG = {
+_DOG = {
     "hip": ((0, 1.3, 0), 0.5),
     "chest": ((0, -1.0, 0.1), 0.55),
     "neck": ((0, -1.7, 0.9), 0.3),
@@ -44,35 +36,44 @@ DOG = {
     "tail": ((0, 2.1, 0.6), 0.16),
     "tip": ((0, 2.6, 1.3), 0.1),
 }
-BONES = ["hip chest", "chest neck", "neck head", "head nose", "hip tail", "tail tip"]
+_BONES = ["hip chest", "chest neck", "neck head", "head nose", "hip tail", "tail tip"]
 # Boxes of the chair: center and size.
-CHAIR = [
+_CHAIR = [
     ((0, 0, 0), (2, 2, 0.3)),
     ((0, 0.85, 1.35), (2, 0.3, 2.6)),
     *(((x, y, -1.1), (0.3, 0.3, 2.1)) for x in (-0.8, 0.8) for y in (-0.8, 0.8)),
 ]
+# The fingers of the hand: root, tip and radius, thumb first.
+FINGERS = [
+    ((-0.95, 0, 0.1), (-2.15, 0, 1.2), 0.27),
+    ((-0.62, 0, 1.2), (-1.0, 0, 3.1), 0.24),
+    ((-0.05, 0, 1.35), (-0.08, 0, 3.5), 0.25),
+    ((0.5, 0, 1.25), (0.8, 0, 3.15), 0.24),
+    ((1.0, 0, 0.95), (1.85, 0, 2.6), 0.21),
+]
 
 
-def suzanne() -> None:
-    """Make Blender's monkey with two subdivisions."""
-    bpy.ops.mesh.primitive_monkey_add(rotation=(0, 0, TOWARDS_CAMERA))
-    subdivide(2)
+def suzanne() -> bpy.types.Object:
+    """Return Blender's monkey with two subdivisions, turned towards the camera."""
+    bpy.ops.mesh.primitive_monkey_add()
+    return _subdivided(bpy.context.object, 2)
 
 
-def bear() -> None:
-    """Make a bear of metaballs."""
-    ball = bpy.data.metaballs.new("bear")
+def bear() -> bpy.types.Object:
+    """Return a bear of metaballs."""
+    ball = bpy.data.metaballs.new("Bear")
     ball.resolution = ball.render_resolution = 0.09
-    for center, radius in BEAR:
+    for center, radius in _BEAR:
         element = ball.elements.new()
         element.co, element.radius = center, radius
-    add(ball).rotation_euler.z = TOWARDS_CAMERA
+    _added(ball)
     bpy.ops.object.convert(target="MESH")
+    return bpy.context.object
 
 
-def dog() -> None:
-    """Make a dog of bones and a skin modifier."""
-    joints, bones = dict(DOG), [tuple(bone.split()) for bone in BONES]
+def dog() -> bpy.types.Object:
+    """Return a dog of bones and a skin modifier."""
+    joints, bones = dict(_DOG), [tuple(bone.split()) for bone in _BONES]
     for x in (-0.7, 0.7):
         for end, y in (("hip", 1.4), ("chest", -1.1)):
             knee, paw = f"{end} {x} knee", f"{end} {x} paw"
@@ -80,72 +81,165 @@ def dog() -> None:
             joints[paw] = ((x, y, -2.0), 0.2)
             bones += [(end, knee), (knee, paw)]
     names = list(joints)
-    mesh = bpy.data.meshes.new("dog")
+    mesh = bpy.data.meshes.new("Dog")
     edges = [(names.index(a), names.index(b)) for a, b in bones]
     mesh.from_pydata([joints[name][0] for name in names], edges, [])
-    obj = add(mesh)
+    obj = _added(mesh)
     obj.modifiers.new("Skin", "SKIN").use_smooth_shade = False
     for vertex, name in zip(mesh.skin_vertices[0].data, names, strict=True):
         vertex.radius = (joints[name][1],) * 2
     mesh.skin_vertices[0].data[0].use_root = True
-    subdivide(3)
-    bpy.ops.object.modifier_apply(modifier="Skin")
+    return _subdivided(obj, 3)
 
 
-def chair() -> None:
-    """Make a chair of boxes that run into each other."""
-    for center, size in CHAIR:
-        bpy.ops.mesh.primitive_cube_add(size=1, location=center, scale=size)
-    bpy.ops.object.select_all(action="SELECT")
-    bpy.ops.object.join()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide(number_cuts=11)
-    bpy.ops.object.mode_set(mode="OBJECT")
+def chair() -> bpy.types.Object:
+    """Return a chair of boxes that run into each other."""
+    return boxes(_CHAIR)
 
 
-def add(data: bpy.types.ID) -> bpy.types.Object:
-    """Return a new active object for `data`."""
+def boxes(of: list[tuple], cuts: int = 11) -> bpy.types.Object:
+    """Return boxes, given by center and size, as one mesh with closed shells."""
+    build = bmesh.new()
+    for center, size in of:
+        made = bmesh.ops.create_cube(build, size=1.0)["verts"]
+        bmesh.ops.scale(build, vec=size, verts=made)
+        bmesh.ops.translate(build, vec=center, verts=made)
+    bmesh.ops.subdivide_edges(build, edges=build.edges, cuts=cuts, use_grid_fill=True)
+    return _built(build, "Boxes")
+
+
+def turned(profile: list[tuple[float, float]], segments: int = 64) -> bpy.types.Object:
+    """Return the solid of a profile of (radius, height) turned around Z."""
+    build = bmesh.new()
+    corners = [build.verts.new((radius, 0, height)) for radius, height in profile]
+    edges = [build.edges.new(pair) for pair in zip(corners, corners[1:], strict=False)]
+    bmesh.ops.spin(
+        build,
+        geom=[*corners, *edges],
+        axis=(0, 0, 1),
+        cent=(0, 0, 0),
+        angle=2 * pi,
+        steps=segments,
+    )
+    bmesh.ops.remove_doubles(build, verts=build.verts, dist=1e-4)
+    bmesh.ops.recalc_face_normals(build, faces=build.faces)
+    return _built(build, "Turned")
+
+
+def fused(of: list[list[tuple]], voxel: float) -> bpy.types.Object:
+    """Return convex pieces, each around balls (center, radius), as one surface."""
+    build = bmesh.new()
+    turn = np.arange(200) * np.pi * (3 - 5**0.5)
+    height = np.linspace(-1, 1, 200)
+    around = np.sqrt(1 - height**2)
+    sphere = np.stack([around * np.cos(turn), around * np.sin(turn), height], axis=1)
+    for balls in of:
+        places = np.concatenate([sphere * radius + center for center, radius in balls])
+        verts = [build.verts.new(place) for place in places]
+        for triangle in ConvexHull(places).simplices:
+            build.faces.new([verts[i] for i in triangle])
+    bmesh.ops.delete(
+        build, geom=[v for v in build.verts if not v.link_faces], context="VERTS"
+    )
+    bmesh.ops.recalc_face_normals(build, faces=build.faces)
+    obj = _built(build, "Fused")
+    remesh = obj.modifiers.new("Remesh", "REMESH")
+    remesh.mode, remesh.voxel_size = "VOXEL", voxel
+    smooth = obj.modifiers.new("Smooth", "SMOOTH")
+    smooth.factor, smooth.iterations = 0.5, 4
+    return _applied(obj)
+
+
+def hand() -> bpy.types.Object:
+    """Return a hand: a palm, a wrist and five fingers."""
+    corners = ((-0.55, 0, 1.05), (0.9, 0, 0.8), (0.55, 0, -0.5), (-0.7, 0, -0.2))
+    palm = [(corner, 0.32) for corner in corners]
+    wrist = [((0, 0, 0), 0.4), ((-0.05, 0, -1.3), 0.38)]
+    fingers = [[(root, radius * 1.05), (tip, radius)] for root, tip, radius in FINGERS]
+    return fused([palm, wrist, *fingers], voxel=0.045)
+
+
+def figure() -> bpy.types.Object:
+    """Return a person with arms stretched out, whose hands have fingers."""
+    pieces = [
+        [((-0.3, 0, 0.1), 0.45), ((0.3, 0, 0.1), 0.45), ((0, 0, 1.0), 0.55)],
+        [((-0.45, 0, 1.7), 0.4), ((0.45, 0, 1.7), 0.4), ((0, 0, 0.8), 0.5)],
+        [((0, 0, 1.9), 0.26), ((0, 0, 2.3), 0.26)],
+        [((0, 0, 2.75), 0.48), ((0, -0.05, 2.95), 0.5)],
+    ]
+    for side in (-1, 1):
+        wrist = np.array((side * 3.1, 0, 1.75))
+        ankle = (side * 0.62, 0, -3.0)
+        pieces += [
+            [((side * 0.36, 0, 0), 0.38), (ankle, 0.2)],
+            [(ankle, 0.2), ((side * 0.7, -0.5, -3.06), 0.15)],
+            [((side * 0.6, 0, 1.75), 0.3), (wrist, 0.17)],
+            [(wrist, 0.17), (wrist + (side * 0.35, 0, 0), 0.25)],
+        ]
+        for angle in (-80, -30, -10, 10, 30):
+            way = np.array((side * cos(radians(angle)), 0, sin(radians(angle))))
+            length = 0.6 if angle == -80 else 1.0
+            root = wrist + (side * 0.3, 0, 0)
+            pieces.append([(root, 0.09), (root + way * length, 0.07)])
+    return fused(pieces, voxel=0.035)
+
+
+def cloud(obj: bpy.types.Object, n_points: int, keep=None) -> bpy.types.Object:
+    """Return points with normals, spread evenly over a mesh by its area.
+
+    Parameters
+    ----------
+    keep : callable, optional
+        From places and normals, (N, 3), to which points stay, (N,) bool.
+    """
+    obj.data.calc_loop_triangles()
+    corners = np.array([v.co for v in obj.data.vertices])
+    corners = corners[[t.vertices[:] for t in obj.data.loop_triangles]]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    doubled = np.linalg.norm(across, axis=1)
+    rng = np.random.default_rng(0)
+    chosen = np.searchsorted(
+        doubled.cumsum() / doubled.sum(),
+        (np.arange(n_points) + rng.random(n_points)) / n_points,
+    )
+    weights = rng.dirichlet(np.ones(3), n_points)[:, :, None]
+    places = (corners[chosen] * weights).sum(axis=1)
+    normals = across[chosen] / doubled[chosen, None]
+    if keep is not None:
+        kept = keep(places, normals)
+        places, normals = places[kept], normals[kept]
+    mesh = bpy.data.meshes.new("Cloud")
+    mesh.from_pydata(places, [], [])
+    layer = mesh.attributes.new("normal", "FLOAT_VECTOR", "POINT")
+    layer.data.foreach_set("vector", normals.astype(np.float32).ravel())
+    return _added(mesh)
+
+
+def _added(data: bpy.types.ID) -> bpy.types.Object:
+    """Return a new active object for some data."""
     obj = bpy.data.objects.new(data.name, data)
     bpy.context.collection.objects.link(obj)
+    bpy.ops.object.select_all(action="DESELECT")
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
     return obj
 
 
-def subdivide(levels: int) -> None:
-    """Subdivide the active object when it is exported."""
-    modifier = bpy.context.object.modifiers.new("Subdivision", "SUBSURF")
+def _built(build: bmesh.types.BMesh, name: str) -> bpy.types.Object:
+    mesh = bpy.data.meshes.new(name)
+    build.to_mesh(mesh)
+    build.free()
+    return _added(mesh)
+
+
+def _subdivided(obj: bpy.types.Object, levels: int) -> bpy.types.Object:
+    modifier = obj.modifiers.new("Subdivision", "SUBSURF")
     modifier.levels = modifier.render_levels = levels
+    return _applied(obj)
 
 
-def pixels(path: Path) -> np.ndarray:
-    """Return the left view of a picture, (SIDE, SIDE, 4)."""
-    image = bpy.data.images.load(str(path))
-    image.scale(2 * SIDE, SIDE)
-    return np.array(image.pixels, np.float32).reshape(SIDE, 2 * SIDE, 4)[:, :SIDE]
-
-
-def main() -> None:
-    """Make the shapes, have them decomposed, and put the pictures side by side."""
-    with tempfile.TemporaryDirectory() as name:
-        folder, inputs = Path(name), []
-        for make in (suzanne, bear, dog, chair):
-            bpy.ops.wm.read_factory_settings(use_empty=True)
-            make()
-            inputs.append(folder / f"{make.__name__}.obj")
-            bpy.ops.wm.obj_export(filepath=str(inputs[-1]), export_materials=False)
-        picture = folder / "{name}.png"
-        subprocess.run(
-            [sys.executable, HERE.parent, *inputs, "--picture", picture], check=True
-        )
-        row = np.hstack([pixels(path.with_suffix(".png")) for path in inputs])
-    image = bpy.data.images.new("gallery", row.shape[1], row.shape[0])
-    image.pixels.foreach_set(row.ravel())
-    image.filepath_raw = str(HERE / "gallery.png")
-    image.file_format = "PNG"
-    image.save()
-
-
-if __name__ == "__main__":
-    main()
+def _applied(obj: bpy.types.Object) -> bpy.types.Object:
+    """Apply all modifiers and the scale."""
+    bpy.ops.object.convert(target="MESH")
+    bpy.ops.object.transform_apply(location=False, rotation=False)
+    return obj

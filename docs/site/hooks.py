@@ -66,7 +66,10 @@ def table(name: str) -> str:
 
 def parameter_table(of: Iterable[Field[Any]]) -> str:
     """Return a row for each parameter."""
-    head = ["| name | label | default | values | what it does |", "|---|---|---|---|---|"]
+    head = [
+        "| name | label | default | values | what it does |",
+        "|---|---|---|---|---|",
+    ]
     return "\n".join([*head, *map(_row, of)])
 
 

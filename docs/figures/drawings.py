@@ -1,0 +1,381 @@
+"""The figures, one function each, by the name of their file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import bpy
+import extension
+import numpy as np
+import outlines
+import shapes
+from image import below, beside, resized
+from render import FROM_ABOVE, caption, panel
+from scipy.interpolate import CubicSpline
+from scipy.spatial import ConvexHull, cKDTree
+
+_GRAY = (0.42, 0.5, 0.58)
+_SEEN = (0.03, 0.42, 0.12)
+_HIDDEN = (0.04, 0.16, 0.5)
+_MARK = (0.8, 0.02, 0.02)
+
+
+def _paint(obj: bpy.types.Object, *colors: tuple[float, float, float]) -> None:
+    """Give an object materials of linear colors, in place of those it has."""
+    obj.data.materials.clear()
+    for color in colors:
+        material = bpy.data.materials.new("Figure")
+        material.diffuse_color = (*color, 1.0)
+        obj.data.materials.append(material)
+
+
+def _flat(loop: np.ndarray, text: str) -> np.ndarray:
+    """Return a panel of an outline as it is."""
+    obj = outlines.outline(loop)
+    _paint(obj, _GRAY)
+    return panel([obj], text, size=230, turn=0, elevation=FROM_ABOVE)
+
+
+def _parts(
+    obj: bpy.types.Object, text: str, size: int = 400, turn: float = 35.0, **parameters
+) -> np.ndarray:
+    """Return a panel of an object in parts; the text may name figures of its record."""
+    record = extension.decompose(obj, **parameters)
+    shown = bpy.context.object
+    mean = np.mean([part["convexity_rank"] for part in record["parts"]])
+    flat = shown.dimensions.z == 0
+    text = text.format(mean=mean, **record)
+    print(text, record["k"], record["notes"])
+    if flat:
+        return panel([shown], text, size, 0, FROM_ABOVE)
+    return panel([shown], text, size, turn)
+
+
+def gallery() -> np.ndarray:
+    """Draw Suzanne, a bear, a dog and a chair (fig. 15)."""
+    turns = (22, 22, 35, 35)
+    makers = (shapes.suzanne, shapes.bear, shapes.dog, shapes.chair)
+    return beside(
+        [
+            _parts(make(), "", 400, turn)
+            for make, turn in zip(makers, turns, strict=True)
+        ]
+    )
+
+
+def sight() -> np.ndarray:
+    """Draw what a picked point sees, in green (fig. 2)."""
+    picks = (
+        (shapes.bear(), (0.0, -1, 0.0), (-0.4, 1, 0.0)),
+        (_torus(), (0.9, -1, 0.6), (0.0, 1, -0.55)),
+        (shapes.hand(), (0.15, -1, 0.3), (0, 1, 0)),
+    )
+    panels = []
+    for obj, aim, direction in picks:
+        way = np.array(direction) / np.linalg.norm(direction)
+        origin = np.array(aim) - 10 * way
+        point, places, normals, visible = extension.seen_from(obj, origin, way, 8000)
+        faces = obj.data.polygons
+        centers = np.array([face.center for face in faces])
+        facing = np.array([face.normal for face in faces])
+        # The nearest sample of the same side: thin walls have two.
+        tree = cKDTree(np.hstack([places, normals * 0.1]))
+        _, nearest = tree.query(np.hstack([centers, facing * 0.1]))
+        _paint(obj, _HIDDEN, _SEEN)
+        faces.foreach_set("material_index", visible[nearest].astype(np.int32))
+        mark = _ball(point, max(obj.dimensions) * 0.022)
+        panels.append(panel([obj, mark], size=400, turn=20))
+    return beside(panels)
+
+
+def hands() -> np.ndarray:
+    """Draw a hand as an outline and as a solid (fig. 3)."""
+    flat = outlines.outline(outlines.hand())
+    return beside(
+        [
+            _parts(flat, "an outline: {k} parts", 420),
+            _parts(shapes.hand(), "a solid: {k} parts", 420, turn=10),
+        ]
+    )
+
+
+def ranks() -> np.ndarray:
+    """Draw shapes over their convexity ranks (fig. 4)."""
+    loops = (
+        outlines.circle(),
+        outlines.lobes(2, 0.6),
+        outlines.star(5, 0.6),
+        outlines.dumbbell(),
+        outlines.horseshoe(),
+        outlines.star(5, 0.35),
+        outlines.star(12, 0.3),
+    )
+    measured = [(extension.rank(outlines.outline(loop)), loop) for loop in loops]
+    measured.sort(key=lambda pair: -pair[0])
+    return beside([_flat(loop, f"{rank:.2f}") for rank, loop in measured])
+
+
+def before_after() -> np.ndarray:
+    """Draw shapes with their ranks before and after (fig. 5)."""
+    rows = []
+    for loop in (outlines.lobes(3, 0.25), outlines.star(3, 0.12)):
+        rank = extension.rank(outlines.outline(loop))
+        rows.append(_flat(loop, f"rank {rank:.2f}"))
+        obj = outlines.outline(loop)
+        rows.append(_parts(obj, "{k} parts, mean rank {mean:.2f}", 230))
+    return beside(rows)
+
+
+def walk() -> np.ndarray:
+    """Draw lines of sight within a part and between parts (fig. 6)."""
+    loop = outlines.dumbbell(0.3)
+    rng = np.random.default_rng(3)
+    ends = np.roll(loop, -1, axis=0)
+    lengths = np.linalg.norm(ends - loop, axis=1)
+    steps = (np.arange(36) + rng.random(36)) / 36 * lengths.sum()
+    edges = np.searchsorted(lengths.cumsum(), steps)
+    left = ((lengths.cumsum()[edges] - steps) / lengths[edges])[:, None]
+    spots = (loop[edges] * left + ends[edges] * (1 - left)) * 0.995
+    obj = outlines.outline(loop)
+    _paint(obj, (0.75, 0.78, 0.82))
+    drawn = [obj]
+    for i, one in enumerate(spots):
+        for other in spots[:i]:
+            if not outlines.sees(loop, one, other):
+                continue
+            crosses = one[0] * other[0] < 0
+            drawn.append(_line(one, other, 0.05 + 0.05 * crosses, crosses))
+    return panel(drawn, size=520, turn=0, elevation=FROM_ABOVE)[110:410]
+
+
+def matrices() -> np.ndarray:
+    """Draw a shape, its matrices of lines of sight, and its embedding (fig. 7)."""
+    rows = []
+    for text, parameters in (
+        ("all pairs", {}),
+        ("rays in a cone", {"sight": "CONE", "samples": 1200}),
+    ):
+        obj = shapes.dog()
+        shape = _parts(obj, f"the parts: {text}", 300, parts=6, **parameters)
+        row = [shape]
+        for kind, name in (
+            ("SIGHT", "lines of sight"),
+            ("DISTANCES", "distances in the embedding"),
+            ("SCATTER", "the embedding"),
+        ):
+            pixels = resized(extension.picture(obj, kind), 300, kind == "SCATTER")
+            row.append(np.concatenate([pixels, caption(name, 300)]))
+        rows.append(beside(row))
+    return below(rows)
+
+
+def clouds() -> np.ndarray:
+    """Draw a cloud, its splats, and a scan from one side (figs. 1, 8 and 9)."""
+    solid = shapes.dog()
+    whole = shapes.cloud(solid, 6000)
+    extension.decompose(whole, parts=7)
+    splats = _splat_object(whole)
+    towards = np.array((0.57, -0.82, 0.37))  # where the scanner stands
+    seen = _seen_by_scanner(solid, towards)
+    scan = shapes.cloud(solid, 12000, keep=seen)
+    extension.decompose(scan, parts=7)
+    partial = _splat_object(scan)
+    close = panel([splats], size=1500)[360:740, 60:440]
+    return beside(
+        [
+            panel([splats], "all around", 380),
+            np.concatenate([close, caption("its splats, from near", 380)]),
+            panel([partial], "a scan, from the scanner", 380),
+            panel([partial], "the same, from behind", 380, turn=215),
+        ]
+    )
+
+
+def quality() -> np.ndarray:
+    """Draw shapes with their quality before and after (fig. 10)."""
+    text = "ψ {psi_before:.2f} → {psi:.2f}"
+    vase = _vase()
+    return beside(
+        [
+            _parts(shapes.suzanne(), text, 300, 22),
+            _parts(shapes.bear(), text, 300, 22),
+            _parts(shapes.dog(), text, 300),
+            _parts(shapes.chair(), text, 300),
+            _parts(vase, text, 300),
+        ]
+    )
+
+
+def overlap() -> np.ndarray:
+    """Draw parts that overlap in volume (fig. 11)."""
+    bars = [((0, 0, 0), (4, 0.7, 0.7)), ((0, 0, 0), (0.7, 4, 0.7))]
+    obj = shapes.boxes([*bars, ((0, 0, 0), (0.7, 0.7, 4))])
+    whole = _parts(obj, "three bars through each other: {k} parts", 400)
+    apart = _separated(obj)
+    return beside([whole, panel(apart, "the parts, moved apart", 400)])
+
+
+def measures() -> np.ndarray:
+    """Draw a spoon and a fork over two measures of convexity (fig. 12)."""
+    return below([_compared(outlines.spoon()), _compared(outlines.fork())])
+
+
+def notches() -> np.ndarray:
+    """Draw notches of one depth and different widths (fig. 13)."""
+    panels = []
+    for width, bottom in ((1.9, -0.3), (0.3, -0.3), (0.06, 0.6)):
+        loop = outlines.notched(width, bottom)
+        rank = extension.rank(outlines.outline(loop))
+        panels.append(_flat(loop, f"{rank:.2f}"))
+    return beside(panels)
+
+
+def fingers() -> np.ndarray:
+    """Draw a whole person, and a hand with one level and with two (figs. 13c, 14)."""
+    panels = []
+    for levels in (1, 2):
+        obj = shapes.figure()
+        record = extension.decompose(obj, levels=levels)
+        if levels == 1:
+            text = "{k} parts, Levels 1"
+            panels.append(panel([obj], text.format(**record), 420, turn=0, elevation=5))
+        large = panel([obj], size=2400, turn=0, elevation=5)
+        middle = 2400 // 2 - 440
+        close = large[middle - 190 : middle + 190, 2010:2390]
+        panels.append(np.concatenate([close, caption(f"a hand, Levels {levels}", 380)]))
+    return beside(panels)
+
+
+def containers() -> np.ndarray:
+    """Draw a cup as a hollow thing and as a filled one (fig. 14)."""
+    return beside(
+        [
+            _parts(_cup(), "Containers hollow: {k} parts", 380, containers="HOLLOW"),
+            _parts(_cup(), "Containers filled: {k} part", 380),
+        ]
+    )
+
+
+def sheets() -> np.ndarray:
+    """Draw a thin table top seen from above and from below (fig. 14)."""
+    top = [((0, 0, 0), (5, 3, 0.08))]
+    legs = [((x, y, -1.3), (0.3, 0.3, 2.6)) for x in (-2, 2) for y in (-1.1, 1.1)]
+    obj = shapes.boxes([*top, *legs], cuts=15)
+    above = _parts(obj, "{k} parts", 380)
+    return beside([above, panel([obj], "from below", 380, elevation=-25)])
+
+
+# Radius and height along the profile of the vase.
+_VASE = [
+    (0.6, 0.0), (0.44, 0.4), (0.62, 0.75), (1.05, 1.3), (1.22, 1.9), (1.02, 2.5),
+    (0.6, 2.95), (0.4, 3.35), (0.44, 3.65), (0.68, 3.95),
+]  # fmt: skip
+
+
+def _vase() -> bpy.types.Object:
+    """Return a vase without a hollow."""
+    radii, heights = CubicSpline(np.arange(len(_VASE)), _VASE)(
+        np.linspace(0, len(_VASE) - 1, 60)
+    ).T
+    caps = [
+        np.column_stack([np.linspace(0, 1, 8)[:-1] * r, np.full(7, h)])
+        for r, h in ((radii[0], heights[0]), (radii[-1], heights[-1]))
+    ]
+    side = np.column_stack([radii, heights])
+    return shapes.turned([*caps[0], *side, *caps[1][::-1]])
+
+
+def _cup() -> bpy.types.Object:
+    """Return a cup of thin walls."""
+    steps = np.linspace(0, 1, 18)
+    outer = [(0.8 + 0.25 * t, 2.2 * t) for t in steps]
+    inner = [(0.75 + 0.25 * t, 0.08 + 2.12 * t) for t in steps[::-1]]
+    floor = [(t * 0.8, 0.0) for t in steps[:-1:3]]
+    bottom = [(t * 0.75, 0.08) for t in steps[:-1:3]][::-1]
+    return shapes.turned([*floor, *outer, *inner, *bottom], 72)
+
+
+def _torus() -> bpy.types.Object:
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=96, minor_segments=32, major_radius=1.0, minor_radius=0.36
+    )
+    return bpy.context.object
+
+
+def _ball(place: np.ndarray, radius: float) -> bpy.types.Object:
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, radius=radius, location=place)
+    _paint(bpy.context.object, _MARK)
+    return bpy.context.object
+
+
+def _line(one, other, height: float, crosses: bool) -> bpy.types.Object:
+    """Return a thin bar between two points, above the outline."""
+    way = other - one
+    side = np.array((-way[1], way[0])) / np.linalg.norm(way) * 0.008
+    corners = [one + side, one - side, other - side, other + side]
+    mesh = bpy.data.meshes.new("Line")
+    mesh.from_pydata([(*corner, height) for corner in corners], [], [(0, 1, 2, 3)])
+    obj = bpy.data.objects.new("Line", mesh)
+    _paint(obj, _MARK if crosses else _SEEN)
+    return obj
+
+
+def _splat_object(cloud: bpy.types.Object) -> bpy.types.Object:
+    return bpy.data.objects.new("Splats", extension.splats(cloud))
+
+
+def _seen_by_scanner(obj: bpy.types.Object, towards: np.ndarray) -> Callable:
+    """Return what tells which places a scanner far away sees."""
+
+    def keep(places: np.ndarray, normals: np.ndarray) -> np.ndarray:
+        facing = normals @ towards > 0.15
+        for i in np.flatnonzero(facing):
+            start = places[i] + normals[i] * 1e-3
+            facing[i] = not obj.ray_cast(start, towards)[0]
+        return facing
+
+    return keep
+
+
+def _separated(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return an object for each part, side by side."""
+    labels = extension.parts_of_faces(obj)
+    found = []
+    for part in range(labels.max() + 1):
+        copy = bpy.data.objects.new("Part", obj.data.copy())
+        doomed = np.flatnonzero(labels != part)
+        _delete_faces(copy.data, doomed)
+        copy.location = ((part - 1) * 2.2, (part - 1) * 2.2 * 0.7, 0)
+        found.append(copy)
+    return found
+
+
+def _delete_faces(mesh: bpy.types.Mesh, doomed: np.ndarray) -> None:
+    import bmesh
+
+    build = bmesh.new()
+    build.from_mesh(mesh)
+    build.faces.ensure_lookup_table()
+    faces = [build.faces[i] for i in doomed]
+    bmesh.ops.delete(build, geom=faces, context="FACES")
+    build.to_mesh(mesh)
+    build.free()
+
+
+def _compared(loop: np.ndarray) -> np.ndarray:
+    share = outlines.area(loop) / ConvexHull(loop).volume
+    rank = extension.rank(outlines.outline(loop))
+    obj = outlines.outline(loop)
+    _paint(obj, _GRAY)
+    view = panel([obj], size=620, turn=0, elevation=FROM_ABOVE)[215:405]
+    text = f"area / area of the hull {share:.2f}, convexity rank {rank:.2f}"
+    return np.concatenate([view, caption(text, 620)])
+
+
+FIGURES: dict[str, Callable[[], np.ndarray]] = {
+    each.__name__: each
+    for each in (
+        gallery, sight, hands, ranks, before_after, walk, matrices, clouds, quality,
+        overlap, measures, notches, fingers, containers, sheets,
+    )
+}  # fmt: skip
