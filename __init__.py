@@ -1,8 +1,84 @@
 """Split meshes into weakly convex parts by lines of sight.
 
-Nothing of the package is imported here at module level: enabling the add-on stays
-quick, and the core works without Blender.
+`decompose`, `measure` and `build_hulls` are for scripts; `register` makes an add-on of
+the package in Blender. Nothing is imported here before it is used: enabling the add-on
+stays quick, and scripts do without Blender.
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .core.cache import ShapeCache
+    from .core.decomposition import decompose_in_steps
+    from .core.errors import DecompositionError
+    from .core.geometry.mesh import TriangleMesh
+    from .core.geometry.point_cloud import PointCloud
+    from .core.hulls.build import build_hulls_in_steps
+    from .core.measurement import measure_in_steps
+    from .core.parameters.hulls import HullParameters
+    from .core.parameters.parts import Parameters
+    from .core.results import Decomposition, HullDecomposition, Measurement
+    from .core.steps.progress import run
+    from .operators.bridge.rays.choice import choose_ray_caster
+    from .operators.scripting import build_hulls, decompose, measure
+
+__all__ = [
+    "Decomposition",
+    "DecompositionError",
+    "HullDecomposition",
+    "HullParameters",
+    "Measurement",
+    "Parameters",
+    "PointCloud",
+    "ShapeCache",
+    "TriangleMesh",
+    "build_hulls",
+    "build_hulls_in_steps",
+    "choose_ray_caster",
+    "decompose",
+    "decompose_in_steps",
+    "measure",
+    "measure_in_steps",
+    "register",
+    "run",
+    "unregister",
+]
+
+# The module of each public name.
+_HOMES = {
+    "Decomposition": "core.results",
+    "DecompositionError": "core.errors",
+    "HullDecomposition": "core.results",
+    "HullParameters": "core.parameters.hulls",
+    "Measurement": "core.results",
+    "Parameters": "core.parameters.parts",
+    "PointCloud": "core.geometry.point_cloud",
+    "ShapeCache": "core.cache",
+    "TriangleMesh": "core.geometry.mesh",
+    "build_hulls": "operators.scripting",
+    "build_hulls_in_steps": "core.hulls.build",
+    "choose_ray_caster": "operators.bridge.rays.choice",
+    "decompose": "operators.scripting",
+    "decompose_in_steps": "core.decomposition",
+    "measure": "operators.scripting",
+    "measure_in_steps": "core.measurement",
+    "run": "core.steps.progress",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Return the public names, whether imported yet or not."""
+    return sorted({*globals(), *__all__})
 
 
 def register() -> None:

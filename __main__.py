@@ -1,40 +1,51 @@
-"""`python . INPUT …` with the bpy wheel: decomposes files from a bare checkout."""
+"""The command line without Blender's window, started in one of three ways.
 
-import importlib
-import importlib.util
+`wcd INPUT …` once installed by pip, `python -m weak_convex_decomposition INPUT …`, and
+`python . INPUT …` in a bare checkout. Each needs the bpy module.
+"""
+
 import os
 import shutil
 import sys
+from importlib import import_module
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
 from typing import NoReturn
 
 _PACKAGE = "weak_convex_decomposition"
 
 
-def main() -> int:
-    """Load this folder as a package, whatever its name, and run its command line."""
+def main(program: str) -> int:
+    """Run the command line; `program` is what its help calls it."""
     try:
-        importlib.import_module("bpy")  # before anything that needs mathutils
+        import_module("bpy")  # before anything that needs mathutils
     except ModuleNotFoundError:
         print(
-            f"error: {sys.executable} has no module bpy; use the Python that `make"
-            " demo` sets up, or install the extension and run"
-            " `blender --command wcd`.",
+            f"error: {sys.executable} has no module bpy; install it with the extra bpy"
+            ' (`pip install ".[bpy]"` in the project\'s folder), or install the'
+            " extension and run `blender --command wcd`.",
             file=sys.stderr,
         )
         return 2
-    root = Path(__file__).resolve().parent
-    spec = importlib.util.spec_from_file_location(
-        _PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]
-    )
-    package = importlib.util.module_from_spec(spec)
-    sys.modules[_PACKAGE] = package
-    spec.loader.exec_module(package)
+    package = import_module(__package__) if __package__ else _checkout()
     package.register()
-    command_line = importlib.import_module(f"{_PACKAGE}.operators.headless.command_line")
-    status = command_line.main(sys.argv[1:], program="python .")
+    command_line = import_module(".operators.headless.command_line", package.__name__)
+    status = command_line.main(sys.argv[1:], program=program)
     package.unregister()
     return status
+
+
+def _checkout() -> ModuleType:
+    """Load this folder as a package, whatever its name."""
+    root = Path(__file__).resolve().parent
+    spec = spec_from_file_location(
+        _PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]
+    )
+    package = module_from_spec(spec)
+    sys.modules[_PACKAGE] = package
+    spec.loader.exec_module(package)
+    return package
 
 
 def leave(status: int) -> NoReturn:
@@ -51,5 +62,10 @@ def leave(status: int) -> NoReturn:
     os._exit(status)
 
 
+def wcd() -> NoReturn:
+    """Run the command `wcd` that pip installs."""
+    leave(main("wcd"))
+
+
 if __name__ == "__main__":
-    leave(main())
+    leave(main(f"python -m {_PACKAGE}" if __package__ else "python ."))

@@ -1,9 +1,13 @@
 """Run all tests, as `make test` does; arguments go to pytest.
 
+Several processes share the tests, file by file: see `pytest_collection_modifyitems` in
+tests/conftest.py. Each has a Blender of its own.
+
 Blender 4.2 crashes now and then in a process that has loaded hundreds of files, so that
-each file of its tests has a process of its own there.
+each file of its tests has a process of its own there, one after the other.
 """
 
+import os
 import subprocess
 import sys
 from importlib.metadata import version
@@ -12,16 +16,24 @@ from pathlib import Path
 TESTS = Path(__file__).parents[1] / "tests"
 RING = TESTS / "blender"
 NOTHING_COLLECTED = 5
+# More hardly help: the tests of the zips are one group, and take longest.
+MOST_PROCESSES = 4
+
+
+def groups() -> list[list[str]]:
+    """Return the arguments of each run of pytest."""
+    if version("bpy").startswith("4.2"):
+        files = sorted(RING.rglob("test_*.py"))
+        return [[str(TESTS), f"--ignore={RING}"], *([str(path)] for path in files)]
+    number = min(MOST_PROCESSES, os.cpu_count() or 1)
+    # Groups start in the order that tests/conftest.py gives them.
+    return [[str(TESTS), f"-n{number}", "--dist=loadgroup", "--no-loadscope-reorder"]]
 
 
 def main() -> int:
     """Return 0 if all tests passed."""
-    groups = [[str(TESTS)]]
-    if version("bpy").startswith("4.2"):
-        groups = [[str(TESTS), f"--ignore={RING}"]]
-        groups += [[str(path)] for path in sorted(RING.rglob("test_*.py"))]
     failed = []
-    for group in groups:
+    for group in groups():
         command = [sys.executable, "-m", "pytest", *group, *sys.argv[1:]]
         if subprocess.run(command).returncode not in {0, NOTHING_COLLECTED}:
             failed.append(" ".join(group))

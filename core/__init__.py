@@ -1,1 +1,58 @@
-"""The decomposition itself: NumPy, SciPy and scikit-learn, nothing of Blender."""
+"""The decomposition itself: NumPy, SciPy and scikit-learn, nothing of Blender.
+
+The names below load their modules when they are first used: SciPy and scikit-learn take
+a second, which enabling the add-on must not.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .cache import ShapeCache as ShapeCache
+    from .clouds.splats import thinned_splats as thinned_splats
+    from .decomposition import decompose_in_steps as decompose_in_steps
+    from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
+    from .hulls.fitting import outline_of as outline_of
+    from .measurement import measure_in_steps as measure_in_steps
+    from .parts.editing import Change as Change
+    from .parts.editing import compacted as compacted
+    from .parts.editing import give as give
+    from .parts.editing import merge as merge
+    from .parts.editing import mirror as mirror
+    from .parts.find import describe as describe
+    from .parts.part_memo import PartMemo as PartMemo
+    from .parts.seam_smoothing import smooth_seams as smooth_seams
+    from .pictures import draw_picture as draw_picture
+    from .sight.point_view import PointViewer as PointViewer
+    from .sight.point_view import point_viewer_in_steps as point_viewer_in_steps
+    from .sight.prepared import PreparedShape as PreparedShape
+
+_HOMES = {
+    "ShapeCache": "cache",
+    "thinned_splats": "clouds.splats",
+    "decompose_in_steps": "decomposition",
+    "build_hulls_in_steps": "hulls.build",
+    "outline_of": "hulls.fitting",
+    "measure_in_steps": "measurement",
+    "Change": "parts.editing",
+    "compacted": "parts.editing",
+    "give": "parts.editing",
+    "merge": "parts.editing",
+    "mirror": "parts.editing",
+    "describe": "parts.find",
+    "PartMemo": "parts.part_memo",
+    "smooth_seams": "parts.seam_smoothing",
+    "draw_picture": "pictures",
+    "PointViewer": "sight.point_view",
+    "point_viewer_in_steps": "sight.point_view",
+    "PreparedShape": "sight.prepared",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load the module of a name, and return what it stands for."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    globals()[name] = value
+    return value

@@ -1,77 +1,72 @@
-"""The convexity rank of some faces of a shape (eq. 1)."""
+"""The convexity rank of a shape, or of some of its faces (eq. 1)."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .decomposition import Measurement
+from .cache import ShapeCache
 from .errors import DecompositionError
-from .geometry.mesh import TriangleMesh
-from .geometry.sampling import sample_surface
+from .geometry.shape import Shape
 from .parameters.parts import Parameters
-from .sight.lines import see_all_pairs, viewpoints
-from .sight.pairs import PairVisibility
-from .sight.prepared import form_of
-from .sight.ray_march import MakeCaster, RayMarcher
-from .steps.progress import Progress, Steps, within
+from .results import Measurement
+from .sight.prepared import PreparedShape
+from .sight.visibility import find_lines_of_sight
+from .steps.progress import Steps, within
 
-# Faces of less area are lines or points, in squared diagonals.
+# Faces of less area, in squared diagonals, are lines or points.
 _LEAST_AREA = 1e-9
-# Samples, at most: all pairs of them are looked up.
+# Samples on some faces, at most: all pairs of them are looked up.
 _MOST_SAMPLES = 2000
 
 
-def measure_region(
-    mesh: TriangleMesh,
-    faces: NDArray[np.bool_],
+def measure_in_steps(
+    shape: Shape,
     parameters: Parameters,
-    make_caster: MakeCaster,
+    cache: ShapeCache,
+    faces: NDArray[np.bool_] | None = None,
 ) -> Steps[Measurement]:
-    """Estimate the share of pairs of points on some faces that see each other.
+    """Estimate the share of pairs of surface points that see each other (eq. 1).
 
     Parameters
     ----------
-    mesh : TriangleMesh
-        The whole shape, which lines of sight run through.
-    faces : (P,) bool
-        Which polygons are meant.
+    shape : TriangleMesh or PointCloud
     parameters : Parameters
-        Only the number of samples and the seed matter.
-    make_caster : callable
-        As `visibility.look` has it.
+        Those of samples and lines of sight count. With `faces`, the number of samples
+        and the seed count alone: all pairs are looked up.
+    cache : ShapeCache
+    faces : (P,) bool, optional
+        Measure these polygons alone. Lines of sight run through the whole shape.
 
     Returns
     -------
     Steps of Measurement
+        It yields `Progress`; `run` returns its value.
 
     Raises
     ------
     DecompositionError
-        If no face is meant, or none with an area; of a flat mesh, none at the outline.
+        If the shape or the faces have no area, or if none of the faces of a flat mesh
+        is at its outline.
     """
-    form = yield from within(form_of(mesh), 0.0, 0.1)
-    targets = form.targets
-    rows = np.flatnonzero(faces[targets.polygons])
-    area = mesh.areas[faces[mesh.polygons]].sum() / mesh.diagonal**2
-    if area <= _LEAST_AREA or len(rows) == 0:
+    prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
+    if faces is not None:
+        prepared = _members(prepared, faces)
+        n_samples = min(parameters.samples, _MOST_SAMPLES)
+        parameters = Parameters(samples=n_samples, seed=parameters.seed)
+    steps = find_lines_of_sight(prepared, parameters)
+    sight = yield from within(steps, 0.1, 1.0)
+    rank, standard_error = sight.rank_pairs.rank_of_all()
+    return Measurement(rank, standard_error, len(sight.samples), prepared.notes)
+
+
+def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> PreparedShape:
+    """Return some faces of a shape, or raise if nothing of them can be sampled."""
+    area = shape.graph.areas[shape.nodes[faces]].sum()
+    members = shape.part(faces)
+    if area <= _LEAST_AREA or len(members.sampled) == 0:
         raise DecompositionError(
             "The faces chosen have no area, or a flat mesh has none of them at its"
             " outline; select others."
         )
-    yield Progress("Samples", 0.1)
-    samples = sample_surface(
-        TriangleMesh(targets.vertices, targets.triangles[rows], np.zeros_like(rows)),
-        min(parameters.samples, _MOST_SAMPLES),
-        np.random.default_rng(parameters.seed),
-    )
-    samples = replace(samples, triangles=rows[samples.triangles])
-    scene = RayMarcher(targets, make_caster(targets), form.grain, form.tilt)
-    yield Progress("Lines of sight", 0.15)
-    views = viewpoints(scene, samples)
-    los = yield from within(see_all_pairs(scene, samples, views), 0.2, 1.0)
-    pairs = PairVisibility(los.astype(np.float32), None)
-    rank, standard_error = pairs.rank_of_all()
-    return Measurement(rank, standard_error, len(samples), form.notes)
+    return members

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -11,7 +10,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from .parameters.parts import Parameters
-from .sight.visibility import Visibility
+from .parts.part_memo import PartMemo
+from .results import Picture
 
 Pixels: TypeAlias = NDArray[np.float64]
 
@@ -27,36 +27,21 @@ _DOT = 4
 _INNER = (3.0, 97.0)
 
 
-@dataclass(frozen=True, eq=False)
-class Picture:
-    """What there is to look at.
-
-    Attributes
-    ----------
-    pixels : (H, W, 3) float
-        sRGB in 0…1; the first row is the upper one.
-    notes : tuple of str
-        Sentences to the user about what is worth knowing.
-    """
-
-    pixels: Pixels
-    notes: tuple[str, ...] = ()
-
-
 def draw_picture(
     kind: str,
-    visibility: Visibility,
+    memo: PartMemo,
     labels: NDArray[np.int64],
     parameters: Parameters,
     colors: NDArray[np.float64],
 ) -> Picture:
-    """Draw one of `picture_kinds.PICTURES`.
+    """Draw one of `parameters.choices.PICTURES`.
 
     Parameters
     ----------
     kind : str
         Identifier of the picture.
-    visibility : Visibility
+    memo : PartMemo
+        The visibility that the parts were found from.
     labels : (P,) int
         Part of each polygon, or point of a cloud.
     parameters : Parameters
@@ -64,34 +49,35 @@ def draw_picture(
     colors : (K, 3) float
         sRGB of each part.
     """
-    form = visibility.form
-    of_samples = visibility.transfer.to_samples(form.labels_of_nodes(labels))
-    pixels = _DRAWN[kind](visibility, parameters, of_samples, colors)
-    return Picture(pixels, form.notes)
+    visibility = memo.visibility
+    nodes = visibility.shape.labels_of_nodes(labels)
+    of_samples = visibility.transfer.to_samples(nodes)
+    pixels = _DRAWN[kind](memo, parameters, of_samples, colors)
+    return Picture(pixels, visibility.shape.notes)
 
 
 def _sight(
-    visibility: Visibility,
+    memo: PartMemo,
     parameters: Parameters,
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
     """Return the LoS matrix sorted by part: black where samples see each other."""
     rows = _by_part(labels)
-    affinity = sparse.csr_array(visibility.affinity)
+    affinity = sparse.csr_array(memo.visibility.affinity)
     visible = affinity[rows][:, rows].toarray() > 0
     return _matrix(np.where(visible, 0.0, 1.0), colors[labels[rows]])
 
 
 def _distances(
-    visibility: Visibility,
+    memo: PartMemo,
     parameters: Parameters,
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
     """Return the distances in the embedding sorted by part: black where none."""
     rows = _by_part(labels)
-    places = _places(visibility, parameters, labels)[rows]
+    places = _places(memo, parameters, labels)[rows]
     squares = (places**2).sum(axis=1)
     distances = squares[:, None] + squares - 2 * places @ places.T
     distances = np.sqrt(np.maximum(distances, 0.0))
@@ -103,13 +89,13 @@ def _distances(
 
 
 def _scatter(
-    visibility: Visibility,
+    memo: PartMemo,
     parameters: Parameters,
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
     """Return the samples in a plane of the embedding in which parts are apart."""
-    places = _places(visibility, parameters, labels)
+    places = _places(memo, parameters, labels)
     sizes = np.bincount(labels)
     totals = np.stack([np.bincount(labels, axis) for axis in places.T], axis=1)
     middles = totals[sizes > 0] / sizes[sizes > 0, None]
@@ -130,12 +116,11 @@ def _scatter(
 
 
 def _places(
-    visibility: Visibility, parameters: Parameters, labels: NDArray[np.int64]
+    memo: PartMemo, parameters: Parameters, labels: NDArray[np.int64]
 ) -> NDArray[np.float64]:
     """Return the coordinates of samples that told this number of parts apart."""
     n_coordinates = max(2, int(labels.max()) + 1)
-    stochastic = parameters.normalization == "STOCHASTIC"
-    return visibility.embedding(n_coordinates, stochastic)[:, :n_coordinates]
+    return memo.embedding(n_coordinates, parameters)[:, :n_coordinates]
 
 
 def _by_part(labels: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -158,5 +143,5 @@ def _matrix(grays: NDArray[np.float64], colors: NDArray[np.float64]) -> Pixels:
 
 _DRAWN: dict[
     str,
-    Callable[[Visibility, Parameters, NDArray[np.int64], NDArray[np.float64]], Pixels],
+    Callable[[PartMemo, Parameters, NDArray[np.int64], NDArray[np.float64]], Pixels],
 ] = {"SIGHT": _sight, "DISTANCES": _distances, "SCATTER": _scatter}

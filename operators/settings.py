@@ -18,7 +18,7 @@ from ..core.parameters.presets import Preset
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
 ADVANCED = tuple(f.name for f in fields(Parameters) if info_of(f).advanced)
-RECUT = tuple(f.name for f in fields(Parameters) if info_of(f).recut)
+RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight)
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 
+from ..core.parameters.choices import PICTURES
 from ..core.parameters.parameter import Choice
-from ..core.parameters.pictures import PICTURES
 from ..core.steps.progress import Steps
 from .bridge.parts.images import write_image
 from .bridge.parts.parted import decomposed_refusal

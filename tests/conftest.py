@@ -35,6 +35,23 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         terminalreporter.write_line(f"SKIPPED {rings}: bpy cannot be imported.")
 
 
+def pytest_collection_modifyitems(
+    config: pytest.Config, items: list[pytest.Item]
+) -> None:
+    """Keep tests together that share what is expensive, where several processes test.
+
+    A process takes the tests of a file, and one of them the whole of tests/package,
+    which is what takes longest: it builds the zips once, and is begun first.
+    """
+    if not hasattr(config, "workerinput"):  # one process, perhaps without xdist
+        return
+    for item in items:
+        packed = "package" in item.path.parts
+        group = "package" if packed else str(item.path)
+        item.add_marker(pytest.mark.xdist_group(group))
+    items.sort(key=lambda item: "package" not in item.path.parts)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item):
     """Turn skips into failures where Blender is required."""

@@ -1,4 +1,4 @@
-"""The border between the core and Blender, and what enabling the add-on loads."""
+"""The border between the core and Blender, what enabling the add-on loads, and size."""
 
 import ast
 import subprocess
@@ -11,15 +11,21 @@ BLENDER_MODULES = {"bpy", "bmesh", "gpu", "mathutils"}
 SUPPORT = str(ROOT / "tests" / "support")
 SLOW_MODULES = {"scipy", "sklearn"}
 CORE = sorted((ROOT / "core").rglob("*.py"))
+# From the ground up: each floor knows those below it alone.
+FLOORS = ("core", "operators", "ui")
 SHIPPED = [
     ROOT / "__init__.py",
-    *(f for d in ("core", "operators", "ui") for f in sorted((ROOT / d).rglob("*.py"))),
+    *(path for floor in FLOORS for path in sorted((ROOT / floor).rglob("*.py"))),
 ]
+
+
+def parsed(path):
+    return ast.parse(path.read_text(encoding="utf-8"))
 
 
 def imports(path):
     """Yield (module, level) for each import anywhere in a file."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(path)):
         if isinstance(node, ast.Import):
             yield from ((alias.name, 0) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -65,14 +71,6 @@ def test_scikit_learn_is_imported_in_one_place():
     assert set(users) == {"kmeans.py"}
 
 
-def test_operators_import_nothing_of_the_panels_above_them():
-    for path in (ROOT / "operators").rglob("*.py"):
-        depth = len(path.relative_to(ROOT).parts) - 1
-        for module, level in imports(path):
-            above = level > depth and module.partition(".")[0] in {"ui", ""}
-            assert not above, f"{path} imports {module} from above"
-
-
 def test_every_core_module_loads_without_blender():
     names = [
         ".".join([PACKAGE, *path.relative_to(ROOT).with_suffix("").parts])
@@ -112,3 +110,136 @@ def test_every_parameter_reaches_the_operator_and_the_settings():
         "print('missing:', *missing)"
     )
     assert missing == ["missing:"]
+
+
+def name_of(path):
+    """Return the dotted name of a module, that of the folder for an __init__."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {name_of(path): path for path in SHIPPED}
+
+
+def imported_by(name, path):
+    """Yield the names of the project's modules that one of them imports, anywhere."""
+    folder = name.split(".") if path.stem == "__init__" else name.split(".")[:-1]
+    for node in ast.walk(parsed(path)):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        base = folder[: len(folder) - node.level + 1] if folder != [""] else []
+        base += node.module.split(".") if node.module else []
+        for alias in node.names:
+            whole = ".".join([*base, alias.name])
+            yield whole if whole in MODULES else ".".join(base)
+
+
+def import_graph():
+    """Return the names of the modules that each module imports."""
+    graph = {n: set(imported_by(n, path)) - {n} for n, path in MODULES.items()}
+    unknown = {name for found in graph.values() for name in found} - graph.keys()
+    assert not unknown, f"imported, but not there: {sorted(unknown)}"
+    assert sum(len(found) for found in graph.values()) > 300
+    return graph
+
+
+def circle_in(graph):
+    """Return names that import each other in a circle, written as one; "" for none."""
+    done, way = set(), []
+
+    def visit(name):
+        if name in way:
+            return " -> ".join([*way[way.index(name) :], name])
+        way.append(name)
+        nexts = sorted(graph[name] - done)
+        circle = next(filter(None, map(visit, nexts)), "")
+        way.pop()
+        done.add(name)
+        return circle
+
+    return next(filter(None, (visit(name) for name in sorted(graph))), "")
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    circle = circle_in(import_graph())
+    assert not circle, circle
+
+
+def test_no_rooms_of_core_import_each_other_in_a_circle():
+    """A room is a folder of core, or a module beside the folders."""
+    rooms = {}
+    for name, found in import_graph().items():
+        # Not the door, `core` itself: it opens rooms when first asked for them.
+        if name.startswith("core."):
+            room = name.split(".")[1]
+            known = {other.split(".")[1] for other in found if "." in other}
+            rooms.setdefault(room, set()).update(known - {room})
+    assert len(rooms) > 8
+    circle = circle_in(rooms)
+    assert not circle, circle
+
+
+def test_no_floor_knows_one_above_it():
+    height = {floor: number for number, floor in enumerate((*FLOORS, ""))}
+    back = [
+        f"{name} imports {other or 'the package itself'}"
+        for name, found in import_graph().items()
+        for other in sorted(found)
+        if height[other.partition(".")[0]] > height[name.partition(".")[0]]
+    ]
+    assert not back, "; ".join(back)
+
+
+def lines_of(path):
+    return len(path.read_text(encoding="utf-8").splitlines())
+
+
+def listed(sizes):
+    return "; ".join(f"{name}: {size}" for name, size in sizes.items())
+
+
+def test_folders_hold_at_most_16_entries():
+    folders = {path.parent for path in SHIPPED} - {ROOT}
+    assert len(folders) > 15
+    folders |= {folder.parent for folder in folders} - {ROOT}
+    entries = {
+        str(folder.relative_to(ROOT)): sum(
+            not each.name.startswith((".", "__pycache__")) for each in folder.iterdir()
+        )
+        for folder in folders
+    }
+    crowded = {folder: number for folder, number in entries.items() if number > 16}
+    assert not crowded, listed(crowded)
+
+
+def test_files_have_30_to_250_lines():
+    lengths = {str(path.relative_to(ROOT)): lines_of(path) for path in SHIPPED}
+    long = {name: number for name, number in lengths.items() if number > 250}
+    # A short module is part of its neighbor.
+    short = {
+        name: number
+        for name, number in lengths.items()
+        if number < 30 and not name.endswith(("__init__.py", "errors.py"))
+    }
+    assert not long | short, listed(long | short)
+
+
+def length_of(function):
+    """Return the lines of a function, except for those of its docstring."""
+    lines = function.end_lineno - function.lineno + 1
+    if ast.get_docstring(function) is not None:
+        lines -= function.body[0].end_lineno - function.body[0].lineno + 1
+    return lines
+
+
+def test_functions_have_at_most_50_lines():
+    functions = {
+        f"{path.relative_to(ROOT)}:{node.lineno} {node.name}": node
+        for path in SHIPPED
+        for node in ast.walk(parsed(path))
+        if isinstance(node, ast.FunctionDef)
+    }
+    assert len(functions) > 500
+    lengths = {name: length_of(function) for name, function in functions.items()}
+    long = {name: number for name, number in lengths.items() if number > 50}
+    assert not long, listed(long)

@@ -49,7 +49,7 @@ class FlatMesh:
     walls: TriangleMesh
     normal: NDArray[np.float64]
 
-    def surface(self) -> FaceGraph:
+    def graph(self) -> FaceGraph:
         """Return the graph that labels move along."""
         lengths = self.walls.areas / _HEIGHT
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)

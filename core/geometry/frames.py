@@ -1,4 +1,4 @@
-"""Axes: around a direction, and along what points extend."""
+"""Unit vectors, axes and heights above planes."""
 
 from __future__ import annotations
 
@@ -31,3 +31,11 @@ def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
     spread = points - points.mean(axis=0)
     axes: NDArray[np.float64] = np.linalg.eigh(spread.T @ spread)[1].T
     return axes
+
+
+def heights_above(
+    planes: NDArray[np.float64], points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the heights of points (M, 3) above planes n · x + d = 0 (P, 4), (M, P)."""
+    heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
+    return heights

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import DecompositionError
 from .mesh import TriangleMesh
 
 # Candidates per sample: each sample is one of a run of neighbors on the curve.
@@ -37,6 +38,46 @@ class Samples:
     def __len__(self) -> int:
         """Return the number of samples."""
         return len(self.positions)
+
+
+def take_samples(
+    mesh: TriangleMesh,
+    rows: NDArray[np.int64],
+    sampling: str,
+    n_samples: int,
+    rng: np.random.Generator,
+) -> Samples:
+    """Take samples on some triangles of a mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    rows : (R,) int
+        The triangles, ascending.
+    sampling : str
+        'AREA' to spread the samples evenly, 'FACES' for one on each triangle.
+    n_samples : int
+        Number of samples that are spread.
+    rng : numpy.random.Generator
+
+    Raises
+    ------
+    DecompositionError
+        If these triangles have no area.
+    """
+    some = mesh
+    if len(rows) < len(mesh.triangles):
+        if mesh.areas[rows].sum() <= 0:
+            raise DecompositionError(
+                "The part has no surface that lines of sight could start from; choose"
+                " another one."
+            )
+        some = replace(mesh, triangles=mesh.triangles[rows], polygons=0 * rows)
+    if sampling == "FACES":
+        samples = sample_faces(some)
+    else:
+        samples = sample_surface(some, n_samples, rng)
+    return replace(samples, triangles=rows[samples.triangles])
 
 
 def sample_surface(

@@ -90,7 +90,8 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
     )
     depths = np.zeros(len(mesh.vertices))
     depths[corners] = _LAYER * mesh.diagonal * steps.repeat(3)
-    return replace(mesh, vertices=mesh.vertices - depths[:, None] * unit(normals))
+    inwards = depths[:, None] * unit(np.asarray(normals, dtype=np.float64))
+    return replace(mesh, vertices=mesh.vertices - inwards)
 
 
 def _wound_copies(

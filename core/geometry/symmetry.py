@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ..steps.progress import Progress, Steps
 from .face_graph import FaceGraph
 
-# Polygons that stand for the surface, and those whose mirror images are looked for.
+# Polygons that stand for the graph, and those whose mirror images are looked for.
 _POLYGONS = 30_000
 _ASKED = 1_500
 # Distance from its mirror image, in diagonals, at which a polygon counts as symmetric,
@@ -62,9 +62,7 @@ class Side:
     images: NDArray[np.int64]
     sources: NDArray[np.int64]
 
-    def copied(
-        self, labels: NDArray[np.int64], surface: FaceGraph
-    ) -> NDArray[np.int64]:
+    def copied(self, labels: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
         """Return labels (P,) in 0…K − 1 with this side's copied to the other side.
 
         A part that crosses the plane goes on on the other side; the mirror image of
@@ -73,63 +71,63 @@ class Side:
         n_parts = int(labels.max()) + 1
         labels = labels.copy()
         labels[self.images] = n_parts + labels[self.sources]
-        one, other = labels[surface.neighbors].T
+        one, other = labels[graph.neighbors].T
         # A part and its mirror image that touch are one.
         crossing = np.unique(np.minimum(one, other)[np.abs(one - other) == n_parts])
         labels[np.isin(labels, crossing + n_parts)] -= n_parts
         return labels
 
 
-def find_sides(surface: FaceGraph) -> Steps[tuple[Side, ...]]:
+def find_sides(graph: FaceGraph) -> Steps[tuple[Side, ...]]:
     """Return both sides of a shape's mirror plane, none if it has no such plane."""
-    plane = yield from _find_plane(surface)
+    plane = yield from _find_plane(graph)
     if plane is None:
         return ()
     sides = []
     for above in (True, False):
-        side, _ = yield from side_of(surface, plane, above)
+        side, _ = yield from side_of(graph, plane, above)
         sides.append(side)
     return tuple(sides)
 
 
-def side_of(surface: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, float]]:
+def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, float]]:
     """Return one side of a plane, and which share of the other one is its image."""
-    heights = plane.heights(surface.centers) * (1 if above else -1)
+    heights = plane.heights(graph.centers) * (1 if above else -1)
     sources, images = np.flatnonzero(heights >= 0), np.flatnonzero(heights < 0)
     if len(sources) == 0 or len(images) == 0:
         return Side(images[:0], sources[:0]), 0.0
-    tree = cKDTree(places(surface.centers[sources], surface.normals[sources]))
+    tree = cKDTree(places(graph.centers[sources], graph.normals[sources]))
     nearest = []
     for start in range(0, len(images), _BLOCK):
         yield Progress("Symmetry", 0.0)
         block = images[start : start + _BLOCK]
-        centers, normals = surface.centers[block], surface.normals[block]
+        centers, normals = graph.centers[block], graph.normals[block]
         nearest.append(sources[nearest_images(tree, centers, normals, plane)])
     found = np.concatenate(nearest)
-    ways = plane.mirrored(surface.centers[images]) - surface.centers[found]
+    ways = plane.mirrored(graph.centers[images]) - graph.centers[found]
     near = np.linalg.norm(ways, axis=1) <= _IMAGED_WITHIN
     return Side(images[near], found[near]), float(near.mean())
 
 
-def _find_plane(surface: FaceGraph) -> Steps[Plane | None]:
+def _find_plane(graph: FaceGraph) -> Steps[Plane | None]:
     """Return the plane that a surface is most symmetric to, if it is to any."""
     # Evenly by area, each time the same.
-    shares = np.cumsum(surface.areas) / surface.areas.sum()
+    shares = np.cumsum(graph.areas) / graph.areas.sum()
     everywhere, asked = (
         np.searchsorted(shares, (np.arange(n) + 0.5) / n).clip(max=len(shares) - 1)
         for n in (_POLYGONS, _ASKED)
     )
     rows = np.unique(everywhere)
-    tree = cKDTree(places(surface.centers[rows], surface.normals[rows]))
+    tree = cKDTree(places(graph.centers[rows], graph.normals[rows]))
     best, most = None, _ENOUGH
-    center = surface.centers[everywhere].mean(axis=0)
-    starts, normals = surface.centers[asked], surface.normals[asked]
-    for normal in likely_normals(surface.centers[everywhere]):
+    center = graph.centers[everywhere].mean(axis=0)
+    starts, normals = graph.centers[asked], graph.normals[asked]
+    for normal in likely_normals(graph.centers[everywhere]):
         plane = Plane(normal, float(center @ normal))
         for _ in range(_ROUNDS):
             yield Progress("Symmetry", 0.0)
             nearest = nearest_images(tree, starts, normals, plane)
-            ends = surface.centers[rows[nearest]]
+            ends = graph.centers[rows[nearest]]
             distances = np.linalg.norm(plane.mirrored(starts) - ends, axis=1)
             fit = float((distances <= _NEAR).mean())
             if fit > most:

@@ -28,7 +28,7 @@ class Transfer:
     samples : Samples
     polygon_of : (N,) int
         Polygon that each sample lies on.
-    surface : FaceGraph
+    graph : FaceGraph
         Of these polygons, or of the points of a cloud in their place.
 
     Attributes
@@ -37,25 +37,25 @@ class Transfer:
         Say of each sample in each polygon; rows sum to one.
     polygon_of : (N,) int
         Polygon that each sample lies on.
-    surface : FaceGraph
+    graph : FaceGraph
         With links between shells that touch.
     n_unsampled, n_shells : int
         Connected pieces too small for a sample of their own, and all.
     """
 
     def __init__(
-        self, samples: Samples, polygon_of: NDArray[np.int64], surface: FaceGraph
+        self, samples: Samples, polygon_of: NDArray[np.int64], graph: FaceGraph
     ) -> None:
         self.polygon_of = polygon_of
-        spacing = float(np.sqrt(surface.areas.sum() / len(samples)))
+        spacing = float(np.sqrt(graph.areas.sum() / len(samples)))
         weight = _NORMAL_WEIGHT * spacing
         tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))
         distances, nearest = tree.query(
-            np.hstack([surface.centers, weight * surface.normals]),
+            np.hstack([graph.centers, weight * graph.normals]),
             min(_NEAREST, len(samples)),
         )
         self.shares = self._shares(distances / spacing, nearest)
-        shells = surface.shells()
+        shells = graph.shells()
         numbers, first = np.unique(shells, return_index=True)
         unsampled = np.setdiff1d(numbers, shells[polygon_of])
         self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
@@ -64,7 +64,7 @@ class Transfer:
         hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
         touching = self._touching(samples, shells, spacing)
         links = np.concatenate([touching, hung])
-        self.surface = surface.linked(links)
+        self.graph = graph.linked(links)
 
     def _shares(
         self, distances: NDArray[np.float64], nearest: NDArray[np.int64]

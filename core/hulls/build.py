@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cache import ShapeCache
+from ..errors import DecompositionError
 from ..geometry.mesh import TriangleMesh
-from ..geometry.orientation import oriented
-from ..geometry.shells import find_shells
+from ..geometry.shape import Shape
 from ..parameters.hulls import HullParameters
+from ..results import HullDecomposition
 from ..steps.progress import Progress, Steps, within
 from .best_cut import best_cut
-from .fitting import enclose
+from .fitting import fit_shape
 from .joining import join_pieces
 from .piece import Cell, Piece, piece_of_part, whole
-from .primitives import CollisionShape
 from .solid import Solid, solid_of
 
 # Pieces are cut until there are this many times as many as hulls asked for: joining
@@ -24,82 +25,52 @@ from .solid import Solid, solid_of
 _SURPLUS = 2.0
 
 
-@dataclass(frozen=True, eq=False)
-class HullDecomposition:
-    """Convex shapes that a shape is made of, in its units.
-
-    Attributes
-    ----------
-    shapes : tuple of CollisionShape
-        The largest first.
-    errors : (K,) float
-        CoACD's concavity of the convex hull of each piece; half of the longest side of
-        the shape is 1.
-    parts : (K,) int
-        Part that most of each shape is of, −1 where there were none.
-    volume_ratio : float
-        Sum of the volumes of the shapes over that of the solid, `inf` for a shape that
-        has no inside.
-    notes : tuple of str
-        Sentences to the user about what is worth knowing.
-    """
-
-    shapes: tuple[CollisionShape, ...]
-    errors: NDArray[np.float64]
-    parts: NDArray[np.int64]
-    volume_ratio: float
-    notes: tuple[str, ...]
-
-    @property
-    def n_hulls(self) -> int:
-        """Number of shapes K."""
-        return len(self.shapes)
-
-    @property
-    def has_parts(self) -> bool:
-        """Whether shapes are of parts that were there before."""
-        return bool(self.parts.min() >= 0)
-
-
-def build_hulls(
-    mesh: TriangleMesh,
-    labels: NDArray[np.int64] | None,
+def build_hulls_in_steps(
+    shape: Shape,
     parameters: HullParameters,
-    seed: int,
+    cache: ShapeCache,
+    labels: NDArray[np.int64] | None = None,
+    seed: int = 0,
 ) -> Steps[HullDecomposition]:
     """Put convex shapes around a mesh.
 
     Parameters
     ----------
-    mesh : TriangleMesh
-    labels : (P,) int or None
-        Part of each polygon, 0-based: for one shape a part, and to tell which part a
-        hull is of.
+    shape : TriangleMesh
     parameters : HullParameters
+    cache : ShapeCache
+        Keeps the mesh made ready.
+    labels : (P,) int, optional
+        Part of each polygon, counted from 0. They are needed for one shape a part, and
+        tell which part a hull belongs to.
     seed : int
         Of the samples.
 
     Returns
     -------
     Steps of HullDecomposition
-        Yields Progress; `run` gets the value.
+        It yields `Progress`; `run` returns its value.
 
     Raises
     ------
     DecompositionError
-        If the surface has no area.
+        If the shape is a point cloud, or its surface has no area.
     """
-    yield Progress("Solid", 0.0)
-    low, high = mesh.bounds
+    if not isinstance(shape, TriangleMesh):
+        raise DecompositionError(
+            "Hulls need faces, and a point cloud has none; give it a surface first."
+        )
+    prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
+    mesh = prepared.solid
+    assert mesh is not None  # a mesh has one
+    low, high = shape.bounds
     size = float((high - low).max()) / 2
-    normalized = mesh.normalized()
-    normalized, notes = oriented(normalized, find_shells(normalized))
     # From a diagonal of 1 to CoACD's units: the longest side is 2.
-    vertices = normalized.vertices * (mesh.diagonal / size)
+    vertices = mesh.vertices * (shape.diagonal / size)
     yield Progress("Solid", 0.0)
-    steps = solid_of(replace(normalized, vertices=vertices), seed)
+    steps = solid_of(replace(mesh, vertices=vertices), seed)
     solid = yield from within(steps, 0.0, 0.0)
-    parts = _parts_of_triangles(mesh, labels)
+    parts = _parts_of_triangles(shape, labels)
     if parameters.pieces == "PARTS":
         start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
@@ -111,7 +82,7 @@ def build_hulls(
     shapes, main_parts = [], []
     for piece in pieces:
         yield Progress("Shapes", 1.0)
-        shapes.append(enclose(piece.hull, parameters, size).moved(size, center))
+        shapes.append(fit_shape(piece.hull, parameters, size).moved(size, center))
         main_parts.append(-1 if labels is None else _main_part(solid, parts, piece))
     errors = np.array([piece.error for piece in pieces])
     volume = float(solid.volumes.sum()) * size**3
@@ -121,7 +92,7 @@ def build_hulls(
         errors,
         np.array(main_parts),
         total / volume if volume > 0 else np.inf,
-        (*notes, *_notes(errors, parameters)),
+        (*prepared.notes, *_notes(errors, parameters)),
     )
 
 

@@ -2,51 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-from ..geometry.frames import principal_axes
+from ..geometry.frames import heights_above, principal_axes
+from ..geometry.primitives import Hull
 
 # Vertices that a simplified hull gets in each round, at least.
 _VERTICES_A_ROUND = 6
-
-
-@dataclass(frozen=True, eq=False)
-class Hull:
-    """A convex polyhedron.
-
-    Attributes
-    ----------
-    vertices : (V, 3) float
-    triangles : (F, 3) int
-        Rows of `vertices`, counter-clockwise seen from outside.
-    planes : (F, 4) float
-        Outward unit normal and offset of each triangle: n · x + d ≤ 0 inside.
-    volume : float
-    """
-
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int64]
-    planes: NDArray[np.float64]
-    volume: float
-
-    def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return how far points (M, 3) are out of the hull, negative inside, (M,).
-
-        Outside it is the distance to the farthest plane: at most the distance.
-        """
-        highest: NDArray[np.float64] = heights_above(self.planes, points).max(axis=1)
-        return highest
-
-    @cached_property
-    def corners(self) -> NDArray[np.float64]:
-        """(F, 3, 3) corners of the triangles."""
-        corners: NDArray[np.float64] = self.vertices[self.triangles]
-        return corners
 
 
 def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
@@ -63,14 +27,6 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
         return _hull(points)
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
         return _hull(_thickened(points, thin))
-
-
-def heights_above(
-    planes: NDArray[np.float64], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return how far points (M, 3) are above planes n · x + d = 0 (P, 4), (M, P)."""
-    heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
-    return heights
 
 
 def hull_volume(points: NDArray[np.float64]) -> float:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.frames import frames
-from .convex_hull import heights_above
+from ..geometry.frames import frames, heights_above
 from .solid import Solid
 
 # Distance of points in a cross-section; the longest side of a shape is 2.

@@ -9,16 +9,19 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from ..geometry.frames import frames, principal_axes
+from ..geometry.primitives import CollisionShape, Hull
 from ..parameters.hulls import HullParameters
-from .convex_hull import Hull, offset, simplified
+from .convex_hull import convex_hull, directions, offset, simplified
 from .piece import THIN
-from .primitives import CollisionShape
 
 # Rounds in which the center of the smallest ball is found, to a thousandth.
 _ROUNDS = 1000
+# Vertices around a cylinder, and of a sphere.
+_AROUND = 24
+_ON_SPHERE = 162
 
 
-def enclose(hull: Hull, parameters: HullParameters, unit: float) -> CollisionShape:
+def fit_shape(hull: Hull, parameters: HullParameters, unit: float) -> CollisionShape:
     """Return the shape that `parameters` ask for around a hull.
 
     Boxes, spheres, cylinders and capsules contain the hull. So do hulls, to a ten
@@ -161,3 +164,22 @@ def _smallest_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], fl
         farthest = np.einsum("nd,nd->n", away, away).argmax()
         center = center + away[farthest] / (step + 1)
     return center, float(np.linalg.norm(points - center, axis=1).max())
+
+
+def outline_of(shape: CollisionShape) -> Hull:
+    """Return a shape as a polyhedron. The vertices of round shapes lie on them."""
+    if shape.kind == "HULL":
+        return shape.hull
+    ends = np.array([[0.0, 0.0, shape.sizes[2]], [0.0, 0.0, -shape.sizes[2]]])
+    if shape.kind == "BOX":
+        local = shape.sizes * (2.0 * np.indices((2, 2, 2)).reshape(3, -1).T - 1)
+    elif shape.kind == "CYLINDER":
+        turns = 2 * np.pi * np.arange(_AROUND) / _AROUND
+        circle = np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1)
+        local = (ends[:, None] + shape.sizes[0] * circle).reshape(-1, 3)
+    else:
+        ball = shape.sizes[0] * directions(_ON_SPHERE)
+        upper, lower = ball[ball[:, 2] >= 0], ball[ball[:, 2] <= 0]
+        local = np.concatenate([ends[0] + upper, ends[1] + lower])
+    points = local @ shape.axes + shape.center
+    return convex_hull(points, float(shape.sizes.max()) / 1e3)

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..geometry.frames import heights_above
+from ..geometry.primitives import Hull
 from ..geometry.sampling import points_on
-from .convex_hull import Hull, convex_hull, heights_above
+from .convex_hull import convex_hull
 from .cross_section import cross_section
 from .solid import Solid
 

@@ -40,9 +40,9 @@ class ParameterInfo:
         'ANGLE' (radians), 'FACTOR' or 'NONE', in Blender's vocabulary.
     advanced : bool
         Whether it belongs with the settings few users touch.
-    recut : bool
-        Whether a new value cuts anew what was seen before: no samples, lines of sight
-        or containers depend on it.
+    affects_sight : bool
+        Whether samples or lines of sight depend on it. If not, a new value needs no new
+        rays.
     """
 
     label: str
@@ -53,7 +53,7 @@ class ParameterInfo:
     choices: tuple[Choice, ...] = ()
     subtype: str = "NONE"
     advanced: bool = True
-    recut: bool = False
+    affects_sight: bool = True
 
 
 def parameter(default: Any, info: ParameterInfo) -> Any:

@@ -6,7 +6,15 @@ import math
 from dataclasses import dataclass
 
 from ..errors import DecompositionError
-from .parameter import Choice, ParameterInfo, parameter, settle
+from .choices import (
+    CONTAINERS,
+    NORMALIZATION,
+    PSI_PAIRS,
+    REFINEMENT,
+    SAMPLING,
+    SIGHT,
+)
+from .parameter import ParameterInfo, parameter, settle
 
 
 @dataclass(frozen=True)
@@ -28,7 +36,7 @@ class Parameters:
             high=256,
             usual=24,
             advanced=False,
-            recut=True,
+            affects_sight=False,
         ),
     )
     rays: int = parameter(
@@ -51,7 +59,7 @@ class Parameters:
             low=0.0,
             high=10.0,
             advanced=False,
-            recut=True,
+            affects_sight=False,
         ),
     )
     sight: str = parameter(
@@ -59,19 +67,7 @@ class Parameters:
         ParameterInfo(
             "Lines of Sight",
             "Which lines of sight are looked up",
-            choices=(
-                Choice(
-                    "ALL_PAIRS",
-                    "All Pairs",
-                    "Between every two samples: the definition itself",
-                ),
-                Choice(
-                    "CONE",
-                    "Cone",
-                    "Rays in a cone around the inward normal, as in the paper:"
-                    " sparse, for many samples",
-                ),
-            ),
+            choices=SIGHT,
             advanced=False,
         ),
     )
@@ -80,19 +76,7 @@ class Parameters:
         ParameterInfo(
             "Sampling",
             "Where the samples are, between which lines of sight run",
-            choices=(
-                Choice(
-                    "AREA",
-                    "By Area",
-                    "Spread evenly over the surface, as many as Samples says",
-                ),
-                Choice(
-                    "FACES",
-                    "By Faces",
-                    "One on each triangle, small meshes being subdivided to 3000, as in"
-                    " the paper",
-                ),
-            ),
+            choices=SAMPLING,
         ),
     )
     samples: int = parameter(
@@ -120,19 +104,7 @@ class Parameters:
             "Psi From",
             "Pairs of samples from which cone sight estimates psi; all pairs"
             " counts every pair",
-            choices=(
-                Choice(
-                    "UNIFORM",
-                    "Uniform Pairs",
-                    "Pairs drawn at random: an estimate without bias",
-                ),
-                Choice(
-                    "RAYS",
-                    "Ray Hits",
-                    "Pairs that the cone's rays found, as in the paper: biased"
-                    " towards near and visible pairs",
-                ),
-            ),
+            choices=PSI_PAIRS,
         ),
     )
     containers: str = parameter(
@@ -141,19 +113,7 @@ class Parameters:
             "Containers",
             "Whether what the shape encloses, such as the hollow of a cup, is seen"
             " through",
-            choices=(
-                Choice(
-                    "FILLED",
-                    "Filled",
-                    "The enclosed outside counts as inside, so that thin walls around"
-                    " it stay whole; shapes that enclose nothing are not affected",
-                ),
-                Choice(
-                    "HOLLOW",
-                    "Hollow",
-                    "Lines of sight run through the inside alone, as in the paper",
-                ),
-            ),
+            choices=CONTAINERS,
         ),
     )
     normalization: str = parameter(
@@ -161,11 +121,8 @@ class Parameters:
         ParameterInfo(
             "Normalization",
             "How the matrix of lines of sight is normalized",
-            choices=(
-                Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
-                Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
-            ),
-            recut=True,
+            choices=NORMALIZATION,
+            affects_sight=False,
         ),
     )
     min_parts: int = parameter(
@@ -176,7 +133,7 @@ class Parameters:
             low=2,
             high=256,
             usual=24,
-            recut=True,
+            affects_sight=False,
         ),
     )
     max_parts: int = parameter(
@@ -187,7 +144,7 @@ class Parameters:
             low=2,
             high=256,
             usual=24,
-            recut=True,
+            affects_sight=False,
         ),
     )
     refinement: str = parameter(
@@ -195,19 +152,8 @@ class Parameters:
         ParameterInfo(
             "Refinement",
             "What k-means' clusters and their seams are refined by",
-            choices=(
-                Choice(
-                    "PSI",
-                    "Psi",
-                    "Samples change their part, and seams move, where psi gains by it",
-                ),
-                Choice(
-                    "EMBEDDING",
-                    "Embedding",
-                    "Clusters stay as they are and seams keep to them, as in the paper",
-                ),
-            ),
-            recut=True,
+            choices=REFINEMENT,
+            affects_sight=False,
         ),
     )
     smoothness: float = parameter(
@@ -218,7 +164,7 @@ class Parameters:
             low=0.0,
             high=100.0,
             usual=10.0,
-            recut=True,
+            affects_sight=False,
         ),
     )
     smallest_part: float = parameter(
@@ -229,7 +175,7 @@ class Parameters:
             low=0.0,
             high=0.5,
             subtype="FACTOR",
-            recut=True,
+            affects_sight=False,
         ),
     )
     levels: int = parameter(
@@ -241,7 +187,7 @@ class Parameters:
             " Parts is the number on the first level",
             low=1,
             high=4,
-            recut=True,
+            affects_sight=False,
         ),
     )
     seed: int = parameter(

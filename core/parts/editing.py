@@ -52,17 +52,17 @@ def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Chan
 
 
 def mirror(
-    labels: NDArray[np.int64], surface: FaceGraph, middle: float, to_negative: bool
+    labels: NDArray[np.int64], graph: FaceGraph, middle: float, to_negative: bool
 ) -> Steps[Change]:
     """Copy the parts on one side of X to the other side, as `Side.copied` does.
 
     Parameters
     ----------
     labels : (P,) int
-        Of the nodes of `surface`, in 0…K − 1.
-    surface : FaceGraph
+        Of the nodes of `graph`, in 0…K − 1.
+    graph : FaceGraph
     middle : float
-        X of the plane, in the space of `surface`.
+        X of the plane, in the space of `graph`.
     to_negative : bool
         Whether the parts at larger X are copied to smaller X, or the reverse.
 
@@ -76,11 +76,11 @@ def mirror(
         If the shape is not symmetric.
     """
     plane = Plane(np.array([1.0, 0.0, 0.0]), middle)
-    side, share = yield from side_of(surface, plane, to_negative)
+    side, share = yield from side_of(graph, plane, to_negative)
     if share < _SYMMETRIC:
         raise _not_symmetric()
     n_parts = int(labels.max()) + 1
-    copied = side.copied(labels, surface)
+    copied = side.copied(labels, graph)
     images = np.unique(copied[copied >= n_parts])
     return Change(
         copied,

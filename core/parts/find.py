@@ -1,8 +1,8 @@
-"""From visibility to parts, and what is told of them."""
+"""From visibility to parts, and the figures of parts."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,80 +10,42 @@ from numpy.typing import NDArray
 from ..geometry.face_graph import FaceGraph
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
+from ..results import Decomposition
 from ..sight.visibility import Visibility
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps
-from .part_count import given_part_count, search_part_count
-from .partition import Partitioner, count
+from .part_count import PartCountSearch
+from .part_memo import PartMemo
+from .partition import Partitioner, count_parts
+from .seams import SeamCutter
 
 
-@dataclass(frozen=True, eq=False)
-class Decomposition:
-    """The parts of a shape.
+def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
+    """Find the parts of a shape from its visibility.
 
-    Attributes
+    Parameters
     ----------
-    labels : (P,) int
-        Part of each polygon, or point of a cloud, 0-based; the largest comes first.
-    areas : (K,) float
-        Area of each part, in the units of the shape squared.
-    face_counts : (K,) int
-        Polygons, or points, of each part.
-    ranks : (K,) float
-        Convexity rank of each part (eq. 1).
-    psi_before : float
-        Psi of one part: the convexity rank of the whole shape, but for containers.
-    psi : float
-        Quality of the parts (eq. 5).
-    psi_by_k : dict of int to float
-        Psi for every number of parts that was tried, before seams were cut.
-    best_k : int
-        The number among them that a search chooses.
-    notes : tuple of str
-        Sentences to the user about what is worth knowing.
-    normals : (P, 3) float or None
-        Outward normals of the points of a cloud whose own were missing or wrong.
+    memo : PartMemo
+        The visibility, and what was found from it before.
+    parameters : Parameters
+        May differ from those of the visibility where they do not affect sight.
     """
-
-    labels: NDArray[np.int64]
-    areas: NDArray[np.float64]
-    face_counts: NDArray[np.int64]
-    ranks: NDArray[np.float64]
-    psi_before: float
-    psi: float
-    psi_by_k: dict[int, float]
-    best_k: int
-    notes: tuple[str, ...]
-    normals: NDArray[np.float64] | None = None
-
-    @property
-    def n_parts(self) -> int:
-        """Number of parts K."""
-        return len(self.areas)
+    return (yield from on_one_thread(_find_parts(memo, parameters)))
 
 
-def find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decomposition]:
-    """Return the parts for `parameters` from a visibility computed before.
-
-    Every `recut` among the parameters may differ from those that `visibility` was
-    computed with.
-    """
-    return (yield from on_one_thread(_find_parts(visibility, parameters)))
-
-
-def _find_parts(visibility: Visibility, parameters: Parameters) -> Steps[Decomposition]:
-    surface = visibility.transfer.surface
-    partitioner = Partitioner(visibility, parameters)
-    if parameters.parts:
-        search = given_part_count(
-            partitioner, parameters.parts, parameters.min_parts, parameters.max_parts
-        )
-    else:
-        search = search_part_count(
-            partitioner, parameters.min_parts, parameters.max_parts
-        )
-    parts, psi_by_k, best_k = yield from search
-    labels = by_size(parts, surface)[visibility.form.nodes]
+def _find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
+    visibility, cut = memo.visibility, memo.cut(parameters)
+    partitioner = Partitioner(memo, parameters)
+    search = PartCountSearch(
+        partitioner,
+        SeamCutter(partitioner, cut.seams),
+        parameters.min_parts,
+        parameters.max_parts,
+        cut.searches,
+    )
+    wanted = search.given(parameters.parts) if parameters.parts else search.best()
+    parts, psi_by_k, best_k = yield from wanted
+    labels = by_size(parts, visibility.transfer.graph)[visibility.shape.nodes]
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
     return replace(
         found,
@@ -115,29 +77,29 @@ def describe(
     best_k : int
         The number among them that a search chooses.
     """
-    n_parts, transfer = count(labels), visibility.transfer
-    parts = visibility.form.labels_of_nodes(labels)
+    n_parts, transfer = count_parts(labels), visibility.transfer
+    parts = visibility.shape.labels_of_nodes(labels)
     samples = transfer.to_samples(parts)
-    pairs = visibility.pairs
+    pairs = visibility.psi_pairs
     whole = pairs.tally(np.zeros_like(samples), 1)
-    areas = np.bincount(parts, transfer.surface.areas, n_parts)
+    areas = np.bincount(parts, transfer.graph.areas, n_parts)
     return Decomposition(
         labels=labels,
-        areas=areas.astype(np.float64) * visibility.unit_area,
+        areas=areas.astype(np.float64) * visibility.shape.diagonal**2,
         face_counts=np.bincount(labels),
-        ranks=visibility.ranked.tally(samples, n_parts).ranks(),
+        ranks=visibility.rank_pairs.tally(samples, n_parts).ranks(),
         psi_before=whole.psi(parameters.alpha),
         psi=pairs.tally(samples, n_parts).psi(parameters.alpha),
         psi_by_k=psi_by_k,
         best_k=best_k,
-        notes=visibility.form.notes,
-        normals=visibility.form.normals,
+        notes=visibility.shape.notes,
+        normals=visibility.shape.normals,
     )
 
 
-def by_size(parts: NDArray[np.int64], surface: FaceGraph) -> NDArray[np.int64]:
+def by_size(parts: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
     """Return the parts renumbered, the largest first."""
-    order = np.argsort(-surface.areas_of(parts), kind="stable")
+    order = np.argsort(-graph.areas_of(parts), kind="stable")
     return np.argsort(order)[parts]
 
 

@@ -57,7 +57,7 @@ def distances_to_parts(
 
 
 def cut_seams(
-    surface: FaceGraph,
+    graph: FaceGraph,
     labels: NDArray[np.int64],
     costs: NDArray[np.float64],
     smoothness: float,
@@ -70,7 +70,7 @@ def cut_seams(
 
     Parameters
     ----------
-    surface : FaceGraph
+    graph : FaceGraph
     labels : (P,) int
         Where to start, in 0…K − 1.
     costs : (P, K) float
@@ -82,11 +82,11 @@ def cut_seams(
     -------
     labels : (P,) int
     """
-    data = costs * surface.weights[:, None]
-    unit = _SEAM_UNIT / np.sqrt(surface.areas.sum())
-    seams = smoothness * unit * surface.lengths
-    seams = seams * np.exp(-_CREASE * np.maximum(surface.bends, 0.0))
-    cutter = _Expansion(surface.neighbors, data, seams)
+    data = costs * graph.weights[:, None]
+    unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
+    seams = smoothness * unit * graph.lengths
+    seams = seams * np.exp(-_CREASE * np.maximum(graph.bends, 0.0))
+    cutter = _Expansion(graph.neighbors, data, seams)
     labels = labels.copy()
     n_labels = costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)

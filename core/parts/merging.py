@@ -16,13 +16,13 @@ _MOST_PARTS = 256
 
 
 def connected_parts(
-    surface: FaceGraph, labels: NDArray[np.int64], smallest_area: float
+    graph: FaceGraph, labels: NDArray[np.int64], smallest_area: float
 ) -> NDArray[np.int64]:
     """Return connected pieces as parts, each too small one given to a neighbor.
 
     Parameters
     ----------
-    surface : FaceGraph
+    graph : FaceGraph
     labels : (P,) int
     smallest_area : float
         Pieces below this area join what they border on most.
@@ -32,33 +32,33 @@ def connected_parts(
     parts : (P,) int
         0…K − 1, each used.
     """
-    parts = _gathered(surface, labels, smallest_area)
+    parts = _gathered(graph, labels, smallest_area)
     while True:
-        areas = surface.areas_of(parts)
+        areas = graph.areas_of(parts)
         order = np.argsort(-areas, kind="stable")
         small = areas < smallest_area
         small[order[_MOST_PARTS:]] = True
         small[order[0]] = False
         if not small.any():
             return parts
-        joins = _joins_of_small(surface, parts, np.argsort(order), small)
-        graph = sparse.coo_array(
+        joins = _joins_of_small(graph, parts, np.argsort(order), small)
+        ties = sparse.coo_array(
             (np.ones(len(joins)), (np.arange(len(joins)), joins)),
             shape=(len(joins), len(joins)),
         )
-        parts = connected_components(graph, directed=False)[1][parts].astype(np.int64)
+        parts = connected_components(ties, directed=False)[1][parts].astype(np.int64)
 
 
 def _gathered(
-    surface: FaceGraph, labels: NDArray[np.int64], smallest_area: float
+    graph: FaceGraph, labels: NDArray[np.int64], smallest_area: float
 ) -> NDArray[np.int64]:
     """Return connected pieces, those of a label that lie scattered and small as one."""
-    pieces = surface.pieces(labels, smallest_area)
-    areas = surface.areas_of(pieces)
+    pieces = graph.pieces(labels, smallest_area)
+    areas = graph.areas_of(pieces)
     small = areas < smallest_area
     if not small.any():
         return pieces
-    scattered = (small & surface.alone(pieces, len(areas)))[pieces]
+    scattered = (small & graph.alone(pieces, len(areas)))[pieces]
     if not scattered.any():
         return pieces
     keys = np.where(scattered, len(areas) + labels, pieces)
@@ -66,7 +66,7 @@ def _gathered(
 
 
 def _joins_of_small(
-    surface: FaceGraph,
+    graph: FaceGraph,
     parts: NDArray[np.int64],
     places: NDArray[np.int64],
     small: NDArray[np.bool_],
@@ -77,7 +77,7 @@ def _joins_of_small(
     no two swap; a part without neighbors joins the nearest one that has to join none.
     """
     joins = np.arange(len(places))
-    borders = surface.borders(parts, len(places))
+    borders = graph.borders(parts, len(places))
     alone = small & (np.diff(borders.indptr) == 0)
     for part in np.flatnonzero(small & ~alone):
         row = slice(borders.indptr[part], borders.indptr[part + 1])
@@ -87,9 +87,7 @@ def _joins_of_small(
             joins[part] = others[larger][lengths[larger].argmax()]
     if alone.any():
         mine, others = np.flatnonzero(alone[parts]), np.flatnonzero(~small[parts])
-        distances, nearest = cKDTree(surface.centers[others]).query(
-            surface.centers[mine]
-        )
+        distances, nearest = cKDTree(graph.centers[others]).query(graph.centers[mine])
         # The last assignment of each part is that of its nearest polygon.
         order = np.argsort(-distances, kind="stable")
         joins[parts[mine[order]]] = parts[others[nearest[order]]]

@@ -1,84 +1,65 @@
-"""Exactly k parts of a surface, connected and with clean seams."""
+"""Exactly k connected parts of a surface, from the visibility of its samples."""
 
 from __future__ import annotations
 
 from collections.abc import Container
 from functools import partial
-from hashlib import blake2b
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.kmeans import cluster
 from ..clusters.moves import raise_psi
-from ..geometry.symmetry import Side, find_sides
+from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
 from ..sight.pairs import PairTally
-from ..sight.visibility import Visibility
-from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps
 from .merging import connected_parts, merge_to
+from .part_memo import Candidate, PartMemo, digest
 
 # Weight of positions, in diagonals, beside the embedding.
 _PLACE_WEIGHT = 1e-3
-# How many more clusters are tried when k of them make fewer than k parts.
+# Numbers of further clusters that are tried where k clusters make fewer than k parts.
 _MORE_CLUSTERS = (0, 1, 2, 4, 8)
-# Psi of two sets of samples of one shape differs by about twice this, over the root of
-# their number: less says nothing.
+# Psi from two sets of N samples of one shape differs by about twice this over √N.
+# Smaller differences mean nothing.
 _NEGLIGIBLE = 0.1
-# Tallies that are remembered: those of a search or two.
-_TALLIES = 256
-# Clusters whose moves are remembered, whatever the smallest part is.
-_MOVES = 32
-# Labels whose connected pieces are remembered: k-means' clusters, whatever alpha is.
-_PIECES = 24
-# Even parts that are remembered: for every k of a search, of both sides.
-_EVEN = 64
-# Seams that are remembered: those of the best k are asked for with every other.
-_SEAMS = 32
-
-
-class Candidate(NamedTuple):
-    """Parts (P,) int before their seams are cut, their psi, and their symmetry.
-
-    Even parts are alike on both sides of a shape that is its own mirror image.
-    """
-
-    parts: NDArray[np.int64]
-    psi: float
-    even: bool = False
 
 
 class Partitioner:
     """Makes parts of a shape from its visibility, for one k after the other.
 
-    What it finds is remembered by the visibility, for another with these parameters.
-
     Parameters
     ----------
-    visibility : Visibility
+    memo : PartMemo
+        The visibility. What is found is kept there.
     parameters : Parameters
+
+    Attributes
+    ----------
+    visibility : Visibility
+    transfer : Transfer
+    graph : FaceGraph
+        What the parts are parts of.
+    by_psi : bool
+        Whether parts and seams are refined by psi.
+    negligible : float
+        Differences of psi below this are sampling error.
+    smallest_area : float
+        Connected pieces below this area join a neighbor.
     """
 
-    def __init__(self, visibility: Visibility, parameters: Parameters) -> None:
-        self.visibility = visibility
+    def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
         self.parameters = parameters
-        self.transfer = visibility.transfer
-        self.surface = visibility.transfer.surface
+        self.visibility = memo.visibility
+        self.transfer = memo.visibility.transfer
+        self.graph = memo.visibility.transfer.graph
         self.by_psi = parameters.refinement == "PSI"
-        self.negligible = _NEGLIGIBLE / np.sqrt(len(visibility.samples))
-        self.smallest_area = parameters.smallest_part * self.surface.areas.sum()
-        clusters = parameters.normalization, parameters.seed
-        parts = parameters.refinement, parameters.alpha, parameters.smallest_part
-        self._tallies = visibility.memory.recall("tallies", lambda: Memo(_TALLIES))
-        self._of_pieces = visibility.memory.recall("pieces", lambda: Memo(_PIECES))
-        self._of_moves = visibility.memory.recall("moves", lambda: Memo(_MOVES))
-        self._of_clusters = visibility.memory.recall(("clusters", clusters), Memo)
-        self._of_parts = visibility.memory.recall(("parts", clusters, parts), Memo)
-        self._of_sides = self._of_parts.recall("sides", lambda: Memo(_EVEN))
-        self.of_searches = self._of_parts.recall("searches", Memo)
-        self.of_seams = self._of_parts.recall("seams", lambda: Memo(_SEAMS))
+        self.negligible = _NEGLIGIBLE / np.sqrt(len(memo.visibility.samples))
+        self.smallest_area = parameters.smallest_part * self.graph.areas.sum()
+        self._memo = memo
+        self._cut = memo.cut(parameters)
+        self._of_clusters = memo.clusters(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts, or as many as can be, and their psi."""
@@ -87,7 +68,7 @@ class Partitioner:
             parts = self.partition(n_parts)
             return Candidate(parts, self.psi(parts))
 
-        return self._of_parts.recall(n_parts, make)
+        return self._cut.candidates.recall(n_parts, make)
 
     def better(self, n_parts: int, most: int) -> Candidate:
         """Return the candidate, or what comes of merging one of up to `most` parts.
@@ -101,10 +82,10 @@ class Partitioner:
         def make() -> Candidate:
             merged = self.merged(self.better(n_parts + 1, most).parts, n_parts)
             found = Candidate(merged, self.psi(merged))
-            few = count(own.parts) < n_parts
+            few = count_parts(own.parts) < n_parts
             return found if few or found.psi > own.psi else own
 
-        return self._of_parts.recall((n_parts, most), make)
+        return self._cut.merged.recall((n_parts, most), make)
 
     def symmetric(
         self, parts: NDArray[np.int64], wanted: Container[int]
@@ -113,28 +94,26 @@ class Partitioner:
 
         Two at most: those with a number of parts that is wanted.
         """
-        sides = yield from self.visibility.memory.recall_steps(
-            "sides", lambda: find_sides(self.surface)
-        )
+        sides = yield from self._memo.sides()
         found, key = [], digest(parts) if sides else b""
         for number, side in enumerate(sides):
             yield Progress("Symmetry", 0.0)
             make = partial(self._mirrored, parts, side)
-            even = self._of_sides.recall((number, key), make)
-            if count(even) in wanted:
+            even = self._cut.even.recall((number, key), make)
+            if count_parts(even) in wanted:
                 found.append(Candidate(even, self.psi(even), True))
         return found
 
     def _mirrored(self, parts: NDArray[np.int64], side: Side) -> NDArray[np.int64]:
         """Return the parts that those on one side make of both sides."""
-        return self._pieces(side.copied(parts, self.surface))
+        return self._pieces(side.copied(parts, self.graph))
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Return the pairs of samples counted by the parts of the polygons."""
-        labels, n_parts = self.transfer.to_samples(parts), count(parts)
-        return self._tallies.recall(
+        labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
+        return self._memo.tallies.recall(
             (digest(labels), n_parts),
-            lambda: self.visibility.pairs.tally(labels, n_parts),
+            lambda: self.visibility.psi_pairs.tally(labels, n_parts),
         )
 
     def psi(self, parts: NDArray[np.int64]) -> float:
@@ -152,37 +131,38 @@ class Partitioner:
         if n_parts == 1 or not self.by_psi:
             return plain
         n_clusters, labels = self._clusters(n_parts, n_parts)
-        raised = self._of_moves.recall(
+        raised = self._memo.moves.recall(
             (digest(labels), self.parameters.alpha),
             lambda: raise_psi(
-                self.visibility.pairs, labels, n_clusters, self.parameters.alpha
+                self.visibility.psi_pairs, labels, n_clusters, self.parameters.alpha
             ),
         )
         parts = self.tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
         # Psi may be better with fewer parts: they are split where it loses least.
         moved = self._split(parts, n_parts)
-        return max(moved, plain, key=lambda parts: (count(parts), self.psi(parts)))
+        return max(
+            moved, plain, key=lambda parts: (count_parts(parts), self.psi(parts))
+        )
 
     def plain(self, n_parts: int) -> NDArray[np.int64]:
         """Return the parts that k-means' clusters are, as they are, (P,) int."""
-        whole = np.zeros(self.surface.n_polygons, dtype=np.int64)
-        key = "plain", n_parts
-        return self._of_parts.recall(key, lambda: self._split(whole, n_parts))
+        whole = np.zeros(self.graph.n_polygons, dtype=np.int64)
+        return self._cut.plain.recall(n_parts, lambda: self._split(whole, n_parts))
 
     def _split(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return parts split along k-means' clusters into `n_parts` connected ones."""
         most = parts
         for more in _MORE_CLUSTERS:
-            if count(most) >= n_parts:
+            if count_parts(most) >= n_parts:
                 break
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self.transfer.to_polygons(labels, n_clusters)
             finer = parts * n_clusters + clusters
-            pieces = self._of_pieces.recall(
+            pieces = self._memo.pieces.recall(
                 (self.smallest_area, digest(finer)), partial(self._pieces, finer)
             )
             split = self._at_most(n_parts, pieces)
-            if count(split) > count(most):
+            if count_parts(split) > count_parts(most):
                 most = split
         return most
 
@@ -202,8 +182,7 @@ class Partitioner:
 
     def embedding(self, n_parts: int) -> NDArray[np.float64]:
         """Return the coordinates of the samples for a number of parts."""
-        stochastic = self.parameters.normalization == "STOCHASTIC"
-        return self.visibility.embedding(n_parts, stochastic)
+        return self._memo.embedding(n_parts, self.parameters)
 
     def tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return at most `n_parts` parts, connected where that many allow it."""
@@ -211,25 +190,20 @@ class Partitioner:
 
     def _pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return connected parts, however many."""
-        return connected_parts(self.surface, labels, self.smallest_area)
+        return connected_parts(self.graph, labels, self.smallest_area)
 
     def _at_most(self, n_parts: int, parts: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return parts, merged if there are too many."""
-        return parts if count(parts) <= n_parts else self.merged(parts, n_parts)
+        return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` parts, merged from more where psi loses least."""
-        n_pieces = count(parts)
-        touching = self.surface.borders(parts, n_pieces).toarray() > 0
+        n_pieces = count_parts(parts)
+        touching = self.graph.borders(parts, n_pieces).toarray() > 0
         merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
         return merged[parts]
 
 
-def digest(parts: NDArray[np.int64]) -> bytes:
-    """Return what tells parts from others, for keys that are kept."""
-    return blake2b(parts.data).digest()
-
-
-def count(parts: NDArray[np.int64]) -> int:
+def count_parts(parts: NDArray[np.int64]) -> int:
     """Return the number of parts of labels 0…K − 1."""
     return int(parts.max()) + 1

@@ -23,7 +23,7 @@ _CORE = 0.5
 
 
 def smooth_seams(
-    surface: FaceGraph,
+    graph: FaceGraph,
     labels: NDArray[np.int64],
     chosen: Sequence[int],
     smoothness: float,
@@ -35,7 +35,7 @@ def smooth_seams(
 
     Parameters
     ----------
-    surface : FaceGraph
+    graph : FaceGraph
     labels : (P,) int
         In 0…K − 1, each used.
     chosen : sequence of int
@@ -49,33 +49,33 @@ def smooth_seams(
         All parts are still there: what is deep in one never leaves it.
     """
     n_parts = int(labels.max()) + 1
-    costs = _costs(surface, labels, n_parts)
+    costs = _costs(graph, labels, n_parts)
     own = labels[:, None] == np.arange(n_parts)
     free = np.isin(np.arange(n_parts), chosen)
     costs[~own & ~free[labels][:, None] & ~free] = _NEVER
-    return (yield from cut_seams(surface, labels, costs, smoothness))
+    return (yield from cut_seams(graph, labels, costs, smoothness))
 
 
 def _costs(
-    surface: FaceGraph, labels: NDArray[np.int64], n_parts: int
+    graph: FaceGraph, labels: NDArray[np.int64], n_parts: int
 ) -> NDArray[np.float64]:
     """Return how far each polygon is from each part, along the surface, (P, K)."""
-    one, other = surface.neighbors.T
-    steps = np.linalg.norm(surface.centers[one] - surface.centers[other], axis=1)
-    unit = _UNIT * float(np.sqrt(surface.areas.sum()))
+    one, other = graph.neighbors.T
+    steps = np.linalg.norm(graph.centers[one] - graph.centers[other], axis=1)
+    unit = _UNIT * float(np.sqrt(graph.areas.sum()))
     # Polygons at one place are neighbors, too.
-    graph = sparse.coo_array(
+    ways = sparse.coo_array(
         (np.maximum(steps, 1e-6 * unit), (one, other)),
-        shape=(surface.n_polygons,) * 2,
+        shape=(graph.n_polygons,) * 2,
     ).tocsr()
-    costs = np.full((surface.n_polygons, n_parts), np.inf)
-    ends = labels[surface.neighbors]
-    rim = np.unique(surface.neighbors[ends[:, 0] != ends[:, 1]])
+    costs = np.full((graph.n_polygons, n_parts), np.inf)
+    ends = labels[graph.neighbors]
+    rim = np.unique(graph.neighbors[ends[:, 0] != ends[:, 1]])
     for part in range(n_parts):
         starts = rim[labels[rim] == part]
         if len(starts):
             costs[:, part] = dijkstra(
-                graph, directed=False, indices=starts, min_only=True, limit=4 * unit
+                ways, directed=False, indices=starts, min_only=True, limit=4 * unit
             )
     costs[np.arange(len(labels)), labels] = np.inf
     depths = np.minimum(costs.min(axis=1), 4 * unit)

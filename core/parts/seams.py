@@ -1,4 +1,4 @@
-"""Seams of parts cut anew, as smooth as psi allows, and alike on both sides."""
+"""Seams of parts: short, in creases, as smooth as psi allows, alike on both sides."""
 
 from __future__ import annotations
 
@@ -6,68 +6,85 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.moves import MoveGains
+from ..steps.memo import Memo
 from ..steps.progress import Steps, within
 from .graph_cut import cut_seams, distances_to_parts
-from .partition import Partitioner, count, digest
+from .part_memo import digest
+from .partition import Partitioner, count_parts
 
-# Seams that would cost too much are cut again with these shares of lambda.
+# Seams that cost too much psi are cut again with these shares of lambda.
 _SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 
 
-def seamed(
-    partitioner: Partitioner, parts: NDArray[np.int64]
-) -> Steps[NDArray[np.int64]]:
-    """Return the same number of parts with their seams cut anew (eq. 4), (P,) int."""
-    key = partitioner.parameters.smoothness, digest(parts)
-    return partitioner.of_seams.recall_steps(key, lambda: _cut(partitioner, parts))
+class SeamCutter:
+    """Cuts the seams of parts (eq. 4).
 
-
-def _cut(
-    partitioner: Partitioner, parts: NDArray[np.int64]
-) -> Steps[NDArray[np.int64]]:
-    """Cut the seams of parts anew; parts that short seams would swallow keep theirs.
-
-    Smooth seams cost psi: no more of it than its moves have won over k-means.
+    Parameters
+    ----------
+    partitioner : Partitioner
+        Made the parts.
+    memo : Memo
+        From a smoothness and the digest of parts to the parts with their seams cut.
     """
-    n_parts, smoothness = count(parts), partitioner.parameters.smoothness
-    if n_parts == 1 or smoothness == 0:
+
+    def __init__(
+        self,
+        partitioner: Partitioner,
+        memo: Memo[tuple[float, bytes], NDArray[np.int64]],
+    ) -> None:
+        self._partitioner = partitioner
+        self._smoothness = partitioner.parameters.smoothness
+        self._memo = memo
+
+    def cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+        """Return the same number of parts (P,) with their seams cut."""
+        key = self._smoothness, digest(parts)
+        return self._memo.recall_steps(key, lambda: self._cut(parts))
+
+    def _cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+        """Cut the seams of parts.
+
+        Smooth seams cost psi. They may not cost more than the moves of samples have won
+        over k-means. A part that short seams would swallow keeps its seams.
+        """
+        n_parts, by = count_parts(parts), self._partitioner
+        if n_parts == 1 or self._smoothness == 0:
+            return parts
+        enough = -np.inf
+        if by.by_psi:
+            enough = min(by.psi(by.plain(n_parts)), by.psi(parts))
+        labels = by.transfer.to_samples(parts)
+        costs = by.transfer.shares @ self._data_costs(labels, n_parts)
+        for share in _SOFTER:
+            steps = cut_seams(by.graph, parts, costs, share * self._smoothness)
+            cut = yield from within(steps, 0.0, 0.9)
+            areas = np.bincount(cut, by.graph.areas, n_parts)
+            swallowed = areas <= by.smallest_area
+            cut = by.tidied(np.where(swallowed[parts], parts, cut), n_parts)
+            if count_parts(cut) == n_parts and by.psi(cut) >= enough:
+                return (yield from within(self._evened(cut, enough), 0.9, 1.0))
         return parts
-    enough = -np.inf
-    if partitioner.by_psi:
-        plain = partitioner.plain(n_parts)
-        enough = min(partitioner.psi(plain), partitioner.psi(parts))
-    labels = partitioner.transfer.to_samples(parts)
-    costs = partitioner.transfer.shares @ _dislikes(partitioner, labels, n_parts)
-    for share in _SOFTER:
-        steps = cut_seams(partitioner.surface, parts, costs, share * smoothness)
-        cut = yield from within(steps, 0.0, 0.9)
-        areas = np.bincount(cut, partitioner.surface.areas, n_parts)
-        swallowed = areas <= partitioner.smallest_area
-        cut = partitioner.tidied(np.where(swallowed[parts], parts, cut), n_parts)
-        if count(cut) == n_parts and partitioner.psi(cut) >= enough:
-            return (yield from within(_evened(partitioner, cut, enough), 0.9, 1.0))
-    return parts
 
+    def _evened(
+        self, parts: NDArray[np.int64], enough: float
+    ) -> Steps[NDArray[np.int64]]:
+        """Return parts with seams alike on both sides, if psi stays enough."""
+        by = self._partitioner
+        if not by.by_psi:
+            return parts
+        even = yield from by.symmetric(parts, {count_parts(parts)})
+        best = max(even, key=lambda each: each.psi, default=None)
+        least = max(enough, by.psi(parts) - 2 * by.negligible)
+        return parts if best is None or best.psi < least else best.parts
 
-def _evened(
-    partitioner: Partitioner, parts: NDArray[np.int64], enough: float
-) -> Steps[NDArray[np.int64]]:
-    """Return parts with seams alike on both sides, where psi stays enough."""
-    if not partitioner.by_psi:
-        return parts
-    even = yield from partitioner.symmetric(parts, {count(parts)})
-    best = max(even, key=lambda each: each.psi, default=None)
-    least = max(enough, partitioner.psi(parts) - 2 * partitioner.negligible)
-    return parts if best is None or best.psi < least else best.parts
-
-
-def _dislikes(
-    partitioner: Partitioner, labels: NDArray[np.int64], n_labels: int
-) -> NDArray[np.float64]:
-    """Return the data term of eq. 4, how little samples like labels, (N, K)."""
-    if not partitioner.by_psi:
-        return distances_to_parts(partitioner.embedding(n_labels), labels, n_labels)
-    pulls = MoveGains(partitioner.visibility.pairs, labels, n_labels).of(
-        slice(None), partitioner.parameters.alpha
-    )
-    return pulls.max(axis=1, keepdims=True) - pulls
+    def _data_costs(
+        self, labels: NDArray[np.int64], n_labels: int
+    ) -> NDArray[np.float64]:
+        """Return the data term of eq. 4 for samples and labels, (N, K)."""
+        by = self._partitioner
+        if not by.by_psi:
+            return distances_to_parts(by.embedding(n_labels), labels, n_labels)
+        gains = MoveGains(by.visibility.psi_pairs, labels, n_labels).of(
+            slice(None), by.parameters.alpha
+        )
+        return gains.max(axis=1, keepdims=True) - gains

@@ -12,6 +12,7 @@ from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps
 from .lines import RAYS_PER_STEP, Viewpoints, see_pairs
 from .pairs import PairVisibility, pair_counts
+from .prepared import PreparedShape
 from .ray_march import RayMarcher
 
 # Random pairs for an unbiased psi: its standard error is about 0.002.
@@ -82,21 +83,22 @@ def fan_directions(
 
 
 def see_cones(
-    scene: RayMarcher,
+    shape: PreparedShape,
     samples: Samples,
     views: Viewpoints,
     n_rays: int,
     opening: float,
-    plane: NDArray[np.float64] | None = None,
-) -> Steps[tuple[sparse.csr_array, sparse.csr_array]]:
-    """Return the positive and the negative LoS matrix of cones of rays.
+) -> Steps[PairVisibility]:
+    """Return the pairs that cones of rays find: the sparse LoS matrices of section 5.
 
     The sample nearest to where a ray leaves the inside is in line of sight with the
-    ray's own; samples at the surfaces behind it are not.
+    ray's own: an entry of the positive matrix. Samples at the surfaces behind it are
+    not: entries of the negative matrix. Nothing is known of other pairs.
 
     Parameters
     ----------
-    scene : RayMarcher
+    shape : PreparedShape
+        Rays stay in the plane of a flat shape.
     samples : Samples
     views : Viewpoints
         Of `samples`.
@@ -104,36 +106,34 @@ def see_cones(
         Rays r a sample.
     opening : float
         Full angle of the cone in radians.
-    plane : (3,) float, optional
-        Normal of the plane that rays stay in, those of a flat shape.
 
     Returns
     -------
-    positive, negative : (N, N) float32 sparse of 0 and 1
-        Symmetric. A sample sees itself; no pair is in both.
+    Steps of PairVisibility
+        Sparse. A sample sees itself.
     """
-    n_samples = len(samples)
-    if plane is None:
+    n_samples, marcher = len(samples), shape.marcher
+    if shape.plane is None:
         directions = cone_directions(samples.normals, n_rays, opening)
     else:
-        directions = fan_directions(samples.normals, n_rays, opening, plane)
+        directions = fan_directions(samples.normals, n_rays, opening, shape.plane)
     directions = directions.reshape(-1, 3)
     sources = np.repeat(np.arange(n_samples), n_rays)
     # Two sides of a thin wall are near in space, but face away from each other.
-    scale = float(np.sqrt(scene.area / n_samples))
+    scale = float(np.sqrt(marcher.area / n_samples))
     tree = cKDTree(np.hstack([samples.positions, scale * samples.normals]))
     seen: list[NDArray[np.int64]] = []
     hidden: list[NDArray[np.int64]] = []
     for start in range(0, len(sources), RAYS_PER_STEP):
         yield Progress("Lines of sight", start / len(sources))
         rays = slice(start, start + RAYS_PER_STEP)
-        hits = scene.surfaces_along(
+        hits = marcher.surfaces_along(
             views.positions[sources[rays]],
             directions[rays],
             views.depths[sources[rays]],
         )
         for order, (rows, points, triangles) in enumerate(hits):
-            keys = np.hstack([points, scale * scene.normals[triangles]])
+            keys = np.hstack([points, scale * marcher.normals[triangles]])
             found = np.stack([sources[rays][rows], tree.query(keys)[1]])
             (hidden if order else seen).append(found)
     positive = _symmetric(seen, n_samples)
@@ -141,16 +141,19 @@ def see_cones(
     negative = _symmetric(hidden, n_samples)
     negative = sparse.csr_array(negative - negative * positive)
     negative.eliminate_zeros()
-    return positive, negative
+    return PairVisibility(positive, positive + negative)
 
 
 def see_uniform_pairs(
-    scene: RayMarcher, samples: Samples, views: Viewpoints, rng: np.random.Generator
+    marcher: RayMarcher,
+    samples: Samples,
+    views: Viewpoints,
+    rng: np.random.Generator,
 ) -> Steps[PairVisibility]:
     """Return what is known from pairs of samples drawn uniformly at random."""
     n_samples = len(samples)
     first, second = rng.integers(n_samples, size=(2, _UNIFORM_PAIRS))
-    visible = yield from see_pairs(scene, samples, views, first, second)
+    visible = yield from see_pairs(marcher, samples, views, first, second)
 
     def counted(chosen: NDArray[np.bool_]) -> sparse.csr_array:
         return pair_counts(first[chosen], second[chosen], n_samples)

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..geometry.mesh import TriangleMesh
-from ..steps.progress import Progress, Steps
+from ..geometry.sampling import Samples
+from ..steps.progress import Progress, Steps, within
 from .cone import cone_directions
 from .lines import RAYS_PER_STEP
+from .pairs import PairVisibility
 from .ray_march import PASS, RayMarcher
 
 # Cells along the longest side of the bounding box.
@@ -63,20 +64,40 @@ class Grid:
         return bool((self.kinds == _ENCLOSED_OUTSIDE).any())
 
 
-def find_enclosed(scene: RayMarcher, mesh: TriangleMesh) -> Steps[Grid]:
-    """Return the cells around `mesh`, and which of the outside it encloses.
+def see_through_containers(
+    marcher: RayMarcher, samples: Samples, *matrices: PairVisibility
+) -> Steps[list[PairVisibility]]:
+    """Return what samples see if what the shape encloses counts as inside.
 
     Parameters
     ----------
-    scene : RayMarcher
-        Of `mesh`.
-    mesh : TriangleMesh
+    marcher : RayMarcher
+        Of the shape.
+    samples : Samples
+    *matrices : PairVisibility
+        Which samples see each other through the inside alone.
 
     Returns
     -------
-    Steps of Grid
+    Steps of list of PairVisibility
+        For each of the matrices. They are the same objects if nothing is enclosed.
     """
-    low, high = mesh.bounds
+    grid = yield from within(find_enclosed(marcher), 0.0, 0.6)
+    if not grid.encloses:
+        return list(matrices)
+    places, revealed = samples.positions, {}
+    for pairs in matrices:
+        if pairs not in revealed:
+            first, second = pairs.hidden()
+            steps = see_through(grid, places[first], places[second])
+            through = yield from within(steps, 0.6, 1.0)
+            revealed[pairs] = pairs.revealed(first[through], second[through])
+    return [revealed[pairs] for pairs in matrices]
+
+
+def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
+    """Return the cells around a shape, and which of the outside it encloses."""
+    low, high = marcher.mesh.bounds
     size = float((high - low).max()) / _CELLS
     shape = np.maximum(np.ceil((high - low) / size), 1).astype(np.int64)
     low = (low + high - shape * size) / 2
@@ -95,7 +116,7 @@ def find_enclosed(scene: RayMarcher, mesh: TriangleMesh) -> Steps[Grid]:
         for start in range(0, len(cells), RAYS_PER_STEP):
             yield Progress("Containers", number / _DIRECTIONS)
             chunk = cells[start : start + RAYS_PER_STEP]
-            met, facing = _meet(scene, centers[chunk], direction)
+            met, facing = _meet(marcher, centers[chunk], direction)
             front[chunk[met]] += facing < 0
             back[chunk[met]] += facing > 0
     outside = (front >= back).reshape(shape)
@@ -158,17 +179,17 @@ def _run_through(
 
 
 def _meet(
-    scene: RayMarcher, points: NDArray[np.float64], direction: NDArray[np.float64]
+    marcher: RayMarcher, points: NDArray[np.float64], direction: NDArray[np.float64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """Return which rays meet the shape, and of those the facing of what they meet."""
-    triangles, distances = scene.caster.first_hit(
+    triangles, distances = marcher.caster.first_hit(
         points,
         np.broadcast_to(direction, points.shape),
-        np.full(len(points), 2 * scene.diagonal),
+        np.full(len(points), 2 * marcher.diagonal),
     )
     # In a flat sheet, cells lie on the surface itself.
-    met = (triangles >= 0) & (distances > PASS * scene.diagonal)
-    return met, scene.normals[triangles[met]] @ direction
+    met = (triangles >= 0) & (distances > PASS * marcher.diagonal)
+    return met, marcher.normals[triangles[met]] @ direction
 
 
 def _enclosed(

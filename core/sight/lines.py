@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..geometry.frames import frames
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps, within
+from .pairs import PairVisibility
 from .ray_march import PASS, RayMarcher
 
 # Rays between two reports of progress, about 20 ms.
@@ -42,35 +43,35 @@ class Viewpoints:
     enclosed: NDArray[np.bool_]
 
 
-def viewpoints(scene: RayMarcher, samples: Samples) -> Viewpoints:
+def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
     """Move `samples` under the surface and count the shells around them."""
-    nudge = PASS * scene.diagonal
+    nudge = PASS * marcher.diagonal
     inwards = -samples.normals
-    own = scene.closed[samples.triangles].astype(np.int64)
-    _, thickness, _ = scene.march(
+    own = marcher.closed[samples.triangles].astype(np.int64)
+    _, thickness, _ = marcher.march(
         samples.positions + nudge * inwards,
         inwards,
-        np.full(len(samples), 2 * scene.diagonal),
+        np.full(len(samples), 2 * marcher.diagonal),
         own,
     )
-    deepest = max(_OFFSET * scene.diagonal, _OFFSET_OF_GRAIN * scene.grain)
+    deepest = max(_OFFSET * marcher.diagonal, _OFFSET_OF_GRAIN * marcher.grain)
     offsets = np.minimum(deepest, _OFFSET_OF_THICKNESS * thickness)
     offsets = np.maximum(offsets, nudge)
     positions = samples.positions + offsets[:, None] * inwards
     outside = samples.positions + nudge * samples.normals
     return Viewpoints(
         positions,
-        np.maximum(_shells_around(scene, positions, samples.normals), own),
-        _shells_around(scene, outside, samples.normals) > 0,
+        np.maximum(_shells_around(marcher, positions, samples.normals), own),
+        _shells_around(marcher, outside, samples.normals) > 0,
     )
 
 
 def _shells_around(
-    scene: RayMarcher, points: NDArray[np.float64], normals: NDArray[np.float64]
+    marcher: RayMarcher, points: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> NDArray[np.int64]:
     """Return the number of closed shells around each point, (N,)."""
     counts = [
-        scene.shells_around(points, directions)
+        marcher.shells_around(points, directions)
         for directions in _outward_directions(normals)
     ]
     # The median: a ray that slips between triangles must not decide.
@@ -78,7 +79,7 @@ def _shells_around(
 
 
 def faces_inside(
-    scene: RayMarcher,
+    marcher: RayMarcher,
     samples: Samples,
     views: Viewpoints,
     first: NDArray[np.int64],
@@ -95,8 +96,8 @@ def faces_inside(
         towards = views.positions[others] - samples.positions[ends]
         heights = np.einsum("md,md->m", towards, samples.normals[ends])
         allowed = 0.0
-        if scene.tilt:
-            allowed = scene.tilt * np.linalg.norm(towards, axis=1)
+        if marcher.tilt:
+            allowed = marcher.tilt * np.linalg.norm(towards, axis=1)
         under: NDArray[np.bool_] = (heights < allowed) | views.enclosed[ends]
         return under
 
@@ -104,7 +105,7 @@ def faces_inside(
 
 
 def see_pairs(
-    scene: RayMarcher,
+    marcher: RayMarcher,
     samples: Samples,
     views: Viewpoints,
     first: NDArray[np.int64],
@@ -114,7 +115,7 @@ def see_pairs(
 
     Parameters
     ----------
-    scene : RayMarcher
+    marcher : RayMarcher
     samples : Samples
     views : Viewpoints
         Of `samples`.
@@ -127,26 +128,31 @@ def see_pairs(
     """
     visible = first == second
     candidates = np.flatnonzero(
-        ~visible & faces_inside(scene, samples, views, first, second)
+        ~visible & faces_inside(marcher, samples, views, first, second)
     )
     for start in range(0, len(candidates), RAYS_PER_STEP):
         yield Progress("Lines of sight", start / len(candidates))
         chunk = candidates[start : start + RAYS_PER_STEP]
-        visible[chunk] = _sees(scene, views, first[chunk], second[chunk])
+        visible[chunk] = _sees(marcher, views, first[chunk], second[chunk])
     return visible
 
 
 def see_all_pairs(
-    scene: RayMarcher, samples: Samples, views: Viewpoints
-) -> Steps[NDArray[np.bool_]]:
+    marcher: RayMarcher, samples: Samples, views: Viewpoints
+) -> Steps[PairVisibility]:
     """Return the LoS matrix of all pairs of samples (eq. 3).
 
-    Arguments are those of `see_pairs`.
+    Parameters
+    ----------
+    marcher : RayMarcher
+    samples : Samples
+    views : Viewpoints
+        Of `samples`.
 
     Returns
     -------
-    los : (N, N) bool
-        Symmetric, with a true diagonal.
+    Steps of PairVisibility
+        Dense. A sample sees itself.
     """
     n_samples = len(samples)
     los = np.eye(n_samples, dtype=bool)
@@ -161,15 +167,15 @@ def see_all_pairs(
             1 - ((n_samples - row) / n_samples) ** 2 for row in (start, rows[-1] + 1)
         )
         visible = yield from within(
-            see_pairs(scene, samples, views, first, second), done, share
+            see_pairs(marcher, samples, views, first, second), done, share
         )
         los[first[visible], second[visible]] = True
         start = int(rows[-1]) + 1
-    return los | los.T
+    return PairVisibility((los | los.T).astype(np.float32), None)
 
 
 def _sees(
-    scene: RayMarcher,
+    marcher: RayMarcher,
     views: Viewpoints,
     first: NDArray[np.int64],
     second: NDArray[np.int64],
@@ -178,7 +184,7 @@ def _sees(
     segments = views.positions[second] - views.positions[first]
     lengths = np.linalg.norm(segments, axis=1)
     lengths = np.maximum(lengths, np.finfo(float).tiny)
-    exits, _, _ = scene.march(
+    exits, _, _ = marcher.march(
         views.positions[first],
         segments / lengths[:, None],
         lengths,

@@ -1,106 +1,146 @@
-"""Shapes made ready to be sampled, looked through and labeled."""
+"""Shapes made ready: everything that looks through a shape takes a `PreparedShape`."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
-from ..clouds.normals import estimate_normals, face_inwards
-from ..clouds.splats import nearest_points, smoothed, thinned_splats
+from ..clouds.splat_surface import splat_surface
 from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import flat_mesh
 from ..geometry.mesh import TriangleMesh
 from ..geometry.orientation import oriented
 from ..geometry.point_cloud import PointCloud
+from ..geometry.shape import Shape
 from ..geometry.shells import find_shells, set_apart
-from ..steps.progress import Progress, Steps, within
-
-Shape = TriangleMesh | PointCloud
+from ..steps.progress import Progress, Steps
+from .ray_march import MakeCaster, RayMarcher
 
 
 @dataclass(frozen=True, eq=False)
-class Form:
-    """What a mesh, a flat mesh and a point cloud have in common.
+class PreparedShape:
+    """A shape centered at 0, with a bounding box of diagonal 1, facing outwards.
 
-    Lengths are in the unit of their diagonal.
+    It is made once for a shape, by `prepare_in_steps`, and handed on. Meshes, flat
+    meshes and point clouds look alike from here on.
 
     Attributes
     ----------
+    center : (3,) float
+        Center of the bounding box of the shape, in its units.
+    diagonal : float
+        Diagonal of that box, in the units of the shape.
     targets : TriangleMesh
-        What rays are cast at and samples lie on. Its polygons are nodes of `surface`,
-        those beyond it carry no samples.
-    surface : callable
-        Returns the graph that labels move along.
-    nodes : (F,) int
-        Node of each polygon of the mesh, or point of the cloud.
-    grain : float
-        Size of the splats among `targets`, 0 for a mesh.
-    tilt : float
-        Sine of the angle by which normals of `targets` may be off.
+        What samples lie on and rays are cast at. Its polygons are the nodes of `graph`;
+        a polygon from `n_nodes` on carries no samples.
+    marcher : RayMarcher
+        Sends rays through the inside of all targets.
+    n_nodes : int
+        Number of nodes of `graph`.
+    nodes : (P,) int
+        Node of each polygon of the mesh, or of each point of the cloud.
+    make_graph : callable
+        Returns `graph`.
+    solid : TriangleMesh or None
+        The mesh itself, None for a point cloud.
     notes : tuple of str
-        Sentences to the user about what was changed for the computation.
-    normals : (F, 3) float or None
-        Outward normals of the points of a cloud whose own were missing or wrong.
+        Sentences to the user on what was changed for the computation.
+    normals : (P, 3) float or None
+        Outward normals of the points of a cloud that had none, or wrong ones.
     plane : (3,) float or None
-        Normal of the plane of a flat mesh, a unit vector.
+        Unit normal of the plane of a flat mesh, None for other shapes.
     """
 
+    center: NDArray[np.float64]
+    diagonal: float
     targets: TriangleMesh
-    surface: Callable[[], FaceGraph]
+    marcher: RayMarcher
+    n_nodes: int
     nodes: NDArray[np.int64]
-    grain: float = 0.0
-    tilt: float = 0.0
+    make_graph: Callable[[], FaceGraph]
+    solid: TriangleMesh | None = None
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
     plane: NDArray[np.float64] | None = None
 
+    @cached_property
+    def graph(self) -> FaceGraph:
+        """The graph that labels move along: polygons, or points of a cloud."""
+        return self.make_graph()
+
+    @property
+    def sampled(self) -> NDArray[np.int64]:
+        """Rows of the targets' triangles that carry samples."""
+        return np.flatnonzero(self.targets.polygons < self.n_nodes)
+
     def labels_of_nodes(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the label of each node from those of polygons or points, (F,)."""
+        """Return the label of each node from the labels (P,) of polygons or points."""
         found = np.zeros(int(self.nodes.max()) + 1, dtype=np.int64)
         found[self.nodes] = labels
         return found
 
-    def part(self, members: NDArray[np.bool_]) -> Form:
-        """Return the form of some polygons, or points, seen through the whole shape.
+    def part(self, members: NDArray[np.bool_]) -> PreparedShape:
+        """Return some polygons, or points, of the shape as a shape to be decomposed.
+
+        Rays still run through the whole shape, with the same ray tree. Samples, graph
+        and nodes are those of the members alone.
 
         Parameters
         ----------
-        members : (F,) bool
-
-        Returns
-        -------
-        Form
-            Rays are cast at all `targets`; samples, surface and nodes are those of the
-            members alone.
+        members : (P,) bool
         """
-        whole = self.surface()
         kept = np.unique(self.nodes[members])
-        places = np.full(whole.n_polygons, len(kept))
+        places = np.full(self.n_nodes + 1, len(kept))
         places[kept] = np.arange(len(kept))
+        polygons = places[np.minimum(self.targets.polygons, self.n_nodes)]
         return replace(
             self,
-            targets=replace(self.targets, polygons=places[self.targets.polygons]),
-            surface=lambda: whole.part(kept),
+            targets=replace(self.targets, polygons=polygons),
+            n_nodes=len(kept),
             nodes=places[self.nodes[members]],
+            make_graph=lambda: self.graph.part(kept),
             normals=None if self.normals is None else self.normals[members],
         )
 
 
-def form_of(shape: Shape) -> Steps[Form]:
-    """Return the form of a shape: centered, of diagonal 1, facing outwards."""
+def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedShape]:
+    """Make a shape ready to be looked through.
+
+    Parameters
+    ----------
+    shape : TriangleMesh or PointCloud
+        In any units. It may be open, in several pieces or not manifold.
+    make_caster : callable
+        Returns a `RayCaster` for the mesh it is given. It is called at the first ray.
+
+    Raises
+    ------
+    DecompositionError
+        If the surface has no area.
+    """
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
-        return (yield from _form_of_cloud(shape.normalized()))
+        return (yield from _prepare_cloud(shape, make_caster))
     mesh = shape.normalized()
     nodes = np.arange(mesh.n_polygons)
+    frame = shape.center, shape.diagonal
     yield Progress("Surface", 0.3)
     if flat := flat_mesh(mesh):
-        return Form(
-            flat.walls, flat.surface, nodes, notes=flat.notes, plane=flat.normal
+        return PreparedShape(
+            *frame,
+            flat.walls,
+            RayMarcher(flat.walls, make_caster),
+            len(nodes),
+            nodes,
+            flat.graph,
+            mesh,
+            flat.notes,
+            plane=flat.normal,
         )
     yield Progress("Surface", 0.4)
     shells = find_shells(mesh)
@@ -108,37 +148,32 @@ def form_of(shape: Shape) -> Steps[Form]:
     mesh, notes = oriented(mesh, shells)
     yield Progress("Surface", 0.8)
     targets = set_apart(mesh, shells)
-    return Form(targets, lambda: face_graph(mesh), nodes, notes=notes)
-
-
-def _form_of_cloud(cloud: PointCloud) -> Steps[Form]:
-    """Return the form of a cloud: its splats, of not more points than needed."""
-    points, normals, tilt = cloud.points, cloud.normals, 0.0
-    notes: tuple[str, ...] = ()
-    if normals is None:
-        normals, tilt = yield from within(estimate_normals(points), 0.0, 0.6)
-        notes = ("The points have no normals; they were estimated.",)
-    elif face_inwards(points, normals):
-        normals = -normals
-        notes = (
-            "The normals of the points face inwards; they were turned for this"
-            " computation only.",
-        )
-    found = normals if notes else None
-    yield Progress("Splats", 0.6)
-    points = smoothed(points, normals)
-    kept, areas, targets = thinned_splats(points, normals)
-    yield Progress("Splats", 0.8)
-    nodes, everything = np.arange(len(points)), (points, normals)
-    if len(kept) < len(points):
-        points, normals = points[kept], normals[kept]
-        nodes = nearest_points(points, normals, everything, 1)[:, 0]
-    return Form(
+    if targets is not mesh:  # faces that lay on each other have become shells
+        shells = find_shells(targets)
+    closed = shells.closed[shells.of_triangle]
+    return PreparedShape(
+        *frame,
         targets,
-        lambda: neighbor_graph(points, normals, areas),
+        RayMarcher(targets, make_caster, closed),
+        len(nodes),
         nodes,
-        float(np.sqrt(areas.mean())),
-        tilt,
+        lambda: face_graph(mesh),
+        mesh,
         notes,
-        found,
+    )
+
+
+def _prepare_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[PreparedShape]:
+    """Make a point cloud ready: its splats stand for a surface (section 5)."""
+    found = yield from splat_surface(cloud.normalized())
+    return PreparedShape(
+        cloud.center,
+        cloud.diagonal,
+        found.mesh,
+        RayMarcher(found.mesh, make_caster, grain=found.size, tilt=found.tilt),
+        len(found.points),
+        found.nodes,
+        lambda: neighbor_graph(found.points, found.normals, found.areas),
+        notes=found.notes,
+        normals=found.found_normals,
     )

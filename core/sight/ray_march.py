@@ -10,13 +10,13 @@ that no closed shell is around, as in the paper, and is passed by the others.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
-from ..geometry.shells import find_shells
 
 # A ray goes on this far behind a triangle that it passes, in diagonals.
 PASS = 1e-6
@@ -62,16 +62,18 @@ MakeCaster = Callable[[TriangleMesh], RayCaster]
 
 
 class RayMarcher:
-    """A mesh with its ray caster: whatever rays need to know of a shape.
+    """Sends rays through the inside of a mesh.
 
     Parameters
     ----------
     mesh : TriangleMesh
         Its normals point out of the inside.
-    caster : RayCaster
-        Finds triangles of `mesh`.
+    make_caster : callable
+        Returns a `RayCaster` for `mesh`.
+    closed : (T,) bool, optional
+        Which triangles are of closed shells. None are if left out.
     grain : float, optional
-        Size of the splats that `mesh` consists of, 0 for a surface proper.
+        Size of the splats that `mesh` consists of, 0 for a true surface.
     tilt : float, optional
         Sine of the angle by which normals of `mesh` may be off.
     """
@@ -79,18 +81,24 @@ class RayMarcher:
     def __init__(
         self,
         mesh: TriangleMesh,
-        caster: RayCaster,
+        make_caster: MakeCaster,
+        closed: NDArray[np.bool_] | None = None,
         grain: float = 0.0,
         tilt: float = 0.0,
     ) -> None:
+        self.mesh = mesh
         self.normals = mesh.normals
-        shells = find_shells(mesh)
-        self.closed = shells.closed[shells.of_triangle]
+        self.closed = np.zeros(len(mesh.triangles), bool) if closed is None else closed
         self.area = float(mesh.areas.sum())
         self.diagonal = mesh.diagonal
-        self.caster = caster
         self.grain = grain
         self.tilt = tilt
+        self._make_caster = make_caster
+
+    @cached_property
+    def caster(self) -> RayCaster:
+        """The ray tree, built when it is first asked for: hulls cast no rays."""
+        return self._make_caster(self.mesh)
 
     def march(
         self,

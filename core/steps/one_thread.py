@@ -10,8 +10,13 @@ from .progress import Steps, T
 def on_one_thread(steps: Steps[T]) -> Steps[T]:
     """Run `steps` with one thread for each product of matrices.
 
-    How sums are rounded would depend on the number of cores otherwise; and where other
-    programs keep these busy, threads would wait for each other most of the time.
+    Otherwise the rounding of sums would depend on the number of cores. Where other
+    programs keep the cores busy, threads would wait for each other most of the time.
+
+    Parameters
+    ----------
+    steps : Steps
+        The computation.
     """
     controller = ThreadpoolController()
     try:

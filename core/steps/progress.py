@@ -59,6 +59,11 @@ def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
     return mapped(steps, lambda p: Progress(p.stage, low + (high - low) * p.fraction))
 
 
+def within_turn(steps: Steps[T], turn: int, n_turns: int) -> Steps[T]:
+    """Run `steps` as one of `n_turns` equal turns of a longer computation."""
+    return within(steps, turn / n_turns, (turn + 1) / n_turns)
+
+
 def in_turn(
     works: Sequence[Steps[T] | DecompositionError], names: Sequence[str]
 ) -> Steps[list[T | DecompositionError]]:
@@ -81,9 +86,8 @@ def in_turn(
         if isinstance(work, DecompositionError):
             outcomes.append(work)
             continue
-        share = number / len(works), (number + 1) / len(works)
         try:
-            steps = within(work, *share)
+            steps = within_turn(work, number, len(works))
             outcomes.append((yield from _titled(steps, name) if works[1:] else steps))
         except DecompositionError as error:
             outcomes.append(error)

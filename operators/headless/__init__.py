@@ -1,1 +1,5 @@
-"""Files in, files out, without a window."""
+"""The command line: files in, files out, without a window.
+
+`command_line` starts, `decompose_file` is the way of one input. `request` holds the
+options, `read` turns files into objects, `write` turns objects into files.
+"""

@@ -1,71 +1,62 @@
-"""Builds the hulls of decomposed objects, and writes them to a file."""
+"""Builds collision hulls for the objects that were decomposed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import bpy
 
 from ...core.errors import DecompositionError
-from ...core.parameters.hulls import HullParameters
-from ...core.parameters.parts import Parameters
-from ...core.steps.progress import Progress, mapped, run
 from ..bridge.hulls.hull_objects import write_hulls
 from ..bridge.stored.record import record_of
 from ..bridge.work.computing import build_hulls_of, hull_summary
-from .decompose_file import ObjectResult
+from .request.options import Request
+from .results import ObjectResult
 from .screen import Screen
-from .write.hull_files import save_hulls
 
 
-def build_and_save(
-    path: Path,
-    up: str,
+def build_hulls(
     objects: Sequence[bpy.types.Object],
     results: Sequence[ObjectResult],
-    parameters: tuple[Parameters, HullParameters],
+    request: Request,
     screen: Screen,
-) -> tuple[ObjectResult, ...]:
-    """Build hulls around the parts of each decomposed object, and write all to `path`.
-
-    Returns
-    -------
-    tuple of ObjectResult
-        `results` with the hulls in their records.
+) -> list[bpy.types.Object]:
+    """Build the hulls of each object that was decomposed; return the hulls.
 
     Raises
     ------
     DecompositionError
-        If hulls cannot be made or written.
+        If the hulls of one object cannot be built.
     """
-    with_hulls, hulls = [], []
-    for obj, result in zip(objects, results, strict=True):
-        if result.record is None:
-            with_hulls.append(result)
-            continue
-        hulls += _hulls(obj, parameters, screen)
-        with_hulls.append(replace(result, record=record_of(obj)))
-    save_hulls(path, hulls, up)
-    return tuple(with_hulls)
+    return [
+        hull
+        for obj, result in zip(objects, results, strict=True)
+        if result.record is not None
+        for hull in _hulls_of(obj, request, screen)
+    ]
 
 
-def _hulls(
-    obj: bpy.types.Object,
-    parameters: tuple[Parameters, HullParameters],
-    screen: Screen,
+def with_hull_records(
+    objects: Sequence[bpy.types.Object], results: Sequence[ObjectResult]
+) -> tuple[ObjectResult, ...]:
+    """Return `results` with the records that the objects have now, hulls included."""
+    return tuple(
+        replace(result, record=record_of(obj)) if result.record is not None else result
+        for obj, result in zip(objects, results, strict=True)
+    )
+
+
+def _hulls_of(
+    obj: bpy.types.Object, request: Request, screen: Screen
 ) -> list[bpy.types.Object]:
-    """Build the hulls of one object, and say on the screen what came of it."""
+    """Build the hulls of one object and show its result."""
     title = f"{obj.name_full}, hulls"
-
-    def show(progress: Progress) -> Progress:
-        screen.progress(title, progress)
-        return progress
-
+    parameters = request.hull_parameters
     try:
-        found = run(mapped(build_hulls_of(obj, *parameters), show))
-        hulls = write_hulls(obj, found, parameters[1])
+        steps = build_hulls_of(obj, request.parameters, parameters)
+        found = screen.follow(title, steps)
+        hulls = write_hulls(obj, found, parameters)
     except DecompositionError as error:
         raise DecompositionError(f"{title}: {error}") from error
     for note in found.notes:

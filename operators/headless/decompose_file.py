@@ -1,113 +1,56 @@
-"""Decomposes the mesh objects of a file, one after the other."""
+"""Decomposes one input: loads it and writes its model, picture and hulls."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
 
-import bpy
-
-from ...core.errors import DecompositionError
-from ...core.parameters.parts import Parameters
-from ...core.steps.progress import Progress, mapped, run
-from ..bridge.mesh.points import is_cloud
-from ..bridge.parts.write import write_parts
-from ..bridge.stored.record import record_of
-from ..bridge.work.computing import decompose_object, summary
+from .attempts import Attempts
+from .build_hulls import build_hulls, with_hull_records
+from .decompose_objects import decompose_objects
+from .formats import USUAL_UP
+from .read.load import load
+from .request.options import Request
+from .request.outputs import Targets
+from .results import InputResult
 from .screen import Screen
+from .write.hull_files import save_hulls
+from .write.model_files import save
+from .write.picture import save_picture
+from .write.render_engine import EngineTrial
 
 
-@dataclass(frozen=True)
-class ObjectResult:
-    """What became of one object.
+def decompose_file(
+    path: Path,
+    targets: Targets,
+    request: Request,
+    trial: EngineTrial,
+    screen: Screen,
+) -> InputResult:
+    """Decompose the input `path` and write its targets.
 
-    Attributes
-    ----------
-    name : str
-        Name of the object in the file.
-    record : dict or None
-        What is noted on the object as well, None if it was not decomposed.
-    summary : str
-        Its figures in a line, empty if it was not decomposed.
-    notes : tuple of str
-        Findings that stopped nothing.
-    error : str or None
-        Why the object could not be decomposed.
-    seconds : float
-        Time that the decomposition took.
+    What fails is shown and noted; the rest is still done. The engine trial says which
+    engine renders the picture.
     """
-
-    name: str
-    record: dict[str, Any] | None = None
-    summary: str = ""
-    notes: tuple[str, ...] = ()
-    error: str | None = None
-    seconds: float = 0.0
-
-
-def decompose_objects(
-    file_name: str,
-    objects: Sequence[bpy.types.Object],
-    parameters: Parameters,
-    screen: Screen,
-) -> tuple[ObjectResult, ...]:
-    """Decompose each object, and say on the screen what came of it."""
-    done: dict[bpy.types.ID, str] = {}
-    results = []
-    for obj in objects:
-        if not (is_cloud(obj) or obj.data.polygons):
-            note = "It has no faces and was left as it is."
-            result = ObjectResult(obj.name_full, notes=(note,))
-        elif obj.data in done:
-            note = f"It shares the mesh of {done[obj.data]}, and so its parts."
-            result = ObjectResult(obj.name_full, notes=(note,))
-        else:
-            done[obj.data] = obj.name_full
-            result = _decompose(file_name, obj, parameters, screen)
-        _show(file_name, result, screen)
-        results.append(result)
-    return tuple(results)
-
-
-def _decompose(
-    file_name: str,
-    obj: bpy.types.Object,
-    parameters: Parameters,
-    screen: Screen,
-) -> ObjectResult:
-    """Decompose one object and write the parts to it."""
-    title = f"{file_name}, {obj.name_full}"
-
-    def show(progress: Progress) -> Progress:
-        screen.progress(title, progress)
-        return progress
-
     started = time.perf_counter()
-    try:
-        steps = decompose_object(obj, parameters)
-        decomposition = run(mapped(steps, show))
-        write_parts(obj, decomposition, parameters)
-    except DecompositionError as error:
-        return ObjectResult(obj.name_full, error=str(error))
-    return ObjectResult(
-        obj.name_full,
-        record=record_of(obj),
-        summary=summary(decomposition),
-        notes=decomposition.notes,
-        seconds=time.perf_counter() - started,
+    attempts = Attempts(screen)
+    objects = attempts.value(lambda: load(path, request.up)) or []
+    results = decompose_objects(path.name, objects, request.parameters, screen)
+    if not any(result.record for result in results):
+        targets = Targets()  # there is nothing to write
+
+    up = request.up or USUAL_UP.get(path.suffix.lower())
+    output = attempts.written(targets.output, lambda file: save(file, up))
+    picture = attempts.written(
+        targets.picture, lambda file: save_picture(file, objects, trial.engine())
     )
-
-
-def _show(file_name: str, result: ObjectResult, screen: Screen) -> None:
-    """Say what became of one object."""
-    title = f"{file_name}, {result.name}"
-    for note in result.notes:
-        screen.warning(f"{title}: {note}")
-    if result.error:
-        screen.error(f"{title}: {result.error}")
-    if result.summary:
-        # Not every console has the arrow.
-        line = result.summary.replace("→", "->")
-        screen.result(f"{title}: {line}, {result.seconds:.1f} s")
+    hulls = attempts.written(
+        targets.hulls,
+        lambda file: save_hulls(
+            file, build_hulls(objects, results, request, screen), up or "Z"
+        ),
+    )
+    if hulls:
+        results = with_hull_records(objects, results)
+    errors, seconds = tuple(attempts.errors), time.perf_counter() - started
+    return InputResult(path, results, errors, output, picture, hulls, seconds)

@@ -1,4 +1,4 @@
-"""Keeps Blender's own chatter out of the command line's output."""
+"""Silences what Blender prints, so that our output stays readable."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 
 
 def _flush() -> None:
-    """Empty the buffers of Python and of the C library that Blender prints with."""
+    """Flush the output of Python and of the C library that Blender prints with."""
     sys.stdout.flush()
     sys.stderr.flush()
     library = ctypes.cdll.ucrtbase if os.name == "nt" else ctypes.CDLL(None)
@@ -20,18 +20,18 @@ def _flush() -> None:
 
 @contextmanager
 def quiet_blender() -> Iterator[None]:
-    """Send what importers, exporters and graphics drivers print to nowhere.
+    """Discard what importers, exporters and graphics drivers print.
 
-    They write from Python and from C, to the descriptors themselves, so replacing
-    `sys.stdout` alone would not do. What replaces it is never closed: the glTF add-on
-    keeps it for its log.
+    They print from Python and from C, so both `sys.stdout` and the file descriptors
+    are redirected. The stream that replaces `sys.stdout` is never closed: the glTF
+    add-on keeps it for its log.
     """
     _flush()
     kept = [(os.dup(descriptor), descriptor) for descriptor in (1, 2)]
-    nowhere = os.open(os.devnull, os.O_WRONLY)
+    null = os.open(os.devnull, os.O_WRONLY)
     try:
         for _, descriptor in kept:
-            os.dup2(nowhere, descriptor)
+            os.dup2(null, descriptor)
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
             yield
     finally:
@@ -39,4 +39,4 @@ def quiet_blender() -> Iterator[None]:
         for copy, descriptor in kept:
             os.dup2(copy, descriptor)
             os.close(copy)
-        os.close(nowhere)
+        os.close(null)

@@ -1,26 +1,29 @@
-"""What the user of the command line sees."""
+"""Shows progress, results, warnings and errors in the terminal."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TextIO
+from typing import TextIO, TypeVar
 
-from ...core.steps.progress import Progress
+from ...core.steps.progress import Progress, Steps, mapped, run
 
+T = TypeVar("T")
+
+# Time between two lines of progress at least.
 _TERMINAL_SECONDS = 0.1
 _LOG_SECONDS = 2.0
 
 
 class Screen:
-    """Results on one stream; progress, warnings and errors on another.
+    """Writes results to one stream; progress, warnings and errors to another.
 
     Parameters
     ----------
     out, err : text streams
-        If `err` is a terminal, progress keeps to one line there.
+        If `err` is a terminal, progress is one line that is overwritten.
     quiet : bool
-        Whether to leave out results and progress.
+        Show warnings and errors only.
     clock : callable, optional
         Returns seconds; tests pass their own.
     """
@@ -41,23 +44,32 @@ class Screen:
         self._next = 0.0
 
     def result(self, text: str) -> None:
-        """Show a line of the summary."""
+        """Show a result."""
         if not self._quiet:
             self._wipe()
             _write(self._out, f"{text}\n")
 
     def warning(self, text: str) -> None:
-        """Show a finding that stopped nothing."""
+        """Show a warning."""
         self._wipe()
         _write(self._err, f"warning: {text}\n")
 
     def error(self, text: str) -> None:
-        """Show what failed."""
+        """Show an error."""
         self._wipe()
         _write(self._err, f"error: {text}\n")
 
+    def follow(self, title: str, steps: Steps[T]) -> T:
+        """Finish a computation, show its progress and return its value."""
+
+        def show(progress: Progress) -> Progress:
+            self.progress(title, progress)
+            return progress
+
+        return run(mapped(steps, show))
+
     def progress(self, title: str, progress: Progress) -> None:
-        """Show where a computation stands, now and then."""
+        """Show where a computation stands, unless something was just shown."""
         if self._quiet or self._clock() < self._next:
             return
         line = f"{title}: {progress.stage}"
@@ -72,14 +84,14 @@ class Screen:
             _write(self._err, f"{line} ({progress.fraction:.0%})\n")
 
     def _wipe(self) -> None:
-        """Remove the line of progress from a terminal."""
+        """Erase the line of progress in the terminal."""
         if self._line:
             _write(self._err, "\r" + " " * len(self._line) + "\r")
             self._line = ""
 
 
 def _write(stream: TextIO, text: str) -> None:
-    """Write text, spelling out what the stream's encoding lacks."""
+    """Write text; escape characters that the stream cannot encode."""
     encoding = stream.encoding or "utf-8"
     stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
     stream.flush()

@@ -20,12 +20,15 @@ from unittest import mock
 import numpy as np
 from over_models import add_jobs, measured, parse, parser
 from princeton import category, mean_error, median_count, read_humans, read_model
+from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.clusters.embedding import embed
-from weak_convex_decomposition.core.decomposition import decompose_seen
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import preset
-from weak_convex_decomposition.core.parts import part_count, partition
+from weak_convex_decomposition.core.parts import part_count, part_memo, partition
 from weak_convex_decomposition.core.sight import visibility
+from weak_convex_decomposition.core.sight.prepared import PreparedShape
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
@@ -64,7 +67,7 @@ CHANGES: dict[str, dict[str, object]] = {
 # What lines replace in the code, where no parameter does: module, name, replacement.
 PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
     "eigenvectors of equal length": [
-        (visibility, "embed", lambda *given: of_equal_length(embed(*given)))
+        (part_memo, "embed", lambda *given: of_equal_length(embed(*given)))
     ],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
@@ -73,7 +76,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (partition, "_NEGLIGIBLE", 0.0),
         (part_count, "_GAIN_TOLERANCE", 0.0),
     ],
-    "no symmetry": [(partition, "find_sides", no_sides)],
+    "no symmetry": [(part_memo, "find_sides", no_sides)],
     "no comparison with loose clusters": [
         (partition.Partitioner, "psi_of_clusters", lambda *_: -np.inf)
     ],
@@ -104,19 +107,21 @@ def outcomes(
     mesh, humans = read_model(directory, model), read_humans(directory, model)
     n_humans = median_count(humans)
     found = []
-    with shared_sight():
-        full = run(visibility.see(mesh, parameters, BvhRayCaster))
+    with shared_sight(mesh):
+        cache = ShapeCache(BvhRayCaster)
+        shape = run(cache.prepare(mesh))
+        full = run(cache.see(shape, parameters)).visibility
         for line in lines:
             settings = replace(parameters, **CHANGES[line])
             given_settings = replace(settings, parts=n_humans)
             with patched(PATCHES.get(line, ())):
-                seen = run(visibility.see(mesh, settings, BvhRayCaster))
+                cache = ShapeCache(BvhRayCaster)
                 auto, given = (
-                    run(decompose_seen(mesh, seen, asked, BvhRayCaster))
+                    run(decompose_in_steps(mesh, asked, cache))
                     for asked in (settings, given_settings)
                 )
             samples = full.transfer.to_samples(auto.labels)
-            tally = full.pairs.tally(samples, auto.n_parts)
+            tally = full.psi_pairs.tally(samples, auto.n_parts)
             found.append(
                 Outcome(
                     model,
@@ -140,20 +145,18 @@ def patched(replacements: Sequence[tuple[Any, str, Any]]) -> Iterator[None]:
 
 
 @contextmanager
-def shared_sight() -> Iterator[None]:
+def shared_sight(mesh: TriangleMesh) -> Iterator[None]:
     """Look once for all lines that see the same: that takes longest."""
 
-    def looked_at(
-        _mesh: object, parameters: Parameters, _caster: object, members: object = None
-    ) -> Hashable:
-        if members is not None:
+    def looked_at(shape: PreparedShape, parameters: Parameters) -> Hashable:
+        if shape.n_nodes < mesh.n_polygons:
             return object()  # samples of a part alone are nobody else's
         named = vars(parameters).items()
         return frozenset(item for item in named if item[0] not in AFTERWARDS)
 
     keys: dict[str, Callable[..., Hashable]] = {
-        "look": looked_at,
-        "_through_containers": id,
+        "find_lines_of_sight": looked_at,
+        "see_through_containers": lambda *given: tuple(map(id, given[1:])),
     }
     shared = {name: once(getattr(visibility, name), key) for name, key in keys.items()}
     with patched([(visibility, name, steps) for name, steps in shared.items()]):

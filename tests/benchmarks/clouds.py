@@ -15,15 +15,14 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
+from computed import decompose
 from over_models import add_jobs, measured, parse, parser
 from princeton import mean_error, read_humans, read_model
-from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
 from weak_convex_decomposition.core.geometry.sampling import Samples, sample_surface
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.sight.ray_march import MakeCaster
-from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
 _POINTS = 5000
@@ -61,7 +60,7 @@ def scores(
     cases: list[int],
 ) -> list[Score]:
     """Decompose a model and its clouds of some cases, rows of `_CASES`."""
-    labels = run(decompose(mesh, parameters, make_caster)).labels
+    labels = decompose(mesh, parameters, make_caster=make_caster).labels
     found = []
     for case in cases:
         noise, missing, oriented = _CASES[case]
@@ -73,7 +72,7 @@ def scores(
         cloud = PointCloud(
             samples.positions[kept] + jitter, normals if oriented else None
         )
-        parts = run(decompose(cloud, parameters, make_caster))
+        parts = decompose(cloud, parameters, make_caster=make_caster)
         faces = mesh.polygons[samples.triangles[kept]]
         truths = [human[faces] for human in humans]
         used = normals if parts.normals is None else parts.normals
@@ -139,7 +138,9 @@ def main() -> int:
     ]
     make_caster = BvhRayCaster
     if arguments.embree:
-        from embree_caster import EmbreeCaster as make_caster
+        from weak_convex_decomposition.operators.bridge.rays.embree import (
+            EmbreeRayCaster as make_caster,
+        )
 
     def measure(model: int) -> list[Score]:
         mesh = read_model(arguments.directory, model)

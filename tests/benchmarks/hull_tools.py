@@ -35,19 +35,18 @@ def vhacd(vertices, triangles, _):
 
 def ours(vertices, triangles, n_hulls):
     import conftest  # noqa: F401  # the checkout as a package
+    from computed import build_hulls
     from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 
     # Where SciPy is loaded does not count for any tool.
-    from weak_convex_decomposition.core.hulls.build import build_hulls
     from weak_convex_decomposition.core.parameters.hulls import HullParameters
-    from weak_convex_decomposition.core.steps.progress import run
 
     mesh = TriangleMesh(vertices, triangles, np.arange(len(triangles)))
     parameters = HullParameters(
         max_hulls=int(n_hulls), max_error=LEAST_ERROR, max_vertices=MOST_VERTICES
     )
     started = time.process_time()
-    found = run(build_hulls(mesh, None, parameters, 0))
+    found = build_hulls(mesh, parameters)
     seconds = time.process_time() - started
     return [shape.hull.vertices for shape in found.shapes], seconds
 

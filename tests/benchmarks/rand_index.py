@@ -21,11 +21,12 @@ from over_models import add_jobs, measured, parse, parser
 from princeton import mean_error, median_count, read_humans, read_model
 from score_table import Score, report
 from symmetry import find_mirror
-from weak_convex_decomposition.core.decomposition import decompose_seen
+from weak_convex_decomposition.core.cache import ShapeCache
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import Decomposition
-from weak_convex_decomposition.core.sight.visibility import Visibility, look, see
+from weak_convex_decomposition.core.sight.visibility import find_lines_of_sight
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
@@ -43,11 +44,11 @@ def score(
     n_humans = median_count(humans)
     given_parameters = replace(parameters, parts=n_humans)
     started, processor_started = time.perf_counter(), time.process_time()
-    visibility = run(see(mesh, parameters, BvhRayCaster))
-    auto = run(decompose_seen(mesh, visibility, parameters, BvhRayCaster))
+    cache = ShapeCache(BvhRayCaster)
+    auto = run(decompose_in_steps(mesh, parameters, cache))
     seconds = time.perf_counter() - started
     processor_seconds = time.process_time() - processor_started
-    given = run(decompose_seen(mesh, visibility, given_parameters, BvhRayCaster))
+    given = run(decompose_in_steps(mesh, given_parameters, cache))
     return Score(
         model=model,
         given=mean_error(given.labels, humans),
@@ -59,7 +60,7 @@ def score(
         seconds=seconds,
         processor_seconds=processor_seconds,
         **asymmetries(mesh, auto.labels, humans),
-        **(on_fresh_samples(mesh, visibility, auto, parameters) if fresh else {}),
+        **(on_fresh_samples(mesh, cache, auto, parameters) if fresh else {}),
         **(of_coacd(beside, model, humans) if beside else {}),
     )
 
@@ -79,23 +80,26 @@ def asymmetries(
 
 def on_fresh_samples(
     mesh: TriangleMesh,
-    visibility: Visibility,
+    cache: ShapeCache,
     auto: Decomposition,
     parameters: Parameters,
 ) -> dict[str, float]:
     """Return psi (eq. 5) by all pairs of samples that no parts were found from."""
-    fresh = run(look(mesh, Parameters(seed=parameters.seed + 1), BvhRayCaster))
+    shape = run(cache.prepare(mesh))
+    memo = run(cache.see(shape, parameters))
+    others = Parameters(seed=parameters.seed + 1)
+    fresh = run(find_lines_of_sight(shape, others))
     polygons = mesh.polygons[fresh.samples.triangles]
 
     def psi(labels: np.ndarray) -> float:
-        tally = fresh.pairs.tally(labels[polygons], int(labels.max()) + 1)
+        tally = fresh.rank_pairs.tally(labels[polygons], int(labels.max()) + 1)
         return tally.psi(parameters.alpha)
 
     k = auto.n_parts
     return {
         "fresh_psi": psi(auto.labels),
-        "kmeans_psi": psi(clusters(visibility, k, parameters)),
-        "connected_psi": psi(connected_clusters(visibility, k, parameters)),
+        "kmeans_psi": psi(clusters(memo, k, parameters)),
+        "connected_psi": psi(connected_clusters(memo, k, parameters)),
     }
 
 

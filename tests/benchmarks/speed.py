@@ -26,7 +26,7 @@ from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
-from weak_convex_decomposition.operators.bridge.work.sight_cache import forget
+from weak_convex_decomposition.operators.bridge.work.session_cache import forget
 
 PARAMETERS = Parameters()
 RECUTS = (

@@ -4,24 +4,21 @@ from functools import cache
 
 import numpy as np
 import pytest
-from brute_caster import BruteCaster
+from computed import decompose, see
 from scipy.optimize import linear_sum_assignment
-from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.sight.visibility import see
-from weak_convex_decomposition.core.steps.progress import run
 
 N_SAMPLES = 150
 
 
 @pytest.fixture(scope="session")
 def seen():
-    """Return a function from a maker of a mesh to its visibility."""
+    """Return a function from a maker of a mesh to the memo of its visibility."""
 
     @cache
     def visibility(make, **values):
         values = {"samples": N_SAMPLES, **values}
-        return run(see(make(), Parameters(**values), BruteCaster))
+        return see(make(), Parameters(**values))
 
     return visibility
 
@@ -33,7 +30,7 @@ def decomposed():
     @cache
     def decomposition(make, **values):
         values = {"samples": N_SAMPLES, "max_parts": 6, **values}
-        return run(decompose(make(), Parameters(**values), BruteCaster))
+        return decompose(make(), Parameters(**values))
 
     return decomposition
 

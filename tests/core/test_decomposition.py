@@ -2,18 +2,18 @@ import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
-from weak_convex_decomposition.core.decomposition import decompose
+from computed import decompose, parts_of
+from weak_convex_decomposition.core.cache import ShapeCache
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.find import find_parts
-from weak_convex_decomposition.core.steps.progress import run
 
 
 def split_up(mesh, **values):
     values = {"samples": 150, "max_parts": 5, **values}
-    return run(decompose(mesh, Parameters(**values), BruteCaster))
+    return decompose(mesh, Parameters(**values))
 
 
 @pytest.mark.parametrize("make", [shapes.comb, shapes.plus, shapes.dumbbell])
@@ -35,9 +35,9 @@ def test_the_figures_agree_with_each_other(decomposed, make):
 
 
 def test_a_given_number_of_parts_has_its_psi(seen):
-    found = run(find_parts(seen(shapes.comb), Parameters(samples=150, parts=4)))
+    found = parts_of(seen(shapes.comb), Parameters(samples=150, parts=4))
     assert found.n_parts == 4
-    searched = run(find_parts(seen(shapes.comb), Parameters(samples=150)))
+    searched = parts_of(seen(shapes.comb), Parameters(samples=150))
     assert found.psi_by_k == searched.psi_by_k
     assert found.best_k == searched.best_k == searched.n_parts
     assert found.notes == ()
@@ -45,7 +45,7 @@ def test_a_given_number_of_parts_has_its_psi(seen):
 
 def test_the_balance_decides_how_far_to_split(seen):
     counts = [
-        run(find_parts(seen(shapes.comb), Parameters(samples=150, alpha=alpha))).n_parts
+        parts_of(seen(shapes.comb), Parameters(samples=150, alpha=alpha)).n_parts
         for alpha in (0.0, 1.0, 10.0)
     ]
     assert counts[0] == 1
@@ -91,7 +91,9 @@ def test_double_faces_and_sheets_inside_leave_the_parts_as_they_are():
 
 
 def test_progress_rises_from_nothing_to_all():
-    steps = decompose(shapes.l_shape(), Parameters(samples=100), BruteCaster)
+    parameters = Parameters(samples=100)
+    cache = ShapeCache(BruteCaster)
+    steps = decompose_in_steps(shapes.l_shape(), parameters, cache)
     progress = list(steps)
     fractions = [p.fraction for p in progress]
     assert fractions == sorted(fractions)

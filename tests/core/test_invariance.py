@@ -3,16 +3,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
-from weak_convex_decomposition.core.decomposition import decompose
+from computed import decompose
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.steps.progress import run
 
 
 def split_up(mesh, **values):
     values = {"samples": 150, "max_parts": 5, **values}
-    return run(decompose(mesh, Parameters(**values), BruteCaster))
+    return decompose(mesh, Parameters(**values))
 
 
 def same_partition(agreement, found, other, areas, polygons=None):

@@ -1,11 +1,10 @@
 import numpy as np
 import pytest
+from computed import parts_of
 from shapes import dumbbell
+from weak_convex_decomposition.core.parameters.choices import PICTURES
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parameters.pictures import PICTURES
-from weak_convex_decomposition.core.parts.find import find_parts
 from weak_convex_decomposition.core.pictures import draw_picture
-from weak_convex_decomposition.core.steps.progress import run
 
 COLORS = np.array([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]])
 PARAMETERS = Parameters(samples=150, parts=3)
@@ -13,11 +12,11 @@ PARAMETERS = Parameters(samples=150, parts=3)
 
 @pytest.fixture(params=["ALL_PAIRS", "CONE"])
 def pictures(seen, request):
-    visibility = seen(dumbbell, parts=3, sight=request.param)
-    labels = run(find_parts(visibility, PARAMETERS)).labels
+    memo = seen(dumbbell, parts=3, sight=request.param)
+    labels = parts_of(memo, PARAMETERS).labels
 
     def draw(kind):
-        return draw_picture(kind, visibility, labels, PARAMETERS, COLORS).pixels
+        return draw_picture(kind, memo, labels, PARAMETERS, COLORS).pixels
 
     return draw
 

@@ -24,3 +24,18 @@ def assert_convex(hull, grain=1e-14):
     volume = np.einsum("fd,fd->f", a, np.cross(b, c)).sum() / 6
     assert volume == pytest.approx(hull.volume, rel=1e-6)
     assert volume > 0
+
+
+def heights_above_shape(shape, points):
+    """Return the heights of points above a collision shape, negative inside."""
+    if shape.kind == "HULL":
+        return shape.hull.heights(points)
+    local = (points - shape.center) @ shape.axes.T
+    if shape.kind == "BOX":
+        return (np.abs(local) - shape.sizes).max(axis=1)
+    radius, _, half = shape.sizes
+    if shape.kind == "CYLINDER":
+        around = np.hypot(local[:, 0], local[:, 1]) - radius
+        return np.maximum(around, np.abs(local[:, 2]) - half)
+    local[:, 2] -= np.clip(local[:, 2], -half, half)
+    return np.linalg.norm(local, axis=1) - radius

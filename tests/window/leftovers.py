@@ -2,9 +2,7 @@
 
 import bpy
 from weak_convex_decomposition.operators import recut, sight_overlay
-from weak_convex_decomposition.operators.bridge.work import (
-    sight_cache as visibility_cache,
-)
+from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.running import current as running
 
 
@@ -31,5 +29,5 @@ def handlers():
 
 
 def remembered():
-    """Return how many visibilities are kept."""
-    return len(visibility_cache._latest)
+    """Return whether the lines of sight of a shape are kept."""
+    return session_cache._cache is not None

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from .... import core
 from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
@@ -22,8 +23,8 @@ from ..stored.record import identities_of, record_of, write_hull_record
 from .rigid_bodies import soften
 
 if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
+    from ....core.geometry.primitives import CollisionShape
     from ....core.hulls.build import HullDecomposition
-    from ....core.hulls.primitives import CollisionShape
 
 # Custom property of hulls, and of the collections made for them.
 _TAG = "wcd_hull"
@@ -122,7 +123,7 @@ def _hull_object(
     name: str, shape: CollisionShape, scale: np.ndarray, material: bpy.types.Material
 ) -> bpy.types.Object:
     """Return an object with the mesh of a shape."""
-    outline = shape.outline()
+    outline = core.outline_of(shape)
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(
         (outline.vertices / scale).tolist(), [], outline.triangles.tolist()
@@ -143,5 +144,5 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
         "error": float(found.errors[row]),
         "volume": float(shape.volume),
         "part": int(found.parts[row]) if found.has_parts else None,
-        "vertices": len(shape.outline().vertices),
+        "vertices": len(core.outline_of(shape).vertices),
     }

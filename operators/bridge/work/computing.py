@@ -1,4 +1,8 @@
-"""What is computed of an object: checked and read at once, done step by step."""
+"""What is computed of an object: it is checked and read at once, then worked on.
+
+Each function returns the work as `Steps`. Errors of an object that cannot be read or
+written to are raised at once.
+"""
 
 from __future__ import annotations
 
@@ -6,36 +10,34 @@ import sys
 from collections.abc import Iterable
 from dataclasses import replace
 from importlib import import_module
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import bpy
 import numpy as np
 
+from .... import core
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
+from ....core.results import Decomposition, HullDecomposition, Measurement, Picture
 from ....core.steps.progress import Progress, Steps, within
 from ..hulls.hull_objects import hull_refusal
 from ..parts.palette import part_srgb
 from ..parts.parted import part_identities, part_labels
 from ..parts.write import check_writable
-from ..rays.bvh import BvhRayCaster
 from ..read.converting import CONVERTIBLE
 from ..read.shape import read_shape, reading_notes, selected_faces
 from ..stored.record import check_records, noted_parameters
-from .sight_cache import is_seen, see_once
+from .session_cache import has_seen, session_cache
 
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.decomposition import Measurement
-    from ....core.hulls.build import HullDecomposition
-    from ....core.parts.find import Decomposition
-    from ....core.pictures import Picture
-    from ....core.sight.point_view import PointViewer
-    from ....core.sight.prepared import Shape
-
-    Result = TypeVar(
-        "Result", Decomposition, Measurement, HullDecomposition, PointViewer, Picture
-    )
+Result = TypeVar(
+    "Result",
+    Decomposition,
+    Measurement,
+    HullDecomposition,
+    Picture,
+    "core.PointViewer",
+)
 
 # In the order in which they load each other.
 _LIBRARIES = (
@@ -52,18 +54,22 @@ _LIBRARIES = (
 def decompose_object(
     obj: bpy.types.Object, parameters: Parameters
 ) -> Steps[Decomposition]:
-    """Check and read an object that is to be written to; return the work to be done.
+    """Return the work of decomposing an object that parts are to be written to.
 
     Raises
     ------
     DecompositionError
         At once, if the object cannot be read or written to.
     """
-    if obj.type not in CONVERTIBLE:  # else parts go to a new object
+    if obj.type not in CONVERTIBLE:  # parts of these go to a new object
         check_writable(obj)
-    mesh = read_shape(obj)
+    shape = read_shape(obj)
 
-    return _prepared(reading_notes(obj), _decompose(mesh, parameters))
+    def work() -> Steps[Decomposition]:
+        cache = session_cache()
+        return (yield from core.decompose_in_steps(shape, parameters, cache))
+
+    return _with_libraries(reading_notes(obj), work())
 
 
 def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
@@ -72,78 +78,65 @@ def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
     Errors are those of `decompose_object`.
     """
     check_writable(obj)
-    return parameters.levels == 1 and is_seen(read_shape(obj), parameters)
-
-
-def _decompose(shape: Shape, parameters: Parameters) -> Steps[Decomposition]:
-    """Decompose as `core.decomposition.decompose` does, by the latest visibility."""
-    from ....core.decomposition import decompose_seen, share_of_sight
-
-    share = share_of_sight(parameters)
-    visibility = yield from within(see_once(shape, parameters), 0.0, share)
-    steps = decompose_seen(shape, visibility, parameters, BvhRayCaster)
-    return (yield from within(steps, share, 1.0))
+    return parameters.levels == 1 and has_seen(read_shape(obj), parameters)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
-    """Check and read an object; return the work to be done.
+    """Return the work of measuring an object.
 
     Errors are those of `decompose_object`.
     """
     check_records(obj)
-    mesh = read_shape(obj)
-
-    def work() -> Steps[Measurement]:
-        from ....core.decomposition import measure
-
-        return (yield from measure(mesh, parameters, BvhRayCaster))
-
-    return _prepared(reading_notes(obj), work())
-
-
-def point_viewer_of(
-    obj: bpy.types.Object, parameters: Parameters
-) -> Steps[PointViewer]:
-    """Check and read an object; return the work of making it ready to be looked from.
-
-    Errors are those of `decompose_object`.
-    """
     shape = read_shape(obj)
 
-    def work() -> Steps[PointViewer]:
-        from ....core.sight.point_view import make_point_viewer
+    def work() -> Steps[Measurement]:
+        return (yield from core.measure_in_steps(shape, parameters, session_cache()))
 
-        return (yield from make_point_viewer(shape, parameters, BvhRayCaster))
-
-    return _prepared(reading_notes(obj), work())
+    return _with_libraries(reading_notes(obj), work())
 
 
 def measure_selection_of(
     obj: bpy.types.Object, parameters: Parameters
 ) -> Steps[Measurement]:
-    """Check and read an object; return the work of measuring its selected faces.
+    """Return the work of measuring the selected faces of an object.
 
     Errors are those of `decompose_object`, and that no face is selected.
     """
     check_records(obj)
-    mesh, faces = read_shape(obj), selected_faces(obj)
+    shape, faces = read_shape(obj), selected_faces(obj)
     if not faces.any():
         raise DecompositionError(
             "No faces are selected; select those to be measured in Edit Mode."
         )
 
     def work() -> Steps[Measurement]:
-        from ....core.measurement import measure_region
+        cache = session_cache()
+        return (yield from core.measure_in_steps(shape, parameters, cache, faces))
 
-        return (yield from measure_region(mesh, faces, parameters, BvhRayCaster))
+    return _with_libraries(reading_notes(obj), work())
 
-    return _prepared(reading_notes(obj), work())
+
+def point_viewer_of(
+    obj: bpy.types.Object, parameters: Parameters
+) -> Steps[core.PointViewer]:
+    """Return the work of making an object ready to be looked from.
+
+    Errors are those of `decompose_object`.
+    """
+    shape = read_shape(obj)
+
+    def work() -> Steps[core.PointViewer]:
+        prepared = yield from within(session_cache().prepare(shape), 0.0, 0.4)
+        viewer = core.point_viewer_in_steps(prepared, parameters)
+        return (yield from within(viewer, 0.4, 1.0))
+
+    return _with_libraries(reading_notes(obj), work())
 
 
 def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
-    """Check and read an object with parts; return the work of drawing a picture of it.
+    """Return the work of drawing a picture of what an object's parts come from.
 
-    Lines of sight are looked up as they were for the parts. Errors are those of
+    Lines of sight are found as they were for the parts. Errors are those of
     `decompose_object`.
     """
     parameters = noted_parameters(obj)
@@ -156,41 +149,41 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
     colors = np.array([part_srgb(identity.number) for identity in identities])
 
     def work() -> Steps[Picture]:
-        from ....core.pictures import draw_picture
-
-        visibility = yield from within(see_once(shape, parameters), 0.0, 0.9)
+        cache = session_cache()
+        prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
+        memo = yield from within(cache.see(prepared, parameters), 0.1, 0.9)
         yield Progress("Picture", 0.9)
-        return draw_picture(kind, visibility, labels, parameters, colors)
+        return core.draw_picture(kind, memo, labels, parameters, colors)
 
-    return _prepared((), work())
+    return _with_libraries((), work())
 
 
 def build_hulls_of(
     obj: bpy.types.Object, parameters: Parameters, hull_parameters: HullParameters
 ) -> Steps[HullDecomposition]:
-    """Check and read an object; return the work of building hulls around its parts.
+    """Return the work of building hulls around an object or its parts.
 
-    An object without parts is decomposed only where each is to get one shape, and they
-    are not written to it. Errors are those of `decompose_object`.
+    An object without parts is decomposed only where each part gets one shape. These
+    parts are not written to it. Errors are those of `decompose_object`.
     """
     reason = hull_refusal(obj)
     if reason:
         raise DecompositionError(f"{reason}.")
     check_records(obj)
-    mesh, labels = read_shape(obj), part_labels(obj)
+    shape, labels = read_shape(obj), part_labels(obj)
 
     def work() -> Steps[HullDecomposition]:
-        from ....core.hulls.build import build_hulls
-
-        found, start = labels, 0.0
-        if found is None and hull_parameters.pieces == "PARTS":
+        cache, known, start = session_cache(), labels, 0.0
+        if known is None and hull_parameters.pieces == "PARTS":
             start = 0.4
-            parts = yield from within(_decompose(mesh, parameters), 0, start)
-            found = parts.labels
-        steps = build_hulls(mesh, found, hull_parameters, parameters.seed)
+            parts = core.decompose_in_steps(shape, parameters, cache)
+            known = (yield from within(parts, 0.0, start)).labels
+        steps = core.build_hulls_in_steps(
+            shape, hull_parameters, cache, known, parameters.seed
+        )
         return (yield from within(steps, start, 1.0))
 
-    return _prepared(reading_notes(obj), work())
+    return _with_libraries(reading_notes(obj), work())
 
 
 def load_libraries() -> Steps[None]:
@@ -213,8 +206,8 @@ def hull_summary(found: HullDecomposition) -> str:
     )
 
 
-def _prepared(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
-    """Load what `steps` need, run them and put `notes` before those of their value."""
+def _with_libraries(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
+    """Load the libraries, run `steps`, and put `notes` before those of their value."""
     yield from load_libraries()
     value = yield from steps
     return replace(value, notes=(*notes, *value.notes))

@@ -4,28 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .... import core
+from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
+from ....core.results import Decomposition
 from ....core.steps.progress import Steps, within
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
 from ..read.shape import read_shape, reading_notes
 from ..stored.identity import Identity, identities_after, with_sides
 from .computing import load_libraries
-from .sight_cache import see_once
+from .session_cache import session_cache
 
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.parts.editing import Change
-    from ....core.parts.find import Decomposition
-    from ....core.sight.prepared import Shape
-    from ....core.sight.visibility import Visibility
-
-    MakeChange: TypeAlias = Callable[[Shape, Visibility, PresentParts], Steps[Change]]
+MakeChange: TypeAlias = Callable[
+    [Shape, "core.PartMemo", PresentParts], Steps["core.Change"]
+]
 
 # Areas that differ by less, in shares of themselves, are those of the same faces.
 _SAME_AREA = 1e-4
@@ -69,7 +68,7 @@ def edit_object(
     ----------
     obj : bpy.types.Object
     make_change : callable
-        Returns the change from the shape, its visibility and the parts.
+        Returns the change from the shape, what is known of it, and the parts.
     parameters : Parameters, optional
         Of the visibility; those that the parts were found with if left out.
 
@@ -86,11 +85,12 @@ def edit_object(
 
     def work() -> Steps[Edited]:
         yield from load_libraries()
-        looked = see_once(shape, parameters)
-        visibility = yield from within(looked, 0.0, 0.5)
-        steps = make_change(shape, visibility, parts)
+        cache = session_cache()
+        prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
+        memo = yield from within(cache.see(prepared, parameters), 0.1, 0.5)
+        steps = make_change(shape, memo, parts)
         change = yield from within(steps, 0.5, 1.0)
-        found, identities = _described(visibility, parts, change, parameters)
+        found, identities = _described(memo, parts, change, parameters)
         found = replace(found, notes=(*notes, *found.notes))
         return Edited(found, identities, parameters)
 
@@ -98,24 +98,26 @@ def edit_object(
 
 
 def _described(
-    visibility: Visibility, parts: PresentParts, change: Change, parameters: Parameters
+    memo: core.PartMemo,
+    parts: PresentParts,
+    change: core.Change,
+    parameters: Parameters,
 ) -> tuple[Decomposition, tuple[Identity, ...]]:
     """Return the figures of changed parts, in the order of their numbers."""
-    from ....core.parts.editing import compacted
-    from ....core.parts.find import describe
-
-    labels, former = compacted(change.labels)
+    labels, former = core.compacted(change.labels)
     before = with_sides(parts.identities, change.mirrored.values(), change.side)
     identities = identities_after(before, former.tolist(), change.mirrored)
     order = sorted(range(len(former)), key=lambda row: identities[row].number)
     labels, former = np.argsort(order)[labels], former[order]
-    found = describe(visibility, labels, parameters, parts.psi_by_k, parts.best_k)
+    found = core.describe(
+        memo.visibility, labels, parameters, parts.psi_by_k, parts.best_k
+    )
     ranks = _ranks(found, parts, change, former.tolist())
     return replace(found, ranks=ranks), tuple(identities[row] for row in order)
 
 
 def _ranks(
-    found: Decomposition, parts: PresentParts, change: Change, former: list[int]
+    found: Decomposition, parts: PresentParts, change: core.Change, former: list[int]
 ) -> NDArray[np.float64]:
     """Return the rank of each part, as well as it is known.
 

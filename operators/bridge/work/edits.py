@@ -4,31 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .... import core
 from ....core.errors import DecompositionError
-from ....core.steps.progress import Progress, Steps, within
+from ....core.geometry.shape import Shape
+from ....core.steps.progress import Progress, Steps, within_turn
 from ..parts.present_parts import PresentParts
-from ..rays.bvh import BvhRayCaster
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.parts.editing import Change
-    from ....core.sight.prepared import Shape
-    from ....core.sight.visibility import Visibility
-    from .editing import MakeChange
+from .editing import MakeChange
+from .session_cache import session_cache
 
 
 def merging(chosen: Sequence[int], into: int) -> MakeChange:
     """Return the edit that makes one part of several."""
 
-    def change(_: Shape, __: Visibility, parts: PresentParts) -> Steps[Change]:
-        from ....core.parts.editing import merge
-
+    def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
         yield Progress("Merge", 0.0)
-        return merge(parts.labels, chosen, into)
+        return core.merge(parts.labels, chosen, into)
 
     return change
 
@@ -38,11 +32,9 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
     if not faces.any():
         raise DecompositionError("No face is selected; select those to be assigned.")
 
-    def change(_: Shape, __: Visibility, parts: PresentParts) -> Steps[Change]:
-        from ....core.parts.editing import give
-
+    def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
         yield Progress("Assign", 0.0)
-        return give(parts.labels, faces, part)
+        return core.give(parts.labels, faces, part)
 
     return change
 
@@ -50,20 +42,16 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
 def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
     """Return the edit that splits each of some parts into so many, 0 for by psi."""
 
-    def change(shape: Shape, _: Visibility, parts: PresentParts) -> Steps[Change]:
-        from ....core.decomposition import decompose
-        from ....core.parts.editing import Change
-
+    def change(
+        shape: Shape, _: core.PartMemo, parts: PresentParts
+    ) -> Steps[core.Change]:
         labels, ranks = parts.labels.copy(), {}
         free = len(parts.identities)
         parameters = replace(parts.parameters, parts=n_parts, levels=1)
         for turn, part in enumerate(chosen):
             members = parts.labels == part
-            found = yield from within(
-                decompose(shape, parameters, BvhRayCaster, members),
-                turn / len(chosen),
-                (turn + 1) / len(chosen),
-            )
+            steps = core.decompose_in_steps(shape, parameters, session_cache(), members)
+            found = yield from within_turn(steps, turn, len(chosen))
             # The largest piece goes on as the part that it was.
             numbers = np.array([part, *range(free, free + found.n_parts - 1)])
             labels[members] = numbers[found.labels]
@@ -71,7 +59,7 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
             free += found.n_parts - 1
         if free == len(parts.identities):
             raise _nothing_split(parts.identities[chosen[0]].name, n_parts)
-        return Change(labels, ranks)
+        return core.Change(labels, ranks)
 
     return change
 
@@ -90,14 +78,13 @@ def _nothing_split(name: str, n_parts: int) -> DecompositionError:
 def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
     """Return the edit that smooths the seams of parts."""
 
-    def change(_: Shape, seen: Visibility, parts: PresentParts) -> Steps[Change]:
-        from ....core.parts.editing import Change
-        from ....core.parts.seam_smoothing import smooth_seams
-
-        nodes = seen.form.labels_of_nodes(parts.labels)
-        surface = seen.transfer.surface
-        smoothed = yield from smooth_seams(surface, nodes, chosen, smoothness)
-        return Change(smoothed[seen.form.nodes])
+    def change(
+        _: Shape, memo: core.PartMemo, parts: PresentParts
+    ) -> Steps[core.Change]:
+        shape, graph = memo.visibility.shape, memo.visibility.transfer.graph
+        nodes = shape.labels_of_nodes(parts.labels)
+        smoothed = yield from core.smooth_seams(graph, nodes, chosen, smoothness)
+        return core.Change(smoothed[shape.nodes])
 
     return change
 
@@ -105,16 +92,13 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
 def mirroring(to_negative: bool) -> MakeChange:
     """Return the edit that copies the parts of one side of X to the other."""
 
-    def change(shape: Shape, seen: Visibility, parts: PresentParts) -> Steps[Change]:
-        from ....core.parts.editing import mirror
-
-        nodes = seen.form.labels_of_nodes(parts.labels)
-        found = yield from mirror(
-            nodes,
-            seen.transfer.surface,
-            -float(shape.center[0]) / shape.diagonal,
-            to_negative,
-        )
-        return replace(found, labels=found.labels[seen.form.nodes])
+    def change(
+        _: Shape, memo: core.PartMemo, parts: PresentParts
+    ) -> Steps[core.Change]:
+        shape, graph = memo.visibility.shape, memo.visibility.transfer.graph
+        nodes = shape.labels_of_nodes(parts.labels)
+        middle = -float(shape.center[0]) / shape.diagonal
+        found = yield from core.mirror(nodes, graph, middle, to_negative)
+        return replace(found, labels=found.labels[shape.nodes])
 
     return change

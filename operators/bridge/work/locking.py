@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
+from .... import core
 from ....core.errors import DecompositionError
+from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
 from ....core.steps.progress import Steps
 from ..parts.present_parts import PresentParts, edit_refusal, present_parts
-from ..rays.bvh import BvhRayCaster
 from .computing import decompose_object
 from .editing import Edited, edit_object
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.parts.editing import Change
-    from ....core.sight.prepared import Shape
-    from ....core.sight.visibility import Visibility
+from .session_cache import session_cache
 
 
 def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
@@ -50,16 +46,16 @@ def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edit
             "All parts are locked, so that nothing is left to decompose; unlock some."
         )
 
-    def change(shape: Shape, _: Visibility, parts: PresentParts) -> Steps[Change]:
-        from ....core.decomposition import decompose
-        from ....core.parts.editing import Change
-
-        found = yield from decompose(shape, rest, BvhRayCaster, members)
+    def change(
+        shape: Shape, _: core.PartMemo, parts: PresentParts
+    ) -> Steps[core.Change]:
+        cache = session_cache()
+        found = yield from core.decompose_in_steps(shape, rest, cache, members)
         labels = parts.labels.copy()
         first = len(parts.identities)
         labels[members] = first + found.labels
         ranks = {first + part: rank for part, rank in enumerate(found.ranks.tolist())}
-        return Change(labels, ranks)
+        return core.Change(labels, ranks)
 
     return edit_object(obj, change, parameters)
 

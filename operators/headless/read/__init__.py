@@ -1,1 +1,6 @@
-"""Files become objects."""
+"""Files become objects.
+
+`load` is the entry. It checks a file (`damage_checks`, `finite_checks`) and calls the
+importer of its ending (`importers`): Blender's, or ours for .off (`off_files`) and
+.xyz .pwn .pts (`point_files`).
+"""

@@ -1,1 +1,1 @@
-"""What the command line asks for."""
+"""What the user asks for: the options of the command line, checked."""

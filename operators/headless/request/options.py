@@ -1,10 +1,11 @@
-"""The command line's options; those of the method come from its parameters."""
+"""The options of the command line, and the request that they make."""
 
 from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
@@ -12,42 +13,30 @@ from ....core.parameters.parameter import info_of
 from ....core.parameters.parts import Parameters
 from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ...bridge.stored.notes import version
-from ..read.models import ENDINGS as READ
-from ..write.hull_files import HULL_ENDINGS, HULL_FORMATS
-from ..write.models import ENDINGS as WRITTEN
+from ..formats import HULL_FORMATS
+from .help_text import DESCRIPTION, EPILOG
 from .outputs import Targets, targets_for
-from .parameter_options import add_option
-
-_DESCRIPTION = f"""\
-Split the mesh objects of each INPUT into weakly convex parts.
-INPUT ends in one of {" ".join(READ)}.
-Results go to the files that the options name; a summary goes to standard output,
-progress, warnings and errors to standard error."""
+from .parameter_options import HelpFormatter, add_option
 
 _DEFAULT_PRESET = PRESETS[0].identifier
-
-_EPILOG = f"""\
-output formats:
-  .blend  everything: materials, vertex groups, face attribute wcd_part, record
-  .glb    one material a part; the record as extras of the node
-  .obj    one material and group a part, in an .mtl file beside it
-  .ply    colors and part numbers on the vertices; vertices on seams doubled
-OUTPUT ends in one of {" ".join(WRITTEN)}. With several inputs, OUTPUT, PICTURE and
-HULLS contain {{name}}, which stands for the input's name without its ending.
-
-hull formats:
-  .glb .obj .usd  an object a hull
-  .stl            all hulls in one mesh
-  .urdf .xml      for simulators (.xml is MuJoCo's MJCF); each hull an .obj file in the
-                  folder HULLS_hulls beside it
-HULLS ends in one of {" ".join(HULL_ENDINGS)}.
-
-exit status: 0 all done; 1 some input failed and the rest is done; 2 wrong usage."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """What the user asks for, checked as far as is possible without reading."""
+    """What the user asks for; checked, except for the content of the inputs.
+
+    Attributes
+    ----------
+    inputs : tuple of Path
+    targets : tuple of Targets
+        The files to write for each input.
+    report : Path or None
+    up : {'Y', 'Z'} or None
+        Axis that points up in the inputs; None for the usual one of each format.
+    quiet : bool
+    parameters : Parameters
+    hull_parameters : HullParameters
+    """
 
     inputs: tuple[Path, ...]
     targets: tuple[Targets, ...]
@@ -59,17 +48,22 @@ class Request:
 
 
 def parse(arguments: list[str], program: str) -> Request:
-    """Return the request that `arguments` state; exits like argparse."""
+    """Return the request of a command line.
+
+    Parameters
+    ----------
+    arguments : list of str
+        The words after the program.
+    program : str
+        How the user starts the program.
+
+    Raises
+    ------
+    SystemExit
+        After --help and --version, and with status 2 if the arguments are wrong.
+    """
     parser = _parser(program)
     options = parser.parse_args(arguments)
-    given, for_hulls = (
-        {
-            f.name: getattr(options, f.name)
-            for f in fields(kind)
-            if hasattr(options, f.name)
-        }
-        for kind in (Parameters, HullParameters)
-    )
     chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
     try:
         return Request(
@@ -84,15 +78,23 @@ def parse(arguments: list[str], program: str) -> Request:
             report=options.report,
             up=options.up,
             quiet=options.quiet,
-            parameters=chosen.parameters(**given),
-            hull_parameters=HullParameters(**for_hulls),
+            parameters=chosen.parameters(**_given(options, Parameters)),
+            hull_parameters=HullParameters(**_given(options, HullParameters)),
         )
     except DecompositionError as error:
         parser.error(str(error))
 
 
+def _given(
+    options: argparse.Namespace, kind: type[Parameters] | type[HullParameters]
+) -> dict[str, Any]:
+    """Return the parameters of a kind that the user gives."""
+    names = [field.name for field in fields(kind)]
+    return {name: getattr(options, name) for name in names if hasattr(options, name)}
+
+
 def _hull_file(hulls: str | None, hulls_format: str | None) -> str | None:
-    """Return the file for hulls with the ending of the format, if one is asked for."""
+    """Return the file for hulls, with the ending of --hulls-format added."""
     if hulls_format is None:
         return hulls
     if hulls is None:
@@ -105,64 +107,75 @@ def _parser(program: str) -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     parser = argparse.ArgumentParser(
         prog=program,
-        description=_DESCRIPTION,
-        epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        usage="%(prog)s INPUT [INPUT ...] [options]",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=HelpFormatter,
         allow_abbrev=False,
+        add_help=False,
     )
     _add_files(parser)
-    method = parser.add_argument_group("parameters of the method")
+    method = parser.add_argument_group("how the parts are found")
     add_option(method, "preset", PRESET_INFO, _DEFAULT_PRESET)
-    for_hulls = parser.add_argument_group("parameters of --hulls")
+    for_hulls = parser.add_argument_group("how the hulls are built (with --hulls)")
     for group, kind in ((method, Parameters), (for_hulls, HullParameters)):
         for each in fields(kind):
             add_option(group, each.name, info_of(each), each.default)
+    _add_general(parser)
     return parser
 
 
 def _add_files(parser: argparse.ArgumentParser) -> None:
-    """Add what is read and written, and how it is told."""
-    parser.add_argument("inputs", metavar="INPUT", nargs="+", type=Path)
-    parser.add_argument(
+    """Add the inputs and the files to write."""
+    files = parser.add_argument_group("files")
+    files.add_argument(
+        "inputs", metavar="INPUT", nargs="+", type=Path, help="models to decompose"
+    )
+    files.add_argument(
         "--output", metavar="OUTPUT", help="write the model with its parts"
     )
-    parser.add_argument(
-        "--report",
-        metavar="FILE.json",
-        type=Path,
-        help="write parameters, parts, their areas and convexity ranks as JSON",
-    )
-    parser.add_argument(
+    files.add_argument(
         "--picture",
         metavar="PICTURE.png",
         help="write a picture of the parts, seen from the front and the back",
     )
-    parser.add_argument(
-        "--hulls",
-        metavar="HULLS",
-        help="write collision hulls of the parts",
+    files.add_argument(
+        "--hulls", metavar="HULLS", help="write collision hulls of the parts"
     )
-    parser.add_argument(
+    files.add_argument(
         "--hulls-format",
         type=str.lower,
         choices=tuple(HULL_FORMATS),
-        help="format of HULLS, whose ending is added where it is missing (default: as"
-        " the ending says)",
+        help="format of HULLS; its ending is added to HULLS if it is missing"
+        " (default: the format of the ending of HULLS)",
     )
-    parser.add_argument(
+    files.add_argument(
+        "--report",
+        metavar="FILE.json",
+        type=Path,
+        help="write the parameters and the parts with their areas and convexity ranks"
+        " as JSON",
+    )
+    files.add_argument(
         "--up",
         type=str.upper,
         choices=("Y", "Z"),
-        help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files, in and"
-        " out (default: Y in .obj and .off, Z in the others; the output keeps the"
-        " axes of the input)",
+        help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files that are"
+        " read or written (default: Y in .obj and .off, Z in the others; the output"
+        " keeps the axes of the input)",
     )
-    parser.add_argument(
-        "--quiet", action="store_true", help="print nothing but errors and warnings"
+
+
+def _add_general(parser: argparse.ArgumentParser) -> None:
+    """Add help, version and what is printed."""
+    group = parser.add_argument_group("general")
+    group.add_argument(
+        "--quiet", action="store_true", help="print warnings and errors only"
     )
-    parser.add_argument(
+    group.add_argument(
         "--version",
         action="version",
         version=f"weak_convex_decomposition {version()}",
         help="print the version",
     )
+    group.add_argument("-h", "--help", action="help", help="print this help")

@@ -1,4 +1,4 @@
-"""Where the results of each input go, checked before any work is done."""
+"""The files that each input is written to, checked before any work is done."""
 
 from __future__ import annotations
 
@@ -8,18 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..write.hull_files import HULL_ENDINGS
-from ..write.models import ENDINGS
+from ..formats import HULL_ENDINGS, MODEL_ENDINGS, PICTURE_ENDINGS
 
 _NAME = "{name}"
 
 
 @dataclass(frozen=True)
 class Targets:
-    """The files that the results of one input go to."""
+    """The files to write for one input, None for those that are not asked for."""
 
-    output: Path | None
-    picture: Path | None
+    output: Path | None = None
+    picture: Path | None = None
     hulls: Path | None = None
 
 
@@ -32,25 +31,32 @@ def targets_for(
 ) -> tuple[Targets, ...]:
     """Return the targets of each input.
 
+    Parameters
+    ----------
+    inputs : sequence of Path
+    output, picture, hulls : str or None
+        Files to write; {name} in them stands for the name of the input.
+    report : Path or None
+        Checked together with the others.
+
     Raises
     ------
     DecompositionError
         If a target cannot be written, is an input, or would be written twice.
     """
-    outputs = _resolved(inputs, output, "--output", ENDINGS)
-    pictures = _resolved(inputs, picture, "--picture", (".png",))
+    outputs = _resolved(inputs, output, "--output", MODEL_ENDINGS)
+    pictures = _resolved(inputs, picture, "--picture", PICTURE_ENDINGS)
     hull_files = _resolved(inputs, hulls, "--hulls", HULL_ENDINGS)
     files = [file for file in (*outputs, *pictures, *hull_files, report) if file]
-    files += [file.with_suffix(".mtl") for file in outputs if _has_materials(file)]
+    files += [
+        file.with_suffix(".mtl")  # written beside the .obj file
+        for file in outputs
+        if file and file.suffix.lower() == ".obj"
+    ]
     for file in files:
         _check_writable(file)
     _check_distinct(files, inputs)
     return tuple(map(Targets, outputs, pictures, hull_files))
-
-
-def _has_materials(file: Path | None) -> bool:
-    """Return whether a second file is written beside `file`."""
-    return file is not None and file.suffix.lower() == ".obj"
 
 
 def _resolved(
@@ -59,7 +65,7 @@ def _resolved(
     option: str,
     endings: tuple[str, ...],
 ) -> list[Path | None]:
-    """Return the file that `pattern` means for each input."""
+    """Return the file for each input; `pattern` may have {name} in it."""
     if pattern is None:
         return [None] * len(inputs)
     if Path(pattern).suffix.lower() not in endings:
@@ -73,7 +79,7 @@ def _resolved(
 
 
 def _check_writable(file: Path) -> None:
-    """Raise if `file` cannot be made or replaced."""
+    """Raise if `file` cannot be created or replaced."""
     if not file.parent.is_dir():
         raise DecompositionError(
             f"{file} cannot be written: there is no folder {file.parent}."

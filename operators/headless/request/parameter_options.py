@@ -1,21 +1,49 @@
-"""Options of the command line, made from infos."""
+"""One option for each parameter of the method and of hulls."""
 
 from __future__ import annotations
 
 import argparse
 import math
+import textwrap
 from collections.abc import Callable
 from typing import Any
 
 from ....core.parameters.parameter import ParameterInfo
 
 
+class HelpFormatter(argparse.RawDescriptionHelpFormatter):
+    """Puts each choice of an option on a line of its own."""
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        """Wrap the first line of a help text, and the indented lines after it."""
+        first, *choices = text.splitlines()
+        lines = textwrap.wrap(first, width)
+        for choice in choices:
+            lines += textwrap.wrap(
+                choice, width, initial_indent="  ", subsequent_indent="    "
+            )
+        return lines
+
+
 def add_option(
     group: argparse._ArgumentGroup, name: str, info: ParameterInfo, default: Any
 ) -> None:
-    """Add an option; unless it is given, the options have no such name."""
+    """Add the option of a parameter.
+
+    The parsed arguments have the parameter only if the user gives the option.
+
+    Parameters
+    ----------
+    group : argument group
+    name : str
+        Name of the parameter; the option has hyphens for underscores.
+    info : ParameterInfo
+    default : str, int or float
+        In radians for angles; the option takes degrees.
+    """
+    convert: Callable[[str], Any]
     if info.choices:
-        convert: Callable[[str], Any] = _choice(info)
+        convert = _choice(info)
         metavar = "{" + ",".join(_word(c.identifier) for c in info.choices) + "}"
         shown = _word(default)
     elif info.subtype == "ANGLE":
@@ -32,25 +60,25 @@ def add_option(
         type=convert,
         default=argparse.SUPPRESS,
         metavar=metavar,
-        help=f"{_explained(info)} (default: {shown})".replace("%", "%%"),
+        help=_help(info, shown).replace("%", "%%"),  # argparse formats with %
     )
 
 
-def _explained(info: ParameterInfo) -> str:
-    """Return the help of a info and of its choices."""
+def _help(info: ParameterInfo, default: str) -> str:
+    """Return the help of a parameter, and a line for each choice."""
     choices = [
         f"{_word(c.identifier)}: {c.help[0].lower()}{c.help[1:]}" for c in info.choices
     ]
-    return ". ".join([info.help, "; ".join(choices)] if choices else [info.help])
+    return "\n".join([f"{info.help} (default: {default})", *choices])
 
 
 def _word(identifier: str) -> str:
-    """Return how an identifier such as ALL_PAIRS is typed: all-pairs."""
+    """Return an identifier such as ALL_PAIRS as the user types it: all-pairs."""
     return identifier.lower().replace("_", "-")
 
 
 def _choice(info: ParameterInfo) -> Callable[[str], str]:
-    """Return a converter to one of a info's identifiers, in any case."""
+    """Return a converter of words to identifiers; upper and lower case are the same."""
     by_word = {_word(choice.identifier): choice.identifier for choice in info.choices}
 
     def convert(text: str) -> str:
@@ -64,7 +92,7 @@ def _choice(info: ParameterInfo) -> Callable[[str], str]:
 
 
 def _angle(info: ParameterInfo) -> Callable[[str], float]:
-    """Return a converter from degrees to radians that names bounds in degrees."""
+    """Return a converter of degrees to radians; its errors are in degrees, too."""
     low, high = math.degrees(info.low), math.degrees(info.high)
 
     def convert(text: str) -> float:

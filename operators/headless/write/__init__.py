@@ -1,1 +1,1 @@
-"""Objects become files."""
+"""Objects become files: models with parts, pictures of parts, and collision hulls."""

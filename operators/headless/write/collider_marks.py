@@ -1,4 +1,4 @@
-"""Marks in files of hulls that say what they are: colliders, convex as they stand."""
+"""Marks the meshes in .glb and .usd files of hulls as convex colliders."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ from pathlib import Path
 import bpy
 
 _EXTENSION = "KHR_physics_rigid_bodies"
-# A .glb file: magic word, version, length; then length and kind of each chunk.
+# A .glb file begins with magic word, version and length. Each chunk begins with its
+# length and kind; the first chunk is JSON.
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
 
 
 def mark_glb(path: Path) -> None:
-    """Make every node with a mesh a convex collider (KHR_physics_rigid_bodies).
+    """Mark every node with a mesh as a convex collider (KHR_physics_rigid_bodies).
 
-    The extension is a draft; who does not know it reads the meshes all the same.
+    The extension is a draft; programs that do not know it still read the meshes.
     """
     data = path.read_bytes()
     magic, version, _ = _HEADER.unpack_from(data)
@@ -41,9 +42,9 @@ def mark_glb(path: Path) -> None:
 
 
 def mark_usd(path: Path) -> None:
-    """Make every mesh a collider that is its convex hull (UsdPhysics).
+    """Mark every mesh as a collider that is its own convex hull (UsdPhysics).
 
-    Blenders older than 4.4 lend no USD to Python; files stay unmarked there.
+    Does nothing before Blender 4.4, whose Python has no USD modules.
     """
     if not hasattr(bpy.utils, "expose_bundled_modules"):
         return

@@ -1,153 +1,131 @@
-"""Hulls to files: models, or descriptions for simulators with a model a hull."""
+"""Writes collision hulls: .glb .obj .stl .usd, and .urdf .xml for simulators."""
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import bpy
 
+from ..atomic import explaining, replacing
+from ..formats import axes
 from ..quiet import quiet_blender
-from ..read.models import axes
 from .collider_marks import mark_glb, mark_usd
-from .models import replacing, told
+from .simulator_files import write_mjcf, write_urdf
 
 
 def save_hulls(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
     """Write hulls to `path` in the format of its ending.
 
-    Simulators get a file that names each hull's own .obj, in a folder beside it.
+    For simulators each hull becomes an .obj file in a folder beside `path`, and
+    `path` refers to them.
 
     Parameters
     ----------
     path : Path
-        File of one of `HULL_ENDINGS`.
+        File with one of `HULL_ENDINGS`.
     hulls : sequence of Object
     up : {'Y', 'Z'}
         Axis that points up in .obj and .stl.
+
+    Raises
+    ------
+    DecompositionError
+        If the files cannot be written.
     """
+    ending = path.suffix.lower()
     bpy.context.view_layer.update()
-    with told(path, "written"), replacing(path) as unfinished:
-        _EXPORTERS[path.suffix.lower()](unfinished, path, hulls, up)
+    with explaining(path, "written"), replacing(path) as unfinished:
+        if ending in _SIMULATORS:
+            meshes = _save_each(hulls, path.with_name(f"{path.stem}_hulls"))
+            _SIMULATORS[ending](unfinished, path.stem, meshes)
+        else:
+            _export(_EXPORTERS[ending], unfinished, hulls, up)
 
 
-def folder_of(path: Path) -> Path:
-    """Return the folder that the hulls of a simulator's file go to."""
-    return path.with_name(f"{path.stem}_hulls")
+def _save_each(hulls: Sequence[bpy.types.Object], folder: Path) -> dict[str, str]:
+    """Write each hull to an .obj file of its own; return the files by hull.
+
+    Z is up, as in simulators. The files are numbered: the name of an object may
+    contain characters that the name of a file may not.
+    """
+    folder.mkdir(exist_ok=True)
+    files = {}
+    for number, hull in enumerate(hulls, start=1):
+        file = folder / f"{number:03d}.obj"
+        _export(_obj, file, [hull], "Z")
+        files[hull.name] = f"{folder.name}/{file.name}"
+    return files
 
 
-def _select(hulls: Sequence[bpy.types.Object]) -> None:
-    """Select these objects alone; Blender's exporters know selections only."""
+def _export(
+    exporter: Callable[[Path, str], None],
+    path: Path,
+    hulls: Sequence[bpy.types.Object],
+    up: str,
+) -> None:
+    """Write hulls by one of Blender's exporters; they write what is selected."""
     chosen = set(hulls)
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in chosen)
-
-
-def _glb(file: Path, _: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:
-    _select(hulls)
     with quiet_blender():
-        bpy.ops.export_scene.gltf(
-            filepath=str(file),
-            export_format="GLB",
-            use_selection=True,
-            export_materials="NONE",
-            export_extras=True,
-        )
-    mark_glb(file)
+        exporter(path, up)
 
 
-def _obj(file: Path, _: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
-    _select(hulls)
-    with quiet_blender():
-        bpy.ops.wm.obj_export(
-            filepath=str(file),
-            export_selected_objects=True,
-            export_materials=False,
-            export_normals=False,
-            export_uv=False,
-            **axes(up),
-        )
+def _glb(path: Path, _up: str) -> None:
+    """Export .glb with colliders."""
+    bpy.ops.export_scene.gltf(
+        filepath=str(path),
+        export_format="GLB",
+        use_selection=True,
+        export_materials="NONE",
+        export_extras=True,
+    )
+    mark_glb(path)
 
 
-def _stl(file: Path, _: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
-    _select(hulls)
-    # Hulls are not rendered, and since Blender 5.2 only what is rendered is written.
+def _obj(path: Path, up: str) -> None:
+    """Export .obj."""
+    bpy.ops.wm.obj_export(
+        filepath=str(path),
+        export_selected_objects=True,
+        export_materials=False,
+        export_normals=False,
+        export_uv=False,
+        **axes(up),
+    )
+
+
+def _stl(path: Path, up: str) -> None:
+    """Export .stl."""
+    # Hulls are hidden in renders, and Blender 5.2 and later write what is rendered.
     known = bpy.ops.wm.stl_export.get_rna_type().properties
     mode = (
         {"evaluation_mode": "DAG_EVAL_VIEWPORT"} if "evaluation_mode" in known else {}
     )
-    with quiet_blender():
-        bpy.ops.wm.stl_export(
-            filepath=str(file), export_selected_objects=True, **axes(up), **mode
-        )
+    bpy.ops.wm.stl_export(
+        filepath=str(path), export_selected_objects=True, **axes(up), **mode
+    )
 
 
-def _usd(file: Path, _: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:
-    _select(hulls)
-    with quiet_blender():
-        bpy.ops.wm.usd_export(
-            filepath=str(file),
-            selected_objects_only=True,
-            export_materials=False,
-            evaluation_mode="VIEWPORT",  # hulls are not rendered
-        )
-    mark_usd(file)
+def _usd(path: Path, _up: str) -> None:
+    """Export .usd with colliders."""
+    bpy.ops.wm.usd_export(
+        filepath=str(path),
+        selected_objects_only=True,
+        export_materials=False,
+        evaluation_mode="VIEWPORT",  # hulls are hidden in renders
+    )
+    mark_usd(path)
 
 
-def _urdf(file: Path, path: Path, hulls: Sequence[bpy.types.Object], _: str) -> None:
-    robot = ET.Element("robot", name=path.stem)
-    # MuJoCo looks for meshes beside the file otherwise; others ignore it.
-    ET.SubElement(ET.SubElement(robot, "mujoco"), "compiler", strippath="false")
-    link = ET.SubElement(robot, "link", name="base")
-    for name, mesh in _hull_files(path, hulls):
-        collision = ET.SubElement(link, "collision", name=name)
-        geometry = ET.SubElement(collision, "geometry")
-        ET.SubElement(geometry, "mesh", filename=mesh)
-    _write_xml(file, robot)
-
-
-def _mjcf(file: Path, path: Path, hulls: Sequence[bpy.types.Object], _: str) -> None:
-    model = ET.Element("mujoco", model=path.stem)
-    assets = ET.SubElement(model, "asset")
-    body = ET.SubElement(ET.SubElement(model, "worldbody"), "body", name=path.stem)
-    ET.SubElement(body, "freejoint")
-    for name, mesh in _hull_files(path, hulls):
-        ET.SubElement(assets, "mesh", name=name, file=mesh)
-        ET.SubElement(body, "geom", name=name, type="mesh", mesh=name)
-    _write_xml(file, model)
-
-
-def _hull_files(path: Path, hulls: Sequence[bpy.types.Object]) -> list[tuple[str, str]]:
-    """Write an .obj for each hull, Z up as simulators have it; return their names.
-
-    The files are named by number: names of objects may hold what files' may not.
-    """
-    folder = folder_of(path)
-    folder.mkdir(exist_ok=True)
-    written = []
-    for number, hull in enumerate(hulls, start=1):
-        mesh = folder / f"{number:03d}.obj"
-        _obj(mesh, path, [hull], "Z")
-        written.append((hull.name, f"{folder.name}/{mesh.name}"))
-    return written
-
-
-def _write_xml(file: Path, root: ET.Element) -> None:
-    ET.indent(root)
-    ET.ElementTree(root).write(file, encoding="utf-8", xml_declaration=True)
-
-
-_EXPORTERS: dict[str, Callable[[Path, Path, Sequence[bpy.types.Object], str], None]] = {
+_EXPORTERS: dict[str, Callable[[Path, str], None]] = {
     ".glb": _glb,
     ".obj": _obj,
     ".stl": _stl,
     ".usd": _usd,
-    ".urdf": _urdf,
-    ".xml": _mjcf,
 }
-HULL_ENDINGS = tuple(_EXPORTERS)
-# Names of formats, where the ending is not that.
-HULL_FORMATS = {e.removeprefix("."): e for e in HULL_ENDINGS if e != ".xml"} | {
-    "mjcf": ".xml"
+_SIMULATORS: dict[str, Callable[[Path, str, dict[str, str]], None]] = {
+    ".urdf": write_urdf,
+    ".xml": write_mjcf,
 }

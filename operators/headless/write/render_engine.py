@@ -1,4 +1,4 @@
-"""Finds out which engine can render on this machine."""
+"""Finds out which engine can render pictures on this machine."""
 
 from __future__ import annotations
 
@@ -19,20 +19,46 @@ scene.render.engine = "BLENDER_WORKBENCH"
 scene.render.resolution_x = scene.render.resolution_y = 16
 bpy.ops.render.render()
 """
+# A trial that takes longer has failed.
 _TRIAL_SECONDS = 120
 
 
 class EngineTrial:
-    """Workbench tried out in a process of its own, while this one works.
+    """A test render with Workbench, in a process of its own.
 
-    Where OpenGL or Vulkan is missing, Workbench does not fail: it ends the process.
+    Without OpenGL or Vulkan, Workbench raises no error: it ends the process.
     """
 
     def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Start the test render; it runs while this process works."""
+        self._running()
+
+    def engine(self) -> RenderEngine:
+        """Wait for the test render; return Workbench if it worked, else Cycles."""
+        try:
+            works = self._running().wait(timeout=_TRIAL_SECONDS) == 0
+        except subprocess.TimeoutExpired:
+            works = False
+            self.close()
+        return "BLENDER_WORKBENCH" if works else "CYCLES"
+
+    def close(self) -> None:
+        """Stop the test render if it still runs."""
+        if self._process is not None and self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+
+    def _running(self) -> subprocess.Popen[bytes]:
+        """Return the process of the test render; start it if there is none."""
+        if self._process is not None:
+            return self._process
         if bpy.app.binary_path:
             command = [bpy.app.binary_path, "--background", "--factory-startup"]
             command += ["--python-exit-code", "1", "--python-expr", _TRIAL]
-        else:  # the bpy wheel; -P: no modules from the current folder
+        else:  # the bpy wheel; -P keeps modules of the current folder out
             command = [sys.executable, "-P", "-c", _TRIAL]
         self._process = subprocess.Popen(
             command,
@@ -40,18 +66,4 @@ class EngineTrial:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-
-    def engine(self) -> RenderEngine:
-        """Return Workbench if it works here, and Cycles on the CPU if not."""
-        try:
-            works = self._process.wait(timeout=_TRIAL_SECONDS) == 0
-        except subprocess.TimeoutExpired:
-            works = False
-            self.close()
-        return "BLENDER_WORKBENCH" if works else "CYCLES"
-
-    def close(self) -> None:
-        """End the trial if it still runs."""
-        if self._process.poll() is None:
-            self._process.kill()
-            self._process.wait()
+        return self._process

@@ -1,4 +1,4 @@
-"""Meshes that stand for point clouds where points cannot be seen or written."""
+"""Meshes of disks that stand for point clouds in pictures."""
 
 from __future__ import annotations
 
@@ -9,11 +9,15 @@ from ...bridge.mesh.points import count_points, normals_of, positions_of, read_v
 from ...bridge.parts.erase import NORMAL_LAYER, PART_LAYER
 from ...bridge.parts.materials import part_materials
 from ...bridge.stored.identity import usual_identities
+from .blender_arrays import fill, read_labels
 
 
 def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
-    """Return a new mesh of the splats of a cloud, with a material for each part."""
-    # Loads SciPy: seconds that enabling the add-on must not take.
+    """Return a new mesh with the splats of a point cloud, in the colors of its parts.
+
+    The mesh is empty if the cloud was not decomposed.
+    """
+    # SciPy takes seconds to load; enabling the extension must not.
     from ....core.clouds.splats import thinned_splats
 
     points = positions_of(obj).astype(np.float64)
@@ -22,12 +26,11 @@ def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
         normals = normals_of(obj)
     mesh = bpy.data.meshes.new(obj.name)
     if normals is None or PART_LAYER not in obj.data.attributes:
-        return mesh  # it was not decomposed
+        return mesh
     kept, _, targets = thinned_splats(points, normals.astype(np.float64))
     mesh.from_pydata(targets.vertices, [], targets.triangles.tolist())
-    parts = np.empty(count_points(obj), dtype=np.int32)
-    obj.data.attributes[PART_LAYER].data.foreach_get("value", parts)
+    parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
     for material in part_materials(usual_identities(int(parts.max()) + 1), []):
         mesh.materials.append(material)
-    mesh.polygons.foreach_set("material_index", parts[kept])
+    fill(mesh.polygons, "material_index", parts[kept])
     return mesh

@@ -3,9 +3,20 @@ import numpy as np
 import pytest
 from brute_caster import BruteCaster
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
+from weak_convex_decomposition.operators.bridge.rays.choice import choose_ray_caster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 
-PRECISION = 1e-5  # the hierarchy is in single precision, the shapes have size 2
+PRECISION = 1e-5  # casters work in single precision, the shapes have size 2
+
+
+@pytest.fixture(params=["bvh", "embree"])
+def make_caster(request):
+    if request.param == "bvh":
+        return BvhRayCaster
+    pytest.importorskip("embreex")
+    from weak_convex_decomposition.operators.bridge.rays.embree import EmbreeRayCaster
+
+    return EmbreeRayCaster
 
 
 def random_rays(mesh, n_rays, seed):
@@ -21,11 +32,11 @@ def random_rays(mesh, n_rays, seed):
 
 
 @pytest.mark.parametrize("shape", ["monkey", "torus", "cube", "cone"])
-def test_agrees_with_the_oracle_ray_by_ray(shape):
+def test_agrees_with_the_oracle_ray_by_ray(shape, make_caster):
     getattr(bpy.ops.mesh, f"primitive_{shape}_add")()
     mesh = read_shape(bpy.context.active_object)
     origins, directions, reach = random_rays(mesh, 3000, seed=1)
-    triangles, distances = BvhRayCaster(mesh).first_hit(origins, directions, reach)
+    triangles, distances = make_caster(mesh).first_hit(origins, directions, reach)
     expected, expected_distances = BruteCaster(mesh).first_hit(
         origins, directions, reach
     )
@@ -38,10 +49,10 @@ def test_agrees_with_the_oracle_ray_by_ray(shape):
     assert (expected < 0).mean() > 0.05
 
 
-def test_reach_limits_hits(suzanne):
+def test_reach_limits_hits(suzanne, make_caster):
     mesh = read_shape(suzanne)
     origins, directions, _ = random_rays(mesh, 500, seed=2)
-    caster = BvhRayCaster(mesh)
+    caster = make_caster(mesh)
     far = caster.first_hit(origins, directions, np.full(500, 100.0))[1]
     near_triangles, near = caster.first_hit(origins, directions, far * 0.99)
     hit = np.isfinite(far)
@@ -50,18 +61,22 @@ def test_reach_limits_hits(suzanne):
     assert np.isinf(near[hit]).all()
 
 
-def test_no_rays_give_no_hits(suzanne):
+def test_no_rays_give_no_hits(suzanne, make_caster):
     none = np.empty((0, 3))
-    triangles, distances = BvhRayCaster(read_shape(suzanne)).first_hit(
+    triangles, distances = make_caster(read_shape(suzanne)).first_hit(
         none, none, np.empty(0)
     )
     assert triangles.shape == distances.shape == (0,)
     assert triangles.dtype == np.int64
 
 
-def test_answers_are_integers_and_floats(suzanne):
+def test_answers_are_integers_and_floats(suzanne, make_caster):
     mesh = read_shape(suzanne)
-    triangles, distances = BvhRayCaster(mesh).first_hit(*random_rays(mesh, 10, seed=3))
+    triangles, distances = make_caster(mesh).first_hit(*random_rays(mesh, 10, seed=3))
     assert triangles.dtype == np.int64
     assert distances.dtype == np.float64
     assert (np.isinf(distances) == (triangles == -1)).all()
+
+
+def test_blender_casts_its_own_rays():
+    assert choose_ray_caster() is BvhRayCaster

@@ -1,4 +1,3 @@
-import io
 import json
 import math
 import os
@@ -13,10 +12,8 @@ import pytest
 from weak_convex_decomposition.core.parameters.parameter import info_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import preset
-from weak_convex_decomposition.core.steps.progress import Progress
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.request.options import parse
-from weak_convex_decomposition.operators.headless.screen import Screen
 
 ROOT = Path(__file__).parents[3]
 QUICK = ["--samples", "100", "--parts", "2"]
@@ -43,6 +40,14 @@ def test_help_explains_every_parameter_with_its_default(capsys):
     assert "{name}" in words
 
 
+def test_each_choice_has_a_line_in_the_help(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    assert run("--help") == 0
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    for word in ("all-pairs", "cone", "paper", "filled", "unreal"):
+        assert [line for line in lines if line.startswith(f"{word}: ")], word
+
+
 def test_version(capsys):
     assert run("--version") == 0
     version = (ROOT / "blender_manifest.toml").read_text().split('\nversion = "')[1]
@@ -67,9 +72,8 @@ def test_options_change_a_preset():
     assert parameters == preset("PAPER").parameters(alpha=3.0)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
+def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
+    cases = [
         ("", "INPUT"),
         ("a.obj --part 3", "unrecognized"),
         ("a.obj --parts many", "invalid int value"),
@@ -88,15 +92,13 @@ def test_options_change_a_preset():
         ("a.obj --report {tmp}/b.glb --output {tmp}/b.glb", "written twice"),
         ("a.obj --output {tmp}/none/b.glb", "there is no folder"),
         ("a.obj --report {tmp}", "is a folder"),
-    ],
-)
-def test_wrong_usage(tmp_path, capsys, arguments, message):
-    words = arguments.replace("{tmp}", str(tmp_path)).split()
-    assert run(*words) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert message in err
-    assert list(tmp_path.iterdir()) == []
+    ]
+    for arguments, message in cases:
+        status = run(*arguments.replace("{tmp}", str(tmp_path)).split())
+        out, err = capsys.readouterr()
+        assert (status, out) == (2, ""), arguments
+        assert message in err, arguments
+        assert list(tmp_path.iterdir()) == [], arguments
 
 
 def test_one_input_all_results(tmp_path, model, capfd):
@@ -186,38 +188,6 @@ def test_every_object_is_decomposed_once(tmp_path, capfd):
 def test_picture_option(tmp_path, model):
     assert run(model, "--picture", tmp_path / "{name}.png", *QUICK, "--quiet") == 0
     assert (tmp_path / "monkey.png").read_bytes().startswith(b"\x89PNG")
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
-def test_progress_keeps_to_one_line_on_a_terminal():
-    now = iter(range(100))
-    out, err = io.StringIO(), Terminal()
-    screen = Screen(out, err, quiet=False, clock=lambda: next(now))
-    screen.progress("a", Progress("Samples", 0.25))
-    screen.progress("a", Progress("Sight", 0.5))
-    screen.result("done")
-    assert "\n" not in err.getvalue()
-    assert err.getvalue().endswith("\ra: Sight  50%\r" + " " * 13 + "\r")
-    assert out.getvalue() == "done\n"
-
-
-def test_progress_is_sparse_in_a_log():
-    err = io.StringIO()
-    times = iter([0.0, 0.0, 0.5, 3.0, 3.0, 9.0, 9.0])
-    screen = Screen(io.StringIO(), err, quiet=False, clock=lambda: next(times))
-    for stage in ("Samples", "Sight", "Sight", "Sight"):
-        screen.progress("a", Progress(stage, 0.5))
-    assert err.getvalue() == "a: Samples (50%)\na: Sight (50%)\n"
-
-
-def test_what_an_encoding_lacks_is_spelled_out():
-    stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii", newline="\n")
-    Screen(stream, stream, quiet=False).result("Käse")
-    assert stream.buffer.getvalue() == b"K\\xe4se\n"
 
 
 def test_from_a_checkout_of_any_name(tmp_path, model):

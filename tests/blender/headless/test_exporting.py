@@ -9,8 +9,9 @@ from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.palette import part_color
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
-from weak_convex_decomposition.operators.headless.read.models import load
-from weak_convex_decomposition.operators.headless.write.models import ENDINGS, save
+from weak_convex_decomposition.operators.headless.formats import MODEL_ENDINGS
+from weak_convex_decomposition.operators.headless.read.load import load
+from weak_convex_decomposition.operators.headless.write.model_files import save
 
 OFF = """OFF
 8 6 0
@@ -155,7 +156,7 @@ def test_blend_keeps_everything(tmp_path, parted):
     assert json.loads(obj["wcd"])["k"] == 4
 
 
-@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("ending", MODEL_ENDINGS)
 def test_written_files_can_be_decomposed_again(tmp_path, parted, ending):
     save(tmp_path / f"a{ending}", None)
     (obj,) = load(tmp_path / f"a{ending}")
@@ -165,16 +166,27 @@ def test_written_files_can_be_decomposed_again(tmp_path, parted, ending):
     assert sum(s.name.startswith("Part ") for s in obj.material_slots) >= 3
 
 
-@pytest.mark.parametrize("ending", ENDINGS)
-def test_nothing_else_is_left_in_the_folder(tmp_path, parted, ending):
-    (tmp_path / f"a{ending}").write_text("earlier")
-    save(tmp_path / f"a{ending}", None)
-    names = {file.name for file in tmp_path.iterdir()}
-    assert names == {f"a{ending}"} | ({"a.mtl"} if ending == ".obj" else set())
-    assert (tmp_path / f"a{ending}").read_bytes() != b"earlier"
+def test_nothing_else_is_left_in_the_folder(tmp_path, parted):
+    for ending in MODEL_ENDINGS:
+        folder = tmp_path / ending
+        folder.mkdir()
+        (folder / f"a{ending}").write_text("earlier")
+        save(folder / f"a{ending}", None)
+        names = {file.name for file in folder.iterdir()}
+        assert names == {f"a{ending}"} | ({"a.mtl"} if ending == ".obj" else set())
+        assert (folder / f"a{ending}").read_bytes() != b"earlier", ending
 
 
-@pytest.mark.parametrize("ending", ENDINGS)
-def test_a_folder_that_is_gone(tmp_path, parted, ending):
-    with pytest.raises(DecompositionError, match="cannot be written"):
-        save(tmp_path / "gone" / f"a{ending}", None)
+def test_a_folder_that_is_gone(tmp_path, parted):
+    for ending in MODEL_ENDINGS:
+        path = tmp_path / "gone" / f"a{ending}"
+        with pytest.raises(DecompositionError, match=rf"a\{ending} cannot be written"):
+            save(path, None)
+
+
+def test_a_ply_file_of_a_mesh_that_is_empty(tmp_path, parted):
+    empty = bpy.data.objects.new("Empty", bpy.data.meshes.new("Empty"))
+    bpy.context.collection.objects.link(empty)
+    save(tmp_path / "a.ply", None)
+    (obj,) = load(tmp_path / "a.ply")
+    assert len(obj.data.polygons) == 500

@@ -4,16 +4,15 @@ import functools
 
 import numpy as np
 import pytest
+from computed import decompose
 from hand_made import subdivided_suzanne
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import Decomposition
-from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 
@@ -29,7 +28,7 @@ def suzanne(subdivisions: int) -> TriangleMesh:
 
 
 def parts_of(mesh: TriangleMesh) -> Decomposition:
-    return run(decompose(mesh, Parameters(), BvhRayCaster))
+    return decompose(mesh, Parameters(), make_caster=BvhRayCaster)
 
 
 @functools.cache

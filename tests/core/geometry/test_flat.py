@@ -6,13 +6,10 @@ import flats
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
-from weak_convex_decomposition.core.decomposition import decompose, measure
+from computed import decompose, lines_of_sight, measure
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.flat import flat_mesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.sight.visibility import look
-from weak_convex_decomposition.core.steps.progress import run
 
 L = flats.filled(flats.L, spacing=0.25)
 COMB = flats.filled(flats.comb(4), spacing=0.5)
@@ -23,7 +20,7 @@ UPRIGHT = shapes.any_rotation(2)
 
 def split_up(mesh, **values):
     values = {"samples": 200, "max_parts": 8, **values}
-    return run(decompose(mesh, Parameters(**values), BruteCaster))
+    return decompose(mesh, Parameters(**values))
 
 
 def length(outline):
@@ -137,7 +134,7 @@ def test_cones_lie_flat_in_any_plane():
     turned = shapes.moved(HAND, rotation=UPRIGHT)
     for mesh in (HAND, turned):
         parameters = Parameters(samples=200, rays=10, sight="CONE")
-        seen = run(look(mesh, parameters, BruteCaster)).along_rays.visible
+        seen = lines_of_sight(mesh, parameters).affinity_pairs.visible
         # Each sample, most of its ten rays, and theirs in turn.
         assert seen.nnz > 200 * (1 + 12)
 
@@ -160,9 +157,9 @@ def test_an_l_has_two_arms_with_a_straight_seam():
 
 
 def test_nothing_is_seen_across_a_hole():
-    rank = run(measure(RING, Parameters(samples=300), BruteCaster)).rank
+    rank = measure(RING, Parameters(samples=300)).rank
     full = flats.filled(flats.circle(2.0), spacing=0.3)
-    assert run(measure(full, Parameters(samples=300), BruteCaster)).rank > 0.99
+    assert measure(full, Parameters(samples=300)).rank > 0.99
     assert rank < 0.4
     found = split_up(RING, parts=4)
     assert found.n_parts == 4

@@ -3,15 +3,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
+from computed import lines_of_sight
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.geometry.sampling import (
     sample_faces,
     sample_surface,
 )
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.sight.visibility import look
-from weak_convex_decomposition.core.steps.progress import run
 
 
 def draw(mesh, n_samples=400, seed=0):
@@ -136,4 +134,4 @@ def test_faces_without_area_are_no_samples():
 def test_faces_can_be_too_many_for_all_pairs():
     message = "all pairs of 20,480 faces are too many; choose Cone"
     with pytest.raises(DecompositionError, match=message):
-        run(look(shapes.sphere(5), Parameters(sampling="FACES"), BruteCaster))
+        lines_of_sight(shapes.sphere(5), Parameters(sampling="FACES"))

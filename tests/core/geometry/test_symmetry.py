@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
+from computed import decompose
 from scipy.spatial.transform import Rotation
-from weak_convex_decomposition.core.decomposition import decompose
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.symmetry import Plane, find_sides, side_of
@@ -72,7 +71,7 @@ def test_labels_are_copied_and_parts_across_the_plane_go_on():
 def test_parts_of_a_symmetric_shape_are_symmetric(turn, seed):
     mesh = turn(stand())
     parameters = Parameters(samples=150, max_parts=6, containers="HOLLOW", seed=seed)
-    found = run(decompose(mesh, parameters, BruteCaster))
+    found = decompose(mesh, parameters)
     side, _ = run(find_sides(face_graph(mesh.normalized())))
     ends = found.labels[side.sources], found.labels[side.images]
     images = set(zip(*(end.tolist() for end in ends), strict=True))

@@ -33,7 +33,7 @@ def test_polygons_take_the_label_of_the_samples_around_them(change):
     samples, transfer = carry(mesh)
     labels = (samples.positions[:, 0] > 3.5).astype(int)
     labels[samples.positions[:, 1] > 3.5] = 2
-    x, y, _ = transfer.surface.centers.T
+    x, y, _ = transfer.graph.centers.T
     polygons = transfer.to_polygons(labels, 3)
     clear = (np.abs(x - 3.5) > 0.4) & (np.abs(y - 3.5) > 0.4)
     expected = np.where(y > 3.5, 2, x > 3.5)
@@ -46,7 +46,7 @@ def test_the_two_sides_of_a_thin_wall_do_not_mix():
     samples, transfer = carry(wall, 60)
     labels = (samples.normals[:, 2] > 0).astype(int)
     polygons = transfer.to_polygons(labels, 2)
-    up = transfer.surface.normals[:, 2]
+    up = transfer.graph.normals[:, 2]
     assert (polygons[up > 0.9] == 1).all()
     assert (polygons[up < -0.9] == 0).all()
 
@@ -70,8 +70,8 @@ def test_shells_that_touch_are_linked_and_others_are_not():
         shapes.box((0.2, -1, 0.2), (0.8, 2, 0.8), 3),
     )
     apart = shapes.joined(shapes.box(), shapes.box((9, 0, 0), (10, 1, 1)))
-    assert n_connected(carry(crossing)[1].surface) == 1
-    assert n_connected(carry(apart)[1].surface) == 2
+    assert n_connected(carry(crossing)[1].graph) == 1
+    assert n_connected(carry(apart)[1].graph) == 2
 
 
 def test_a_shell_without_samples_hangs_on_the_nearest_one():
@@ -80,6 +80,6 @@ def test_a_shell_without_samples_hangs_on_the_nearest_one():
     samples, transfer = carry(mesh)
     assert samples.triangles.max() >= 24
     assert not ((samples.triangles >= 12) & (samples.triangles < 24)).any()
-    assert n_connected(transfer.surface) == 2
-    one, other = transfer.surface.links.T
+    assert n_connected(transfer.graph) == 2
+    one, other = transfer.graph.links.T
     assert ((one >= 6) & (one < 12) & (other >= 12)).any()

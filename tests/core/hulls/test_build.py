@@ -1,22 +1,26 @@
 import numpy as np
 import pytest
 import shapes
-from convexity_check import assert_convex
+from brute_caster import BruteCaster
+from computed import build_hulls
+from convexity_check import assert_convex, heights_above_shape
+from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.core.hulls.build import build_hulls
+from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
+from weak_convex_decomposition.core.hulls.fitting import outline_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
-from weak_convex_decomposition.core.steps.progress import Progress, run
+from weak_convex_decomposition.core.steps.progress import Progress
 
 
 def hulls_of(mesh, labels=None, **values):
     if labels is None:
         labels = np.zeros(mesh.n_polygons, dtype=np.int64)
-    return run(build_hulls(mesh, labels, HullParameters(**values), 0))
+    return build_hulls(mesh, HullParameters(**values), labels)
 
 
 def covered(decomposition, points):
     """Return which points are in a hull."""
-    heights = [shape.heights(points) for shape in decomposition.shapes]
+    heights = [heights_above_shape(shape, points) for shape in decomposition.shapes]
     return np.min(heights, axis=0) < 1e-3
 
 
@@ -179,10 +183,10 @@ def test_parts_that_are_no_solids_have_hulls():
     for shape in ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE"):
         found = hulls_of(mesh, labels, pieces="PARTS", shape=shape)
         assert found.n_hulls == 4
-        assert all(enclosure.volume > 0 for enclosure in found.shapes)
+        assert all(each.volume > 0 for each in found.shapes)
         assert covered(found, mesh.vertices).all()
-        for enclosure in found.shapes:
-            assert_convex(enclosure.outline())
+        for each in found.shapes:
+            assert_convex(outline_of(each))
 
 
 def test_points_have_no_hull():
@@ -192,8 +196,8 @@ def test_points_have_no_hull():
 
 
 def test_progress_rises():
-    steps = build_hulls(
-        shapes.comb(), np.zeros(shapes.comb().n_polygons, int), HullParameters(), 0
+    steps = build_hulls_in_steps(
+        shapes.comb(), HullParameters(), ShapeCache(BruteCaster)
     )
     fractions = [p.fraction for p in steps if isinstance(p, Progress)]
     assert len(fractions) > 5

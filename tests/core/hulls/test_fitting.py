@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 import shapes
-from convexity_check import assert_convex
+from convexity_check import assert_convex, heights_above_shape
 from weak_convex_decomposition.core.hulls.convex_hull import convex_hull
-from weak_convex_decomposition.core.hulls.fitting import enclose
+from weak_convex_decomposition.core.hulls.fitting import fit_shape, outline_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
 KINDS = ["BOX", "SPHERE", "CYLINDER", "CAPSULE"]
@@ -13,7 +13,7 @@ BAR = shapes.box((0, 0, 0), (6, 2, 1)).vertices
 
 def around(points, kind, **values):
     hull = convex_hull(np.asarray(points), 1e-3)
-    return enclose(hull, HullParameters(shape=kind, **values), 1.0)
+    return fit_shape(hull, HullParameters(shape=kind, **values), 1.0)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -22,11 +22,11 @@ def test_shapes_contain_their_part(kind, seed):
     rng = np.random.default_rng(seed)
     points = rng.normal(size=(60, 3)) * rng.random(3)
     shape = around(points, kind)
-    assert shape.heights(points).max() < 1e-9
+    assert heights_above_shape(shape, points).max() < 1e-9
     assert np.linalg.det(shape.axes) == pytest.approx(1)
     # Tight: a trifle smaller, and something is out of it.
     smaller = around(points, kind, margin=-0.01)
-    assert smaller.heights(points).max() > 0.005
+    assert heights_above_shape(smaller, points).max() > 0.005
 
 
 @pytest.mark.parametrize(
@@ -53,10 +53,10 @@ def test_a_capsule_around_a_capsule():
 @pytest.mark.parametrize("kind", [*KINDS, "HULL"])
 def test_outlines_are_convex_and_as_large(kind):
     shape = around(BAR @ TURN.T + 7, kind)
-    outline = shape.outline()
+    outline = outline_of(shape)
     assert_convex(outline)
     assert outline.volume == pytest.approx(shape.volume, rel=0.05)
-    assert shape.heights(outline.vertices).max() < 1e-6
+    assert heights_above_shape(shape, outline.vertices).max() < 1e-6
 
 
 @pytest.mark.parametrize("kind", [*KINDS, "HULL"])
@@ -64,8 +64,8 @@ def test_outlines_are_convex_and_as_large(kind):
 def test_flat_parts_have_thin_shapes(kind, points):
     shape = around(np.array(points, dtype=float), kind)
     assert shape.volume > 0
-    assert shape.heights(np.array(points)).max() < 1e-9
-    assert shape.outline().volume > 0
+    assert heights_above_shape(shape, np.array(points)).max() < 1e-9
+    assert outline_of(shape).volume > 0
 
 
 @pytest.mark.parametrize("kind", [*KINDS, "HULL"])
@@ -73,8 +73,8 @@ def test_shapes_move_with_their_part(kind):
     shape = around(BAR, kind)
     moved = shape.moved(2.0, np.array([1.0, 2.0, 3.0]))
     points = np.random.default_rng(0).normal(size=(100, 3)) * 5
-    heights = moved.heights(points * 2 + [1, 2, 3])
-    assert heights == pytest.approx(2 * shape.heights(points))
+    heights = heights_above_shape(moved, points * 2 + [1, 2, 3])
+    assert heights == pytest.approx(2 * heights_above_shape(shape, points))
     assert moved.volume == pytest.approx(8 * shape.volume)
 
 

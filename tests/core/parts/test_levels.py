@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
-from weak_convex_decomposition.core.decomposition import decompose
+from computed import decompose, parts_of, prepare
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.find import describe, find_parts
-from weak_convex_decomposition.core.sight.visibility import see
+from weak_convex_decomposition.core.parts.find import describe
+from weak_convex_decomposition.core.sight.visibility import find_lines_of_sight
 from weak_convex_decomposition.core.steps.progress import run
 
 SETTINGS = {"samples": 60, "max_parts": 6}
@@ -25,7 +24,7 @@ def hand_on_a_wall():
 
 def split(mesh, members, **values):
     parameters = Parameters(**{**SETTINGS, **values})
-    return run(decompose(mesh, parameters, BruteCaster, members))
+    return decompose(mesh, parameters, members)
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +59,7 @@ def hand_on_a_cliff():
 
 def parts_by_levels(mesh, **values):
     parameters = Parameters(samples=80, max_parts=6, containers="HOLLOW", **values)
-    return run(decompose(mesh, parameters, BruteCaster))
+    return decompose(mesh, parameters)
 
 
 def test_fingers_of_a_large_body_come_apart_at_the_second_level():
@@ -94,7 +93,7 @@ def test_all_faces_as_a_part_are_the_whole_shape(seen):
     mesh = shapes.dumbbell()
     whole = split(mesh, np.ones(mesh.n_polygons, dtype=bool), samples=150)
     settings = Parameters(**{**SETTINGS, "samples": 150})
-    direct = run(find_parts(seen(shapes.dumbbell), settings))
+    direct = parts_of(seen(shapes.dumbbell), settings)
     assert (whole.labels == direct.labels).all()
     assert whole.psi == direct.psi
 
@@ -110,10 +109,9 @@ def test_lines_of_sight_of_a_part_run_through_the_whole_shape():
     # The ends of a bar see each other through its middle, which is not of the part.
     bar = shapes.blocks((9, 2, 2), ((0, 9), (0, 2), (0, 2)))
     x = face_graph(bar).centers[:, 0]
-    visibility = run(
-        see(bar, Parameters(**SETTINGS), BruteCaster, (x < 1.1) | (x > 7.9))
-    )
-    assert visibility.ranked.rank_of_all()[0] > 0.99
+    ends = prepare(bar).part((x < 1.1) | (x > 7.9))
+    sight = run(find_lines_of_sight(ends, Parameters(**SETTINGS)))
+    assert sight.rank_pairs.rank_of_all()[0] > 0.99
 
 
 def test_a_part_without_area_is_refused_with_a_sentence():
@@ -126,8 +124,8 @@ def test_a_part_without_area_is_refused_with_a_sentence():
 
 def test_given_labels_are_described_as_they_were_found(seen):
     parameters = Parameters(**SETTINGS)
-    visibility = seen(shapes.dumbbell)
-    found = run(find_parts(visibility, parameters))
+    memo = seen(shapes.dumbbell)
+    visibility, found = memo.visibility, parts_of(memo, parameters)
     again = describe(visibility, found.labels, parameters, found.psi_by_k, found.best_k)
     assert (again.labels == found.labels).all()
     assert again.psi == found.psi

@@ -2,11 +2,9 @@ from dataclasses import replace
 
 import pytest
 import shapes
+from computed import cut_seams_of, search_part_count
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.part_count import search_part_count
-from weak_convex_decomposition.core.parts.partition import Partitioner, count
-from weak_convex_decomposition.core.parts.seams import seamed
-from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.core.parts.partition import Partitioner, count_parts
 
 
 def two_ls():
@@ -26,28 +24,30 @@ def by_name(make):
 @pytest.mark.parametrize("n_parts", range(1, 9))
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 def test_exactly_as_many_parts_as_asked_for(seen, make, n_parts):
-    partitioner = Partitioner(seen(make), PARAMETERS)
+    memo = seen(make)
+    partitioner = Partitioner(memo, PARAMETERS)
     parts = partitioner.partition(n_parts)
     assert set(parts) == set(range(n_parts))
-    cut = run(seamed(partitioner, parts))
+    cut = cut_seams_of(partitioner, memo, parts)
     assert set(cut) == set(range(n_parts))
 
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 5])
 def test_parts_are_connected_and_not_too_small(seen, make, n_parts):
-    partitioner = Partitioner(seen(make), PARAMETERS)
-    parts = run(seamed(partitioner, partitioner.partition(n_parts)))
-    surface = partitioner.surface
+    memo = seen(make)
+    partitioner = Partitioner(memo, PARAMETERS)
+    parts = cut_seams_of(partitioner, memo, partitioner.partition(n_parts))
+    surface = partitioner.graph
     assert surface.areas_of(parts).min() >= partitioner.smallest_area
-    assert count(surface.pieces(parts, 0.0)) == n_parts
+    assert count_parts(surface.pieces(parts, 0.0)) == n_parts
 
 
 def test_more_parts_than_polygons_are_as_many_as_can_be(seen):
     partitioner = Partitioner(seen(shapes.l_prism), PARAMETERS)
     parts = partitioner.partition(40)
-    assert 2 <= count(parts) <= 8
-    assert set(parts) == set(range(count(parts)))
+    assert 2 <= count_parts(parts) <= 8
+    assert set(parts) == set(range(count_parts(parts)))
 
 
 def test_the_same_partition_every_time(seen):
@@ -57,26 +57,29 @@ def test_the_same_partition_every_time(seen):
 
 
 def test_no_seams_are_cut_without_smoothness(seen):
+    memo = seen(shapes.comb)
     partitioner = Partitioner(
-        seen(shapes.comb), replace(PARAMETERS, smoothness=0.0, smallest_part=0.0)
+        memo, replace(PARAMETERS, smoothness=0.0, smallest_part=0.0)
     )
     parts = partitioner.partition(5)
-    assert (run(seamed(partitioner, parts)) == parts).all()
+    assert (cut_seams_of(partitioner, memo, parts) == parts).all()
 
 
 def test_heavy_seams_swallow_no_part(seen):
-    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=100.0))
+    memo = seen(shapes.comb)
+    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=100.0))
     parts = partitioner.partition(5)
-    assert count(run(seamed(partitioner, parts))) == 5
+    assert count_parts(cut_seams_of(partitioner, memo, parts)) == 5
 
 
 def test_seams_are_short_beside_parts_that_they_would_swallow(seen):
-    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=30.0))
+    memo = seen(shapes.comb)
+    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=30.0))
     parts = partitioner.partition(9)
-    cut = run(seamed(partitioner, parts))
-    assert count(cut) == 9
+    cut = cut_seams_of(partitioner, memo, parts)
+    assert count_parts(cut) == 9
     before, after = (
-        partitioner.surface.borders(labels, 9).sum() for labels in (parts, cut)
+        partitioner.graph.borders(labels, 9).sum() for labels in (parts, cut)
     )
     assert after < before
 
@@ -84,29 +87,31 @@ def test_seams_are_short_beside_parts_that_they_would_swallow(seen):
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 3, 5])
 def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
+    memo = seen(make)
     heavy = replace(PARAMETERS, smoothness=20.0)
-    partitioner = Partitioner(seen(make), heavy)
+    partitioner = Partitioner(memo, heavy)
     parts = partitioner.partition(n_parts)
     plain = Partitioner(seen(make), replace(heavy, refinement="EMBEDDING"))
     won = min(partitioner.psi(parts), plain.psi(plain.partition(n_parts)))
-    assert partitioner.psi(run(seamed(partitioner, parts))) >= won
+    assert partitioner.psi(cut_seams_of(partitioner, memo, parts)) >= won
 
 
 def test_a_large_smallest_part_leaves_few(seen):
     partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smallest_part=0.3))
     parts = partitioner.partition(8)
-    assert count(parts) <= 3
-    areas = partitioner.surface.areas_of(parts)
+    assert count_parts(parts) <= 3
+    areas = partitioner.graph.areas_of(parts)
     assert areas.min() >= 0.3 * areas.sum()
 
 
 def test_psi_is_that_of_the_labels_of_the_samples(seen):
-    visibility = seen(shapes.comb)
-    partitioner = Partitioner(visibility, replace(PARAMETERS, alpha=2.0))
+    memo = seen(shapes.comb)
+    visibility = memo.visibility
+    partitioner = Partitioner(memo, replace(PARAMETERS, alpha=2.0))
     parts = partitioner.partition(3)
     labels = parts[visibility.transfer.polygon_of]
     same = labels[:, None] == labels
-    los = visibility.pairs.visible > 0
+    los = visibility.psi_pairs.visible > 0
     expected = (los[same].sum() + 2.0 * (~los[~same]).sum()) / los.size
     assert partitioner.psi(parts) == pytest.approx(expected)
 
@@ -116,14 +121,16 @@ def test_psi_is_that_of_the_labels_of_the_samples(seen):
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 def test_the_search_returns_the_parts_of_largest_psi(seen, make):
-    partitioner = Partitioner(seen(make), PARAMETERS)
-    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 6))
+    found, partitioner = search_part_count(seen(make), PARAMETERS, 2, 6)
+    parts, psi_by_k = found.parts, found.psi_by_k
     assert list(psi_by_k) == [1, 2, 3, 4, 5, 6]
     # Fewer parts may be preferred where psi hardly differs.
     best = max(psi_by_k.values())
-    assert psi_by_k[count(parts)] == pytest.approx(best, abs=0.01)
+    assert psi_by_k[count_parts(parts)] == pytest.approx(best, abs=0.01)
     # Cutting seams costs a little.
-    assert partitioner.psi(parts) == pytest.approx(psi_by_k[count(parts)], abs=0.01)
+    assert partitioner.psi(parts) == pytest.approx(
+        psi_by_k[count_parts(parts)], abs=0.01
+    )
 
 
 def shaft():
@@ -132,13 +139,13 @@ def shaft():
 
 
 def test_the_search_takes_no_k_for_which_loose_clusters_are_better(seen):
-    partitioner = Partitioner(seen(shaft), PARAMETERS)
-    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 6))
+    found, partitioner = search_part_count(seen(shaft), PARAMETERS, 2, 6)
+    parts, psi_by_k = found.parts, found.psi_by_k
     # Three parts would do, had both ends of the shaft not been one of three clusters.
     assert psi_by_k[3] == max(psi_by_k.values())
     assert partitioner.psi_of_clusters(3) > psi_by_k[3] + 0.01
-    assert count(parts) > 3
-    assert partitioner.psi(parts) > partitioner.psi_of_clusters(count(parts))
+    assert count_parts(parts) > 3
+    assert partitioner.psi(parts) > partitioner.psi_of_clusters(count_parts(parts))
 
 
 def test_psi_of_clusters_is_that_of_any_labels(seen):
@@ -147,23 +154,24 @@ def test_psi_of_clusters_is_that_of_any_labels(seen):
 
 
 def test_the_search_keeps_to_its_range(seen):
-    partitioner = Partitioner(seen(shapes.comb), PARAMETERS)
-    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 3))
+    found, _ = search_part_count(seen(shapes.comb), PARAMETERS, 2, 3)
+    parts, psi_by_k = found.parts, found.psi_by_k
     assert set(psi_by_k) == {1, 2, 3}
-    parts, psi_by_k, _ = run(search_part_count(partitioner, 7, 7))
+    found, _ = search_part_count(seen(shapes.comb), PARAMETERS, 7, 7)
+    parts, psi_by_k = found.parts, found.psi_by_k
     assert set(psi_by_k) == {1, 7}
-    assert count(parts) in (1, 7)
+    assert count_parts(parts) in (1, 7)
 
 
 def test_the_search_ends_where_the_shape_has_no_more_parts(seen):
-    partitioner = Partitioner(seen(shapes.l_prism), PARAMETERS)
-    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 256))
+    found, _ = search_part_count(seen(shapes.l_prism), PARAMETERS, 2, 256)
+    parts, psi_by_k = found.parts, found.psi_by_k
     assert max(psi_by_k) <= 8
-    assert count(parts) in psi_by_k
+    assert count_parts(parts) in psi_by_k
 
 
 def test_one_part_stays_when_no_more_gain_anything(seen):
-    partitioner = Partitioner(seen(shapes.box), PARAMETERS)
-    parts, psi_by_k, _ = run(search_part_count(partitioner, 2, 5))
-    assert count(parts) == 1
+    found, _ = search_part_count(seen(shapes.box), PARAMETERS, 2, 5)
+    parts, psi_by_k = found.parts, found.psi_by_k
+    assert count_parts(parts) == 1
     assert psi_by_k[1] == 1.0

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
+from computed import marcher_of
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
 from weak_convex_decomposition.core.sight.lines import (
     faces_inside,
@@ -9,7 +9,6 @@ from weak_convex_decomposition.core.sight.lines import (
     see_pairs,
     viewpoints,
 )
-from weak_convex_decomposition.core.sight.ray_march import RayMarcher
 from weak_convex_decomposition.core.steps.progress import run
 
 BOXES_AS_L = shapes.joined(
@@ -20,14 +19,14 @@ BOXES_AS_L = shapes.joined(
 def look_at(mesh, n_samples=60, seed=0):
     mesh = mesh.normalized()
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
-    scene = RayMarcher(mesh, BruteCaster(mesh))
+    scene = marcher_of(mesh)
     return scene, samples, viewpoints(scene, samples)
 
 
 def see(mesh, n_samples=60, seed=0):
     """Return the samples of a mesh and which of them see each other."""
     scene, samples, views = look_at(mesh, n_samples, seed)
-    return samples, run(see_all_pairs(scene, samples, views))
+    return samples, run(see_all_pairs(scene, samples, views)).visible > 0
 
 
 def winding_numbers(points, corners):
@@ -84,7 +83,7 @@ def oracle(mesh, positions):
 )
 def test_lines_of_sight_agree_with_a_naive_oracle(mesh):
     scene, samples, views = look_at(mesh, 30)
-    los = run(see_all_pairs(scene, samples, views))
+    los = run(see_all_pairs(scene, samples, views)).visible > 0
     expected = oracle(mesh.normalized(), views.positions)
     towards = samples.positions[None] - samples.positions[:, None]
     heights = (towards * samples.normals[:, None]).sum(axis=2)
@@ -184,7 +183,7 @@ def test_the_order_of_touching_solids_does_not_matter():
 
 def test_pairs_of_one_sample_see_themselves_and_repeated_pairs_agree():
     scene, samples, views = look_at(shapes.l_prism())
-    los = run(see_all_pairs(scene, samples, views))
+    los = run(see_all_pairs(scene, samples, views)).visible > 0
     first, second = np.random.default_rng(0).integers(60, size=(2, 300))
     visible = run(see_pairs(scene, samples, views, first, second))
     assert (visible == los[first, second]).all()

@@ -1,19 +1,17 @@
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
+from computed import measure
 from scipy import sparse
-from weak_convex_decomposition.core.decomposition import measure
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.sight.pairs import PairVisibility
-from weak_convex_decomposition.core.steps.progress import run
 
 ALPHAS = (0.0, 0.5, 1.0, 3.0)
 UNIFORM_CONES = {"sight": "CONE", "psi_pairs": "UNIFORM"}
 
 
 def rank_of(mesh, **values):
-    return run(measure(mesh, Parameters(**{"samples": 200, **values}), BruteCaster))
+    return measure(mesh, Parameters(**{"samples": 200, **values}))
 
 
 def two_spheres(ratio):

@@ -4,12 +4,10 @@ import clouds
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
+from computed import decompose, measure
 from weak_convex_decomposition.core.clouds import splats as splats_module
-from weak_convex_decomposition.core.decomposition import decompose, measure
 from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.steps.progress import run
 
 SAMPLES = 150
 
@@ -18,7 +16,7 @@ def split_up(cloud, **values):
     # Without containers: their grid takes the oracle half a minute.
     values = {"samples": SAMPLES, "max_parts": 6, "containers": "HOLLOW", **values}
     parameters = Parameters(**values)
-    return run(decompose(cloud, parameters, BruteCaster))
+    return decompose(cloud, parameters)
 
 
 def check_halves(found, points, n_parts=2):
@@ -79,11 +77,7 @@ def test_points_beyond_the_splats_have_parts_too(monkeypatch):
 
 def test_a_convex_cloud_has_a_high_rank_and_a_dumbbell_a_low_one():
     ranks = [
-        run(
-            measure(
-                clouds.cloud_of(mesh, 700), Parameters(samples=SAMPLES), BruteCaster
-            )
-        ).rank
+        measure(clouds.cloud_of(mesh, 700), Parameters(samples=SAMPLES)).rank
         for mesh in (shapes.sphere(3), shapes.dumbbell())
     ]
     assert ranks[0] > 0.97

@@ -1,14 +1,13 @@
 import numpy as np
 import pytest
 import shapes
-from brute_caster import BruteCaster
-from weak_convex_decomposition.core.sight.ray_march import RayMarcher
+from computed import marcher_of
 
 X = np.array([[1.0, 0.0, 0.0]])
 
 
 def scene_of(mesh):
-    return RayMarcher(mesh, BruteCaster(mesh))
+    return marcher_of(mesh)
 
 
 def march(mesh, origin, reach=100.0):

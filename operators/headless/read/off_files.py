@@ -1,4 +1,4 @@
-"""Reads .off files, for which Blender has no importer."""
+"""Reads .off files; Blender has no importer for them."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from .finite_checks import not_finite
 
-# STOFF, COFF and NOFF add columns behind the coordinates; some writers glue the
-# first count to the keyword ("OFF490 518 0").
+# STOFF, COFF and NOFF add columns after the coordinates. Some writers put no space
+# after the keyword: "OFF490 518 0".
 _HEADER = re.compile(r"(ST)?C?N?OFF(?![A-Za-z])\s*(.*)")
 
 
 def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
     """Return the vertices (V, 3) and the polygons of an .off file.
 
-    Colors, normals and texture coordinates are passed over.
+    Colors, normals and texture coordinates are ignored.
 
     Raises
     ------
     DecompositionError
-        If the file is not OFF, is cut short or refers to vertices it lacks.
+        If the file is not OFF, is cut short or has a face without its vertices.
     """
     text = path.read_bytes().decode("latin-1")
     lines = [line for line in map(_without_comment, text.splitlines()) if line]
@@ -42,12 +42,12 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
 
 
 def _without_comment(line: str) -> str:
-    """Return `line` without a comment and outer blanks."""
+    """Return `line` without its comment and the spaces around it."""
     return line.partition("#")[0].strip()
 
 
 def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
-    """Return the counts of vertices and faces, and the lines that follow them."""
+    """Return the numbers of vertices and faces, and the lines after them."""
     match = _HEADER.fullmatch(lines[0]) if lines else None
     if match is None:
         raise DecompositionError(
@@ -66,7 +66,7 @@ def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
 
 
 def _vertices(rows: list[str], name: str) -> NDArray[np.float64]:
-    """Return the first three numbers of each row."""
+    """Return the first three numbers of each row, (V, 3)."""
     try:
         values = [[float(word) for word in row.split(None, 3)[:3]] for row in rows]
         return np.array(values, dtype=np.float64).reshape(len(rows), 3)

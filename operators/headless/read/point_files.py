@@ -1,7 +1,7 @@
-"""Reads .xyz, .pwn and .pts files, for which Blender has no importer.
+"""Reads .xyz, .pwn and .pts files; Blender has no importers for them.
 
-A point a line: x y z, perhaps followed by the normal nx ny nz. A first line of one
-number states how many points follow; .pwn files may list all normals after all points.
+Each line is a point, x y z or x y z nx ny nz. The first line may state the number of
+points. .pwn files may list all points first and all normals after them.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 
 
 def read_points(path: Path) -> Points:
-    """Return the points (N, 3) of a file, and their normals (N, 3) if it has them.
+    """Return the points (N, 3) of a file, and their normals (N, 3) or None.
 
-    Where there are other than three columns behind the coordinates, they are no
-    normals, but intensities or colors, and passed over.
+    Only three more columns are normals; any other number of columns holds
+    intensities or colors, and is ignored.
 
     Raises
     ------
     DecompositionError
-        If the file is not of numbers in rows of one length, or is cut short.
+        If the rows are not numbers or differ in length, or the file is cut short.
     """
     text = path.read_bytes().decode("latin-1").replace(",", " ")
     if not text.strip():
@@ -38,15 +38,15 @@ def read_points(path: Path) -> Points:
         table = np.loadtxt(StringIO(text if n_points is None else rest), ndmin=2)
     except ValueError as error:
         raise DecompositionError(
-            f"{path.name} does not have numbers, as many on each line; it is damaged"
-            " or of another kind."
+            f"{path.name} does not have numbers, the same count on each line; it is"
+            " damaged or of another kind."
         ) from error
     if table.shape[1] < 3:
         raise DecompositionError(
             f"{path.name} does not have three coordinates on each line; it is damaged"
             " or of another kind."
         )
-    points, normals = _divided(table, n_points)
+    points, normals = _split(table, n_points)
     if n_points is not None and len(points) != n_points:
         raise DecompositionError(
             f"{path.name} promises {n_points} points but has {len(table)} lines of"
@@ -57,8 +57,8 @@ def read_points(path: Path) -> Points:
     return points, normals
 
 
-def _divided(table: NDArray[np.float64], n_points: int | None) -> Points:
-    """Return points and normals: side by side, or the ones after the others."""
+def _split(table: NDArray[np.float64], n_points: int | None) -> Points:
+    """Return points and normals: normals on the same lines, or after all points."""
     if table.shape[1] == 6:
         return table[:, :3], table[:, 3:]
     if table.shape[1] == 3 and n_points is not None and len(table) == 2 * n_points:

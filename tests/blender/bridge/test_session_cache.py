@@ -7,7 +7,7 @@ from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
-from weak_convex_decomposition.operators.bridge.work.sight_cache import forget
+from weak_convex_decomposition.operators.bridge.work.session_cache import forget
 
 
 def stages(obj, **values):

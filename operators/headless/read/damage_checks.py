@@ -1,4 +1,7 @@
-"""Looks at a file before an importer does, which may take anything for empty."""
+"""Refuses files that are missing, cut short, damaged or of another kind.
+
+Blender's importers read some of them as empty, read half of them or crash.
+"""
 
 from __future__ import annotations
 
@@ -8,39 +11,48 @@ import struct
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from .ply import read_header
+from ..formats import READ_ENDINGS
+from .ply_header import read_header
 
-# How a file of each ending begins; several where the format has several forms.
+# The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {
     ".ply": (b"ply",),
     ".glb": (b"glTF",),
     ".fbx": (b"Kaydara FBX Binary", b";"),
     ".blend": (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b"),
 }
+# Bytes of binary .stl.
 _STL_HEADER = 84
 _STL_TRIANGLE = 50
-# What is in no number, be it "1e-5" or "-inf".
+# Characters that no number has, not even "1e-5" or "-inf".
 _NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
-_FIELDS_OF_OBJ = {"v": 3, "vn": 3, "vt": 1, "f": 3}
+# Numbers on a line of an .obj file, by keyword, at least.
+_N_OBJ_NUMBERS = {"v": 3, "vn": 3, "vt": 1, "f": 3}
 
 
-def check_file(path: Path, endings: tuple[str, ...]) -> None:
-    """Raise `DecompositionError` if `path` cannot be a whole file of its ending."""
+def check_file(path: Path) -> None:
+    """Check that `path` is a whole file of the kind that its ending says.
+
+    Raises
+    ------
+    DecompositionError
+        If it is not, or if its ending is not one of `READ_ENDINGS`.
+    """
     ending = path.suffix.lower()
     if not path.exists():
         raise DecompositionError(f"{path} does not exist.")
     if path.is_dir():
         raise DecompositionError(f"{path} is a folder; name a file in it.")
-    if ending not in endings:
+    if ending not in READ_ENDINGS:
         raise DecompositionError(
             f"{path.name} has an ending that is not read; these are:"
-            f" {' '.join(endings)}."
+            f" {' '.join(READ_ENDINGS)}."
         )
     _check_content(path, ending)
 
 
 def _check_content(path: Path, ending: str) -> None:
-    """Raise if a file does not hold what its ending says, or only half of it."""
+    """Raise if the content does not fit the ending, or is cut short."""
     head, tail, size = _ends_of(path)
     if size == 0:
         raise DecompositionError(f"{path.name} is empty.")
@@ -57,7 +69,7 @@ def _check_content(path: Path, ending: str) -> None:
 
 
 def _mislabelled(path: Path) -> DecompositionError:
-    """Return the error for a file of another kind."""
+    """Return the error for a file whose content does not fit its ending."""
     return DecompositionError(
         f"{path.name} is not a {path.suffix.lower()} file inside, or is damaged."
     )
@@ -78,22 +90,37 @@ def _ends_of(path: Path) -> tuple[bytes, bytes, int]:
 
 
 def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
-    """Raise for STL that Blender would read as an empty mesh, or as half of one."""
-    if size >= _STL_HEADER:
-        (count,) = struct.unpack_from("<I", head, _STL_HEADER - 4)
-        if size == _STL_HEADER + _STL_TRIANGLE * count:
-            return
+    """Raise for STL that Blender would read as an empty or incomplete mesh."""
+    if n_stl_triangles(head, size) is not None:
+        return
     if not head.lstrip().lower().startswith(b"solid"):
         raise DecompositionError(
-            f"{path.name} is truncated or no STL: its size is not the one that its"
-            " header states."
+            f"{path.name} is truncated or not an STL file: its size does not fit its"
+            " header."
         )
     if b"endsolid" not in tail.lower():
-        raise DecompositionError(f"{path.name} is truncated: it lacks its end.")
+        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+
+
+def n_stl_triangles(head: bytes, size: int) -> int | None:
+    """Return the number of triangles of a binary .stl file, None for one in text form.
+
+    Parameters
+    ----------
+    head : bytes
+        The first 84 bytes or more.
+    size : int
+        Bytes of the whole file.
+    """
+    if size < _STL_HEADER:
+        return None
+    (n_triangles,) = struct.unpack_from("<I", head, _STL_HEADER - 4)
+    whole = size == _STL_HEADER + _STL_TRIANGLE * n_triangles
+    return int(n_triangles) if whole else None
 
 
 def _check_ply(path: Path) -> None:
-    """Raise for PLY that Blender would read up to where it is cut, or crash on."""
+    """Raise for PLY that Blender would read in part, or crash on."""
     data = path.read_bytes()
     header = read_header(data)
     if header is None:
@@ -101,7 +128,7 @@ def _check_ply(path: Path) -> None:
             f"{path.name} cannot be read: its header is not one of a .ply file."
         )
     if not header.is_whole(data):
-        raise DecompositionError(f"{path.name} is truncated: it lacks its end.")
+        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if not header.order and _NO_NUMBER.search(data, header.size):
         raise DecompositionError(
             f"{path.name} has words where numbers should be; it is damaged."
@@ -111,10 +138,10 @@ def _check_ply(path: Path) -> None:
 def _check_last_line(path: Path, tail: bytes) -> None:
     """Raise for an OBJ file that stops within a line.
 
-    An OBJ file does not say how long it is: one cut between lines passes.
+    OBJ files do not state their length: one that is cut between lines passes.
     """
     if tail.endswith((b"\n", b"\r")):
         return
     words = tail.decode("latin-1").splitlines()[-1].split()
-    if words and len(words) <= _FIELDS_OF_OBJ.get(words[0], 0):
+    if words and len(words) <= _N_OBJ_NUMBERS.get(words[0], 0):
         raise DecompositionError(f"{path.name} is truncated: it stops within a line.")

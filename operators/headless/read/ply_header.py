@@ -1,10 +1,14 @@
-"""What the header of a .ply file promises."""
+"""Reads the header of a .ply file, and tells whether the file is complete.
+
+Blender's importer reads the rest.
+"""
 
 from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
 
+# Codes as in `struct`.
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "b"),
     **dict.fromkeys(("uchar", "uint8"), "B"),
@@ -19,25 +23,32 @@ _TYPES = {
 
 @dataclass(frozen=True)
 class Element:
-    """One kind of element, with the type codes (as in `struct`) of its properties.
+    """One kind of element, such as vertex or face.
 
-    A property has one code, a list two: of its length and of its members.
+    Attributes
+    ----------
+    name : str
+    n_rows : int
+        How many of them the file has.
+    properties : dict of str
+        Type code of each property, as in `struct`. A list has two codes: of its
+        length and of its members.
     """
 
     name: str
-    count: int
+    n_rows: int
     properties: dict[str, str]
 
     @property
     def has_lists(self) -> bool:
-        """Whether the size of an element varies."""
+        """Whether an element has a list, so that its size varies."""
         return any(len(codes) > 1 for codes in self.properties.values())
 
     def fits(self, words: list[bytes]) -> bool:
-        """Return whether the words of a line hold all properties."""
+        """Return whether a line of these words has all properties."""
         n_words = 0
         for codes in self.properties.values():
-            if len(codes) > 1:  # a list, its length ahead
+            if len(codes) > 1:  # a list begins with its length
                 length = words[n_words] if n_words < len(words) else b""
                 n_words += int(length) if length.isdigit() else len(words)
             n_words += 1
@@ -51,10 +62,10 @@ class Header:
     Attributes
     ----------
     order : str
-        Byte order as in `struct`, empty for a file in text form.
+        Byte order as in `struct`; empty for a file in text form.
     elements : tuple of Element
     size : int
-        Bytes of the header itself.
+        Bytes of the header.
     """
 
     order: str
@@ -62,36 +73,36 @@ class Header:
     size: int
 
     def is_whole(self, data: bytes) -> bool:
-        """Return whether a file has all that its header promises."""
+        """Return whether a file has all rows that its header promises."""
         if self.order:
             return self._end(data) <= len(data)
         body = data[self.size :].strip()
         n_lines = max(body.count(b"\n"), body.count(b"\r")) + bool(body)
-        n_promised = sum(element.count for element in self.elements)
+        n_promised = sum(element.n_rows for element in self.elements)
         if n_lines != n_promised:
-            return n_lines > n_promised  # blank lines do no harm
-        last = [element for element in self.elements if element.count]
+            return n_lines > n_promised  # blank lines are allowed
+        last = [element for element in self.elements if element.n_rows]
         return not last or last[-1].fits(body.splitlines()[-1].split())
 
     def _end(self, data: bytes) -> int:
-        """Return where binary data ends, if need be beyond what there is."""
+        """Return where the binary data ends; beyond the file if that is cut short."""
         offset = self.size
         for element in self.elements:
             if element.has_lists:
                 offset = self._end_of_lists(element, data, offset)
             else:
                 row = self.order + "".join(element.properties.values())
-                offset += element.count * struct.calcsize(row)
+                offset += element.n_rows * struct.calcsize(row)
         return offset
 
     def _end_of_lists(self, element: Element, data: bytes, offset: int) -> int:
-        """Return where an element with lists ends that begins at `offset`."""
+        """Return where the rows of an element with lists end that begin at `offset`."""
         formats = [
             (struct.Struct(self.order + codes[0]), struct.calcsize(codes[-1]))
             for codes in element.properties.values()
         ]
         lists = [len(codes) > 1 for codes in element.properties.values()]
-        for _ in range(element.count):
+        for _ in range(element.n_rows):
             for (first, member), is_list in zip(formats, lists, strict=True):
                 if offset + first.size > len(data):
                     return len(data) + 1
@@ -101,7 +112,13 @@ class Header:
 
 
 def read_header(data: bytes) -> Header | None:
-    """Return the header of a .ply file, None if it is not as it should be."""
+    """Return the header of a .ply file, None if it is damaged.
+
+    Parameters
+    ----------
+    data : bytes
+        The whole file.
+    """
     text, mark, body = data.partition(b"end_header")
     newline = len(body) - len(body.removeprefix(b"\r").removeprefix(b"\n"))
     orders = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
@@ -112,8 +129,8 @@ def read_header(data: bytes) -> Header | None:
             match line.split():
                 case ["format", kind, _]:
                     order = orders[kind]
-                case ["element", name, count]:
-                    elements.append(Element(name, int(count), {}))
+                case ["element", name, n_rows]:
+                    elements.append(Element(name, int(n_rows), {}))
                 case ["property", "list", length, member, name]:
                     codes = _TYPES[length] + _TYPES[member]
                     elements[-1].properties[name] = codes
@@ -121,7 +138,7 @@ def read_header(data: bytes) -> Header | None:
                     elements[-1].properties[name] = _TYPES[kind]
     except (KeyError, ValueError, IndexError):
         return None
-    negative = any(element.count < 0 for element in elements)
+    negative = any(element.n_rows < 0 for element in elements)
     if not mark or order is None or negative:
         return None
     return Header(order, tuple(elements), len(text) + len(mark) + newline)

@@ -1,0 +1,76 @@
+"""The surface that stands for a point cloud: oriented splats (section 5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.mesh import TriangleMesh
+from ..geometry.point_cloud import PointCloud
+from ..steps.progress import Progress, Steps, within
+from .normals import estimate_normals, face_inwards
+from .splats import nearest_points, smoothed, thinned_splats
+
+
+@dataclass(frozen=True, eq=False)
+class SplatSurface:
+    """The splats of a cloud, not more of them than needed.
+
+    Attributes
+    ----------
+    points, normals : (M, 3) float
+        The points that became splats, without noise, and their outward normals.
+    areas : (M,) float
+        Area that each of these points stands for.
+    mesh : TriangleMesh
+        Triangle i is the splat of point i.
+    nodes : (N,) int
+        Splat of each point of the cloud.
+    tilt : float
+        Sine of the angle by which the normals may be off.
+    notes : tuple of str
+        Sentences to the user on the normals.
+    found_normals : (N, 3) float or None
+        Normals of all points where the cloud had none, or wrong ones.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    mesh: TriangleMesh
+    nodes: NDArray[np.int64]
+    tilt: float
+    notes: tuple[str, ...]
+    found_normals: NDArray[np.float64] | None
+
+    @property
+    def size(self) -> float:
+        """Side of the square that a splat stands for, on average."""
+        return float(np.sqrt(self.areas.mean()))
+
+
+def splat_surface(cloud: PointCloud) -> Steps[SplatSurface]:
+    """Return the splats of a cloud around the origin."""
+    points, normals, tilt = cloud.points, cloud.normals, 0.0
+    notes: tuple[str, ...] = ()
+    if normals is None:
+        normals, tilt = yield from within(estimate_normals(points), 0.0, 0.6)
+        notes = ("The points have no normals; they were estimated.",)
+    elif face_inwards(points, normals):
+        normals = -normals
+        notes = (
+            "The normals of the points face inwards; they were turned for this"
+            " computation only.",
+        )
+    found = normals if notes else None
+    yield Progress("Splats", 0.6)
+    points = smoothed(points, normals)
+    kept, areas, mesh = thinned_splats(points, normals)
+    yield Progress("Splats", 0.8)
+    nodes, everything = np.arange(len(points)), (points, normals)
+    if len(kept) < len(points):
+        points, normals = points[kept], normals[kept]
+        nodes = nearest_points(points, normals, everything, 1)[:, 0]
+    return SplatSurface(points, normals, areas, mesh, nodes, tilt, notes, found)

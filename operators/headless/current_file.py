@@ -1,0 +1,33 @@
+"""The file that is open in Blender: emptied before a load, and its objects."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..bridge.hulls.hull_objects import is_hull
+from .quiet import quiet_blender
+
+
+def open_empty_file() -> None:
+    """Open an empty file; the user's settings and extensions stay as they are."""
+    with quiet_blender():
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+
+
+def mesh_objects() -> list[bpy.types.Object]:
+    """Return the meshes and point clouds of the file.
+
+    Returns
+    -------
+    list of Object
+        Sorted by name. Only objects in a view layer, and no hulls from an earlier run:
+        building hulls again replaces them.
+    """
+    found = {
+        obj
+        for scene in bpy.data.scenes
+        for layer in scene.view_layers
+        for obj in layer.objects
+        if obj.type in {"MESH", "POINTCLOUD"} and not is_hull(obj)
+    }
+    return sorted(found, key=lambda obj: obj.name_full)

@@ -1,0 +1,46 @@
+"""The formats of files: the endings that are read and written, and the axis up.
+
+Readers, writers and the options of the command line all take these from here.
+"""
+
+from __future__ import annotations
+
+READ_ENDINGS = (
+    ".obj",
+    ".ply",
+    ".stl",
+    ".off",
+    ".xyz",
+    ".pwn",
+    ".pts",
+    ".glb",
+    ".gltf",
+    ".fbx",
+    ".blend",
+)
+MODEL_ENDINGS = (".blend", ".glb", ".ply", ".obj")
+PICTURE_ENDINGS = (".png",)
+# The names of hull formats, as in --hulls-format, and the ending of each.
+HULL_FORMATS = {
+    "glb": ".glb",
+    "obj": ".obj",
+    "stl": ".stl",
+    "usd": ".usd",
+    "urdf": ".urdf",
+    "mjcf": ".xml",
+}
+HULL_ENDINGS = tuple(HULL_FORMATS.values())
+
+# The usual up axis of mesh formats whose files do not state one.
+USUAL_UP = {".obj": "Y", ".off": "Y", ".ply": "Z", ".stl": "Z"}
+
+
+def axes(up: str) -> dict[str, str]:
+    """Return the options of Blender's importers and exporters for an up axis.
+
+    Parameters
+    ----------
+    up : {'Y', 'Z'}
+    """
+    forward = {"Y": "NEGATIVE_Z", "Z": "Y"}[up]
+    return {"forward_axis": forward, "up_axis": up}

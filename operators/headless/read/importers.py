@@ -1,0 +1,107 @@
+"""One importer for each ending: Blender's, or our readers of .off and point files.
+
+Each takes a path and the axis that points up, adds objects to the scene and returns
+{'FINISHED'}, as Blender's operators do. Formats that state their axis ignore `up`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+from pathlib import Path
+
+import addon_utils
+import bpy
+
+from ...bridge.mesh.points import set_points
+from ..formats import axes
+from .off_files import read_off
+from .point_files import read_points
+
+
+def _obj(path: Path, up: str) -> set[str]:
+    """Import .obj."""
+    return set(bpy.ops.wm.obj_import(filepath=str(path), **axes(up)))
+
+
+def _ply(path: Path, up: str) -> set[str]:
+    """Import .ply."""
+    return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))
+
+
+def _stl(path: Path, up: str) -> set[str]:
+    """Import .stl."""
+    return set(bpy.ops.wm.stl_import(filepath=str(path), **axes(up)))
+
+
+def _off(path: Path, up: str) -> set[str]:
+    """Import .off by our reader."""
+    vertices, polygons = read_off(path)
+    mesh = bpy.data.meshes.new(path.stem)
+    mesh.from_pydata(vertices, [], [row for row in polygons if len(row) > 2])
+    mesh.validate()
+    _add_object(mesh, up)
+    return {"FINISHED"}
+
+
+def _points(path: Path, up: str) -> set[str]:
+    """Import .xyz, .pwn or .pts by our reader."""
+    points, normals = read_points(path)
+    mesh = bpy.data.meshes.new(path.stem)
+    mesh.from_pydata(points, [], [])
+    obj = _add_object(mesh, up)
+    if normals is not None:
+        set_points(obj, "normal", "FLOAT_VECTOR", normals)
+    return {"FINISHED"}
+
+
+def _gltf(path: Path, _up: str) -> set[str]:
+    """Import .glb or .gltf."""
+    _enable("io_scene_gltf2")
+    # glTF splits vertices at sharp edges; merging them joins the faces again.
+    return set(bpy.ops.import_scene.gltf(filepath=str(path), merge_vertices=True))
+
+
+def _fbx(path: Path, _up: str) -> set[str]:
+    """Import .fbx."""
+    if "fbx_import" in dir(bpy.ops.wm):  # newer Blenders; it reads text FBX, too
+        return set(bpy.ops.wm.fbx_import(filepath=str(path)))
+    _enable("io_scene_fbx")
+    return set(bpy.ops.import_scene.fbx(filepath=str(path)))
+
+
+def _blend(path: Path, _up: str) -> set[str]:
+    """Open .blend in place of the empty file; its scripts do not run."""
+    return set(
+        bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
+    )
+
+
+def _add_object(mesh: bpy.types.Mesh, up: str) -> bpy.types.Object:
+    """Add an object with a mesh to the scene, rotated so that `up` points up."""
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    obj.rotation_euler.x = pi / 2 if up == "Y" else 0.0
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.update()
+    return obj
+
+
+def _enable(addon: str) -> None:
+    """Enable an add-on that comes with Blender, for this session only."""
+    if not addon_utils.check(addon)[1] and addon_utils.enable(addon) is None:
+        raise RuntimeError(f"Blender's add-on {addon} is missing")
+
+
+IMPORTERS: dict[str, Callable[[Path, str], set[str]]] = {
+    ".obj": _obj,
+    ".ply": _ply,
+    ".stl": _stl,
+    ".off": _off,
+    ".xyz": _points,
+    ".pwn": _points,
+    ".pts": _points,
+    ".glb": _gltf,
+    ".gltf": _gltf,
+    ".fbx": _fbx,
+    ".blend": _blend,
+}

@@ -1,0 +1,67 @@
+"""What a run did: the result of each object and of each input."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True)
+class ObjectResult:
+    """What happened to one object.
+
+    Attributes
+    ----------
+    name : str
+        Name of the object in the file.
+    record : dict or None
+        The record stored on the object, None if it was not decomposed.
+    summary : str
+        Its figures in one line, empty if it was not decomposed.
+    notes : tuple of str
+        Warnings; none of them stopped the work.
+    error : str or None
+        Why the object could not be decomposed.
+    seconds : float
+        Time for the decomposition.
+    """
+
+    name: str
+    record: dict[str, Any] | None = None
+    summary: str = ""
+    notes: tuple[str, ...] = ()
+    error: str | None = None
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class InputResult:
+    """What happened to one input.
+
+    Attributes
+    ----------
+    path : Path
+        The input.
+    objects : tuple of ObjectResult
+        Empty if the input could not be read.
+    errors : tuple of str
+        Why the input could not be read, or a result could not be written.
+    output, picture, hulls : Path or None
+        The files that were written.
+    seconds : float
+        Time for everything.
+    """
+
+    path: Path
+    objects: tuple[ObjectResult, ...]
+    errors: tuple[str, ...]
+    output: Path | None
+    picture: Path | None
+    hulls: Path | None
+    seconds: float
+
+    @property
+    def failed(self) -> bool:
+        """Whether anything went wrong."""
+        return bool(self.errors or any(obj.error for obj in self.objects))

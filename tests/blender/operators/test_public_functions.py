@@ -1,0 +1,45 @@
+"""The public functions with Blender's objects, beside the operators."""
+
+import bpy
+import pytest
+import weak_convex_decomposition as wcd
+from weak_convex_decomposition.operators.bridge.parts.parted import part_labels
+
+
+def test_an_object_gets_the_parts_that_the_operator_gives_it(suzanne):
+    found = wcd.decompose(suzanne, samples=300)
+    assert "wcd" not in suzanne
+    bpy.ops.wcd.decompose(samples=300)
+    assert found.labels.tolist() == part_labels(suzanne).tolist()
+
+
+def test_hulls_and_ranks_of_an_object(suzanne):
+    assert 0 < wcd.measure(suzanne, samples=300).rank < 1
+    assert wcd.build_hulls(suzanne, max_hulls=4).n_hulls == 4
+
+
+def test_a_curve_is_filled(suzanne):
+    bpy.ops.curve.primitive_bezier_circle_add()
+    assert wcd.measure(bpy.context.object, samples=100).rank > 0.9
+
+
+@pytest.mark.parametrize(
+    ("data", "kind"),
+    [(lambda obj: obj.data, "Mesh"), (lambda obj: bpy.context, "Context")],
+)
+def test_other_data_of_blender_is_refused(suzanne, data, kind):
+    with pytest.raises(TypeError, match=f"cannot be a {kind} of Blender; pass the obj"):
+        wcd.decompose(data(suzanne))
+
+
+def test_objects_without_a_surface_are_refused():
+    bpy.ops.object.light_add()
+    with pytest.raises(
+        wcd.DecompositionError, match="Point is not a mesh; pass a mesh"
+    ):
+        wcd.measure(bpy.context.object)
+
+
+def test_faces_beside_an_object_are_refused(suzanne):
+    with pytest.raises(TypeError, match="is a shape already; leave out `faces`"):
+        wcd.decompose(suzanne, [[0, 1, 2]])

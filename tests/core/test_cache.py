@@ -1,0 +1,113 @@
+"""What is kept for another cut, and what tells whether it is still right."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+import shapes
+from brute_caster import BruteCaster
+from computed import decompose
+from weak_convex_decomposition.core.cache import ShapeCache
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
+from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+from weak_convex_decomposition.core.geometry.shape import content_key
+from weak_convex_decomposition.core.parameters.parameter import info_of
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
+
+BEFORE = Parameters(samples=120, max_parts=5)
+# A value of each parameter that changes what comes out.
+CHANGES = {
+    "parts": 9,
+    "rays": 31,
+    "alpha": 1.0,
+    "sight": "CONE",
+    "sampling": "FACES",
+    "samples": 121,
+    "cone_angle": 1.0,
+    "psi_pairs": "RAYS",
+    "containers": "HOLLOW",
+    "normalization": "STOCHASTIC",
+    "min_parts": 4,
+    "max_parts": 8,
+    "refinement": "EMBEDDING",
+    "smoothness": 0.0,
+    "smallest_part": 0.1,
+    "levels": 2,
+    "seed": 1,
+}
+OF_THE_CUT = [f.name for f in fields(Parameters) if not info_of(f).affects_sight]
+
+
+def result(found):
+    return found.labels.tolist(), found.psi, found.psi_by_k, found.ranks.tolist()
+
+
+@pytest.fixture(scope="module")
+def cache():
+    """A cache that has decomposed a comb."""
+    cache = ShapeCache(BruteCaster)
+    run(decompose_in_steps(shapes.comb(), BEFORE, cache))
+    return cache
+
+
+@pytest.mark.parametrize("name", OF_THE_CUT)
+def test_a_new_cut_is_that_of_a_new_run(cache, decomposed, name):
+    after = replace(BEFORE, **{name: CHANGES[name]})
+    again = run(decompose_in_steps(shapes.comb(), after, cache))
+    assert result(again) == result(decompose(shapes.comb(), after))
+    back = run(decompose_in_steps(shapes.comb(), BEFORE, cache))
+    assert result(back) == result(decomposed(shapes.comb, samples=120, max_parts=5))
+
+
+def test_lines_of_sight_are_kept_for_what_does_not_affect_them(cache):
+    for name, value in CHANGES.items():
+        after = replace(BEFORE, **{name: value})
+        kept = cache.has_seen(shapes.comb(), after)
+        assert kept == (name in OF_THE_CUT), name
+
+
+def test_rays_are_cast_once_for_a_shape_and_its_parts(monkeypatch):
+    made = []
+
+    def caster(mesh):
+        made.append(mesh)
+        return BruteCaster(mesh)
+
+    cache, mesh = ShapeCache(caster), shapes.comb()
+    found = run(decompose_in_steps(mesh, BEFORE, cache))
+    run(decompose_in_steps(mesh, replace(BEFORE, levels=2), cache))
+    run(decompose_in_steps(mesh, BEFORE, cache, found.labels == 0))
+    assert len(made) == 1
+    assert cache.has_seen(mesh, BEFORE)  # that of a part did not take its place
+
+
+def test_every_parameter_is_tried():
+    assert list(CHANGES) == [field.name for field in fields(Parameters)]
+
+
+@pytest.mark.parametrize("name", ["vertices", "triangles", "polygons"])
+def test_a_changed_mesh_is_another_one(cache, name):
+    mesh = shapes.comb()
+    array = getattr(mesh, name).copy()
+    array[[0, -1]] = array[[-1, 0]]
+    changed = replace(mesh, **{name: array})
+    assert cache.has_seen(mesh, BEFORE)
+    assert not cache.has_seen(changed, BEFORE)
+
+
+def test_clouds_with_other_normals_are_others():
+    points = shapes.comb().vertices
+    keys = {
+        content_key(PointCloud(points, normals))
+        for normals in (None, np.ones_like(points), -np.ones_like(points))
+    }
+    assert len(keys) == 3
+
+
+def test_forgotten_is_forgotten():
+    cache, mesh = ShapeCache(BruteCaster), shapes.box()
+    run(decompose_in_steps(mesh, BEFORE, cache))
+    assert cache.has_seen(mesh, BEFORE)
+    cache.forget()
+    assert not cache.has_seen(mesh, BEFORE)

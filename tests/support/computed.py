@@ -1,0 +1,77 @@
+"""The core's computations, finished at once, with rays cast by the oracle."""
+
+from brute_caster import BruteCaster
+from weak_convex_decomposition.core.cache import ShapeCache
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
+from weak_convex_decomposition.core.geometry.shells import find_shells
+from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
+from weak_convex_decomposition.core.measurement import measure_in_steps
+from weak_convex_decomposition.core.parts.find import find_parts
+from weak_convex_decomposition.core.parts.part_count import PartCountSearch
+from weak_convex_decomposition.core.parts.part_memo import PartMemo
+from weak_convex_decomposition.core.parts.partition import Partitioner
+from weak_convex_decomposition.core.parts.seams import SeamCutter
+from weak_convex_decomposition.core.sight.prepared import prepare_in_steps
+from weak_convex_decomposition.core.sight.ray_march import RayMarcher
+from weak_convex_decomposition.core.sight.visibility import (
+    find_lines_of_sight,
+    see_in_steps,
+)
+from weak_convex_decomposition.core.steps.progress import run
+
+
+def decompose(shape, parameters, members=None, make_caster=BruteCaster):
+    """Return the decomposition of a shape, or of some of its faces."""
+    cache = ShapeCache(make_caster)
+    return run(decompose_in_steps(shape, parameters, cache, members))
+
+
+def measure(shape, parameters, faces=None, make_caster=BruteCaster):
+    """Return the measurement of a shape, or of some of its faces."""
+    return run(measure_in_steps(shape, parameters, ShapeCache(make_caster), faces))
+
+
+def build_hulls(shape, parameters, labels=None, seed=0):
+    """Return the hulls of a mesh."""
+    cache = ShapeCache(BruteCaster)
+    return run(build_hulls_in_steps(shape, parameters, cache, labels, seed))
+
+
+def prepare(shape, make_caster=BruteCaster):
+    """Return a shape made ready."""
+    return run(prepare_in_steps(shape, make_caster))
+
+
+def see(shape, parameters, make_caster=BruteCaster):
+    """Return the visibility of a shape, with nothing found from it."""
+    return PartMemo(run(see_in_steps(prepare(shape, make_caster), parameters)))
+
+
+def lines_of_sight(shape, parameters, make_caster=BruteCaster):
+    """Return what the samples of a shape see through the inside alone."""
+    return run(find_lines_of_sight(prepare(shape, make_caster), parameters))
+
+
+def parts_of(memo, parameters):
+    """Return the decomposition that a visibility gives."""
+    return run(find_parts(memo, parameters))
+
+
+def marcher_of(mesh):
+    """Return what sends rays through a mesh as it is."""
+    shells = find_shells(mesh)
+    return RayMarcher(mesh, BruteCaster, shells.closed[shells.of_triangle])
+
+
+def cut_seams_of(partitioner, memo, parts):
+    """Return parts of a partitioner with their seams cut."""
+    cutter = SeamCutter(partitioner, memo.cut(partitioner.parameters).seams)
+    return run(cutter.cut(parts))
+
+
+def search_part_count(memo, parameters, low, high):
+    """Return what the search for the number of parts finds, and its partitioner."""
+    partitioner, cut = Partitioner(memo, parameters), memo.cut(parameters)
+    cutter = SeamCutter(partitioner, cut.seams)
+    search = PartCountSearch(partitioner, cutter, low, high, cut.searches)
+    return run(search.best()), partitioner

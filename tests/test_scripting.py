@@ -1,0 +1,246 @@
+"""The public functions, called as a script would."""
+
+import doctest
+import inspect
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import weak_convex_decomposition as wcd
+from conftest import PACKAGE, ROOT
+from shapes import dumbbell, l_shape
+from weak_convex_decomposition.core.steps.progress import Progress
+from weak_convex_decomposition.operators import scripting
+
+OUTLINE = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
+VERTICES = [(x, y, z) for z in (0, 1) for x, y in OUTLINE]
+WALLS = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+FACES = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *WALLS]
+PUBLIC = {
+    *("decompose", "build_hulls", "measure", "Parameters", "HullParameters"),
+    *("TriangleMesh", "PointCloud", "DecompositionError"),
+    *("Decomposition", "HullDecomposition", "Measurement"),
+    *("decompose_in_steps", "build_hulls_in_steps", "measure_in_steps", "run"),
+}
+
+
+class Trimesh:
+    """A mesh of another library."""
+
+    def __init__(self, vertices, faces):
+        self.vertices, self.faces = vertices, faces
+
+
+def loaded_after(code):
+    """Return the modules that a Python of its own has after running code."""
+    prelude = f"import sys\nsys.path.insert(0, {str(ROOT / 'tests' / 'support')!r})\n"
+    done = subprocess.run(
+        [
+            *(sys.executable, "-W", "error", "-c"),
+            f"{prelude}import checkout\n{code}\nprint(*sys.modules)",
+        ],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    return {name.partition(".")[0] for name in done.stdout.split()}
+
+
+def test_importing_the_package_loads_nothing():
+    loaded = loaded_after(f"import {PACKAGE}")
+    assert not loaded & {"numpy", "scipy", "sklearn", "bpy", "mathutils", "embreex"}
+
+
+def test_importing_the_functions_loads_neither_scipy_nor_blender():
+    names = "decompose, build_hulls, measure, Parameters, TriangleMesh, PointCloud"
+    loaded = loaded_after(f"from {PACKAGE} import {names}, HullParameters")
+    assert "numpy" in loaded
+    assert not loaded & {"scipy", "sklearn", "bpy", "mathutils", "embreex"}
+
+
+def test_every_public_name_is_listed_and_found():
+    assert set(wcd.__all__) >= PUBLIC
+    assert set(dir(wcd)) >= set(wcd.__all__)
+    for name in wcd.__all__:
+        assert getattr(wcd, name).__doc__, name
+
+
+def test_types_are_declared_for_every_lazy_name():
+    text = (ROOT / "__init__.py").read_text(encoding="utf-8")
+    declared = text.partition("if TYPE_CHECKING:")[2].partition("__all__")[0]
+    for name in set(wcd.__all__) - {"register", "unregister"}:
+        assert f" {name}\n" in declared or f" {name}," in declared, name
+
+
+def test_a_name_that_is_not_public_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="has no attribute 'decomposed'"):
+        _ = wcd.decomposed
+
+
+def test_the_examples_are_true():
+    done = doctest.testmod(scripting)
+    assert done.failed == 0
+    assert done.attempted > 10
+
+
+@pytest.mark.parametrize("name", ["decompose", "measure", "build_hulls"])
+def test_docstrings_have_every_section_and_parameter(name):
+    function = getattr(scripting, name)
+    text = inspect.cleandoc(function.__doc__)
+    for title in ("Parameters", "Returns", "Raises", "References", "Examples"):
+        assert f"\n{title}\n{'-' * len(title)}\n" in text
+    for parameter in inspect.signature(function).parameters.values():
+        assert f"\n{str(parameter).split(':')[0]}" in text, parameter
+
+
+def test_one_part_of_each_face_however_the_mesh_comes():
+    mesh = l_shape()
+    faces = [  # the quads that the triangles were fanned from
+        (*mesh.triangles[2 * row], mesh.triangles[2 * row + 1, 2])
+        for row in range(mesh.n_polygons)
+    ]
+    ways = [
+        wcd.decompose(mesh, samples=300),
+        wcd.decompose(mesh.vertices, np.array(faces), samples=300),
+        wcd.decompose(mesh.vertices.tolist(), faces, samples=300),
+        wcd.decompose(Trimesh(mesh.vertices, faces), samples=300),
+    ]
+    for found in ways:
+        assert isinstance(found, wcd.Decomposition)
+        assert found.labels.tolist() == ways[0].labels.tolist()
+    assert ways[0].labels.shape == (mesh.n_polygons,)
+    assert ways[0].n_parts == 2
+
+
+def test_triangles_are_faces_of_their_own():
+    mesh = dumbbell()
+    found = wcd.decompose(Trimesh(mesh.vertices, mesh.triangles), parts=3, samples=300)
+    assert found.labels.shape == (len(mesh.triangles),)
+    assert found.n_parts == 3
+
+
+def test_vertices_without_faces_are_points():
+    mesh = l_shape()
+    points = mesh.vertices[mesh.triangles].mean(axis=1)
+    found = wcd.measure(points, samples=100)
+    again = wcd.measure(wcd.PointCloud(points), samples=100)
+    assert (found.rank, found.n_samples) == (again.rank, again.n_samples)
+
+
+def test_parameters_come_as_a_value_as_keywords_or_both():
+    parameters = wcd.Parameters(parts=2, samples=300)
+    both = wcd.decompose(VERTICES, FACES, parameters=parameters, parts=3)
+    alone = wcd.decompose(VERTICES, FACES, parts=3, samples=300)
+    assert both.psi == alone.psi
+    assert parameters.parts == 2
+
+
+def test_the_steps_give_what_the_functions_give():
+    cache = wcd.ShapeCache(wcd.choose_ray_caster())
+    steps = wcd.decompose_in_steps(l_shape(), wcd.Parameters(samples=300), cache)
+    assert isinstance(next(steps), Progress)
+    labels = wcd.run(steps).labels
+    assert labels.tolist() == wcd.decompose(l_shape(), samples=300).labels.tolist()
+
+
+def test_hulls_know_their_parts():
+    mesh = l_shape()
+    parts = wcd.decompose(mesh, samples=300)
+    hulls = wcd.build_hulls(mesh, labels=parts.labels, pieces="PARTS", shape="BOX")
+    assert isinstance(hulls, wcd.HullDecomposition)
+    assert sorted(hulls.parts) == [0, 1]
+    assert {shape.kind for shape in hulls.shapes} == {"BOX"}
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda tell: wcd.decompose(VERTICES, FACES, progress=tell, samples=300),
+        lambda tell: wcd.measure(VERTICES, FACES, progress=tell, samples=300),
+        lambda tell: wcd.build_hulls(VERTICES, FACES, progress=tell),
+    ],
+    ids=["decompose", "measure", "build_hulls"],
+)
+def test_progress_is_told_as_it_rises(call):
+    told = []
+    call(lambda stage, fraction: told.append((stage, fraction)))
+    stages, fractions = zip(*told, strict=True)
+    assert len(told) > 5
+    assert all(type(stage) is str for stage in stages)
+    assert all(type(fraction) is float for fraction in fractions)
+    assert list(fractions) == sorted(fractions)
+    assert fractions[0] < 0.1
+    assert fractions[-1] == 1.0
+
+
+def test_a_progress_that_raises_ends_the_work():
+    def stop(stage, fraction):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        wcd.measure(VERTICES, FACES, progress=stop)
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: wcd.decompose("chair.obj"), "must be vertices with faces.* type str"),
+        (lambda: wcd.decompose(None), "must be vertices with faces.* type NoneType"),
+        (lambda: wcd.decompose([[0, 0, 0], [1]]), "must be vertices.* type list"),
+        (lambda: wcd.decompose(VERTICES, 3), "`faces` must be rows .* type int"),
+        (lambda: wcd.decompose(VERTICES, [1, 2, 3]), "Face 0 is no list"),
+        (lambda: wcd.decompose(VERTICES, ["abc"]), "Face 0 is no list"),
+        (lambda: wcd.decompose(VERTICES, [[0.0, 1.0, 2.0]]), "must be whole numbers"),
+        (lambda: wcd.decompose(l_shape(), FACES), "A TriangleMesh is a shape already"),
+        (lambda: wcd.decompose(Trimesh(VERTICES, FACES), FACES), "is a shape already"),
+        (lambda: wcd.decompose(VERTICES, FACES, part=3), "'part'; its .* parts, rays,"),
+        (
+            lambda: wcd.measure(VERTICES, FACES, k=3),
+            r"measure\(\) got .* 'k'; its para",
+        ),
+        (
+            lambda: wcd.build_hulls(VERTICES, FACES, hulls=3),
+            "'hulls'; its .* max_hulls",
+        ),
+        (
+            lambda: wcd.decompose(VERTICES, parameters={}),
+            "must be Parameters, not dict",
+        ),
+        (
+            lambda: wcd.build_hulls(VERTICES, FACES, parameters=wcd.Parameters()),
+            "must be HullParameters, not Parameters",
+        ),
+        (
+            lambda: wcd.build_hulls(VERTICES, FACES, labels=[0.5] * 8),
+            "`labels` must be whole numbers",
+        ),
+    ],
+)
+def test_wrong_types_are_told_in_a_sentence(call, sentence):
+    with pytest.raises(TypeError, match=sentence):
+        call()
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: wcd.decompose([[0, 0], [1, 1]]), r"shape \(V, 3\), not \(2, 2\)"),
+        (lambda: wcd.decompose(VERTICES, []), "has no faces"),
+        (lambda: wcd.decompose(VERTICES, [[0, 1]]), "Face 0 has 2 corners"),
+        (lambda: wcd.decompose(VERTICES, [[0, 1, 12]]), "missing vertices"),
+        (lambda: wcd.decompose(VERTICES, [[0, 1, 2, 12]]), "missing vertices"),
+        (lambda: wcd.decompose(VERTICES, [[0, 1, 2], [0, 1, 2, -1]]), "missing vertic"),
+        (lambda: wcd.decompose(VERTICES), "too few points"),
+        (lambda: wcd.decompose([(0, 0, np.nan)] * 3, [[0, 1, 2]]), "not finite"),
+        (lambda: wcd.decompose(VERTICES, FACES, parts=1000), "Parts is 1000"),
+        (lambda: wcd.build_hulls([(i, i * i, i**3) for i in range(20)]), "need faces"),
+        (lambda: wcd.build_hulls(VERTICES, FACES, pieces="PARTS"), "pass `labels`"),
+        (lambda: wcd.build_hulls(VERTICES, FACES, labels=[0, 1]), "must be 8 numbers"),
+        (lambda: wcd.build_hulls(VERTICES, FACES, labels=[-1] * 8), "8 numbers from 0"),
+    ],
+)
+def test_bad_values_are_told_in_a_sentence(call, sentence):
+    with pytest.raises(wcd.DecompositionError, match=sentence):
+        call()
