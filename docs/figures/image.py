@@ -31,7 +31,7 @@ def below(rows: list[np.ndarray]) -> np.ndarray:
 
 
 def resized(pixels: np.ndarray, size: int, darkest: bool = False) -> np.ndarray:
-    """Return a square picture with `size` pixels a side: averages, or darkest pixels."""
+    """Return a square picture of `size` pixels a side: averages, or darkest pixels."""
     if not darkest:
         edges = np.linspace(0, len(pixels), size + 1).round().astype(int)
         rows = np.add.reduceat(pixels, edges[:-1]) / np.diff(edges)[:, None, None]

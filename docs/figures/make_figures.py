@@ -3,8 +3,8 @@
     make figures                          all of them
     make figures FIGURES="sight ranks"    some of them
 
-Each figure is a function of `drawings`; the extension of this checkout computes what
-they show.
+Each figure is a function of `solid_drawings` or `flat_drawings`. The extension of this
+checkout computes what they show.
 """
 
 import sys
@@ -12,26 +12,27 @@ from pathlib import Path
 
 import bpy
 import extension
+import flat_drawings
+import solid_drawings
 from image import save
 
+FIGURES = solid_drawings.FIGURES | flat_drawings.FIGURES
 PICTURES = Path(__file__).resolve().parents[1] / "pictures"
 
 
 def main(names: list[str]) -> None:
     """Draw the figures of these names, all of them if there is none."""
     extension.switch_on()
-    import drawings  # its shapes want a scene
-
-    unknown = set(names) - drawings.FIGURES.keys()
+    unknown = set(names) - FIGURES.keys()
     if unknown:
-        sys.exit(f"No figure {', '.join(unknown)}: {', '.join(drawings.FIGURES)}")
-    for name, draw in drawings.FIGURES.items():
+        sys.exit(f"No figure {', '.join(unknown)}; there are {', '.join(FIGURES)}.")
+    for name, draw in FIGURES.items():
         if names and name not in names:
             continue
         bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
         path = PICTURES / f"{name}.png"
         save(path, draw())
-        print(f"{path.name}: {path.stat().st_size // 1000} KB")
+        sys.stdout.write(f"{path.name}: {path.stat().st_size // 1000} KB\n")
 
 
 if __name__ == "__main__":

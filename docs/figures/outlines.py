@@ -64,7 +64,7 @@ def fork() -> np.ndarray:
 
 
 def notched(width: float, bottom: float) -> np.ndarray:
-    """Return a square from -1 to 1 with a notch, `width` wide, from above to `bottom`."""
+    """Return a square from -1 to 1 with a notch, `width` wide, down to `bottom`."""
     half = width / 2
     mouth = [(half, 1), (half * 0.8, bottom), (-half * 0.8, bottom), (-half, 1)]
     return np.array([(-1, 1), (-1, -1), (1, -1), (1, 1), *mouth])

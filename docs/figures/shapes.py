@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import cos, pi, radians, sin
 
 import bmesh
@@ -40,8 +41,8 @@ _BONES = ["hip chest", "chest neck", "neck head", "head nose", "hip tail", "tail
 # Boxes of the chair: center and size.
 _CHAIR = [
     ((0, 0, 0), (2, 2, 0.3)),
-    ((0, 0.85, 1.35), (2, 0.3, 2.6)),
-    *(((x, y, -1.1), (0.3, 0.3, 2.1)) for x in (-0.8, 0.8) for y in (-0.8, 0.8)),
+    ((0, 0.9, 1.3), (2, 0.3, 2.3)),
+    *(((x, y, -1.1), (0.3, 0.3, 1.9)) for x in (-0.75, 0.75) for y in (-0.75, 0.75)),
 ]
 # The fingers of the hand: root, tip and radius, thumb first.
 FINGERS = [
@@ -112,7 +113,7 @@ def turned(profile: list[tuple[float, float]], segments: int = 64) -> bpy.types.
     """Return the solid of a profile of (radius, height) turned around Z."""
     build = bmesh.new()
     corners = [build.verts.new((radius, 0, height)) for radius, height in profile]
-    edges = [build.edges.new(pair) for pair in zip(corners, corners[1:], strict=False)]
+    edges = [build.edges.new(pair) for pair in pairwise(corners)]
     bmesh.ops.spin(
         build,
         geom=[*corners, *edges],
@@ -169,17 +170,18 @@ def figure() -> bpy.types.Object:
     ]
     for side in (-1, 1):
         wrist = np.array((side * 3.1, 0, 1.75))
+        out = np.array((side, 0, 0))
         ankle = (side * 0.62, 0, -3.0)
         pieces += [
             [((side * 0.36, 0, 0), 0.38), (ankle, 0.2)],
             [(ankle, 0.2), ((side * 0.7, -0.5, -3.06), 0.15)],
             [((side * 0.6, 0, 1.75), 0.3), (wrist, 0.17)],
-            [(wrist, 0.17), (wrist + (side * 0.35, 0, 0), 0.25)],
+            [(wrist, 0.17), (wrist + out * 0.35, 0.25)],
         ]
-        for angle in (-80, -30, -10, 10, 30):
+        for angle in (-85, -36, -12, 12, 36):
             way = np.array((side * cos(radians(angle)), 0, sin(radians(angle))))
-            length = 0.6 if angle == -80 else 1.0
-            root = wrist + (side * 0.3, 0, 0)
+            length = 0.6 if angle == -85 else 1.0
+            root = wrist + out * 0.3
             pieces.append([(root, 0.09), (root + way * length, 0.07)])
     return fused(pieces, voxel=0.035)
 

@@ -85,8 +85,8 @@ def _row(field: Field[Any]) -> str:
     elif isinstance(default, str):
         values = "text"
     else:
-        values = f"{_number(info, info.low)} to {_number(info, info.high)}"
-    shown = f"`{default}`" if isinstance(default, str) else _number(info, default)
+        values = f"{_shown(info, info.low)} to {_shown(info, info.high)}"
+    shown = _shown(info, default)
     return f"| `{field.name}` | {info.label} | {shown} | {values} | {text} |"
 
 
@@ -96,7 +96,7 @@ def _preset_table(parameters: type) -> str:
     lines = ["| preset | for | what it sets |", "|---|---|---|"]
     for preset in _load("core.parameters.presets").PRESETS:
         changes = [
-            f"`{name}` = {value if isinstance(value, str) else _number(info_of[name], value)}"
+            f"`{name}` = {_shown(info_of[name], value)}"
             for name, value in preset.changes.items()
         ]
         lines.append(
@@ -106,8 +106,10 @@ def _preset_table(parameters: type) -> str:
     return "\n".join(lines)
 
 
-def _number(info: Any, value: float) -> str:
-    """Return a number as people read it: angles in degrees."""
+def _shown(info: Any, value: float | str) -> str:
+    """Return a value as people read it: texts as code, angles in degrees."""
+    if isinstance(value, str):
+        return f"`{value}`"
     return f"{math.degrees(value):g}°" if info.subtype == "ANGLE" else f"{value:.10g}"
 
 
@@ -117,7 +119,8 @@ def _load(module: str) -> ModuleType:
         spec = importlib.util.spec_from_file_location(
             _PACKAGE, ROOT / "__init__.py", submodule_search_locations=[str(ROOT)]
         )
-        assert spec is not None and spec.loader is not None
+        if spec is None or spec.loader is None:
+            raise ImportError(f"{ROOT} has no __init__.py")
         package = importlib.util.module_from_spec(spec)
         sys.modules[_PACKAGE] = package
         spec.loader.exec_module(package)

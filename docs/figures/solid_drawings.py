@@ -1,54 +1,26 @@
-"""The figures, one function each, by the name of their file."""
+"""The figures of solids and clouds, one function each, by the name of their file."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+import bmesh
 import bpy
 import extension
 import numpy as np
 import outlines
 import shapes
 from image import below, beside, resized
-from render import FROM_ABOVE, caption, panel
+from panels import BLUE, GREEN, RED, paint, parts
+from render import caption, panel
 from scipy.interpolate import CubicSpline
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import cKDTree
 
-_GRAY = (0.42, 0.5, 0.58)
-_SEEN = (0.03, 0.42, 0.12)
-_HIDDEN = (0.04, 0.16, 0.5)
-_MARK = (0.8, 0.02, 0.02)
-
-
-def _paint(obj: bpy.types.Object, *colors: tuple[float, float, float]) -> None:
-    """Give an object materials of linear colors, in place of those it has."""
-    obj.data.materials.clear()
-    for color in colors:
-        material = bpy.data.materials.new("Figure")
-        material.diffuse_color = (*color, 1.0)
-        obj.data.materials.append(material)
-
-
-def _flat(loop: np.ndarray, text: str) -> np.ndarray:
-    """Return a panel of an outline as it is."""
-    obj = outlines.outline(loop)
-    _paint(obj, _GRAY)
-    return panel([obj], text, size=230, turn=0, elevation=FROM_ABOVE)
-
-
-def _parts(
-    obj: bpy.types.Object, text: str, size: int = 400, turn: float = 35.0, **parameters
-) -> np.ndarray:
-    """Return a panel of an object in parts; the text may name figures of its record."""
-    record = extension.decompose(obj, **parameters)
-    shown = bpy.context.object
-    mean = np.mean([part["convexity_rank"] for part in record["parts"]])
-    flat = shown.dimensions.z == 0
-    text = text.format(mean=mean, **record)
-    print(text, record["k"], record["notes"])
-    if flat:
-        return panel([shown], text, size, 0, FROM_ABOVE)
-    return panel([shown], text, size, turn)
+# Radius and height along the profile of the vase.
+_VASE = [
+    (0.6, 0.0), (0.44, 0.4), (0.62, 0.75), (1.05, 1.3), (1.22, 1.9), (1.02, 2.5),
+    (0.6, 2.95), (0.4, 3.35), (0.44, 3.65), (0.68, 3.95),
+]  # fmt: skip
 
 
 def gallery() -> np.ndarray:
@@ -56,10 +28,7 @@ def gallery() -> np.ndarray:
     turns = (22, 22, 35, 35)
     makers = (shapes.suzanne, shapes.bear, shapes.dog, shapes.chair)
     return beside(
-        [
-            _parts(make(), "", 400, turn)
-            for make, turn in zip(makers, turns, strict=True)
-        ]
+        [parts(make(), "", 400, turn) for make, turn in zip(makers, turns, strict=True)]
     )
 
 
@@ -81,7 +50,7 @@ def sight() -> np.ndarray:
         # The nearest sample of the same side: thin walls have two.
         tree = cKDTree(np.hstack([places, normals * 0.1]))
         _, nearest = tree.query(np.hstack([centers, facing * 0.1]))
-        _paint(obj, _HIDDEN, _SEEN)
+        paint(obj, BLUE, GREEN)
         faces.foreach_set("material_index", visible[nearest].astype(np.int32))
         mark = _ball(point, max(obj.dimensions) * 0.022)
         panels.append(panel([obj, mark], size=400, turn=20))
@@ -93,59 +62,10 @@ def hands() -> np.ndarray:
     flat = outlines.outline(outlines.hand())
     return beside(
         [
-            _parts(flat, "an outline: {k} parts", 420),
-            _parts(shapes.hand(), "a solid: {k} parts", 420, turn=10),
+            parts(flat, "an outline: {k} parts", 420),
+            parts(shapes.hand(), "a solid: {k} parts", 420, turn=10),
         ]
     )
-
-
-def ranks() -> np.ndarray:
-    """Draw shapes over their convexity ranks (fig. 4)."""
-    loops = (
-        outlines.circle(),
-        outlines.lobes(2, 0.6),
-        outlines.star(5, 0.6),
-        outlines.dumbbell(),
-        outlines.horseshoe(),
-        outlines.star(5, 0.35),
-        outlines.star(12, 0.3),
-    )
-    measured = [(extension.rank(outlines.outline(loop)), loop) for loop in loops]
-    measured.sort(key=lambda pair: -pair[0])
-    return beside([_flat(loop, f"{rank:.2f}") for rank, loop in measured])
-
-
-def before_after() -> np.ndarray:
-    """Draw shapes with their ranks before and after (fig. 5)."""
-    rows = []
-    for loop in (outlines.lobes(3, 0.25), outlines.star(3, 0.12)):
-        rank = extension.rank(outlines.outline(loop))
-        rows.append(_flat(loop, f"rank {rank:.2f}"))
-        obj = outlines.outline(loop)
-        rows.append(_parts(obj, "{k} parts, mean rank {mean:.2f}", 230))
-    return beside(rows)
-
-
-def walk() -> np.ndarray:
-    """Draw lines of sight within a part and between parts (fig. 6)."""
-    loop = outlines.dumbbell(0.3)
-    rng = np.random.default_rng(3)
-    ends = np.roll(loop, -1, axis=0)
-    lengths = np.linalg.norm(ends - loop, axis=1)
-    steps = (np.arange(36) + rng.random(36)) / 36 * lengths.sum()
-    edges = np.searchsorted(lengths.cumsum(), steps)
-    left = ((lengths.cumsum()[edges] - steps) / lengths[edges])[:, None]
-    spots = (loop[edges] * left + ends[edges] * (1 - left)) * 0.995
-    obj = outlines.outline(loop)
-    _paint(obj, (0.75, 0.78, 0.82))
-    drawn = [obj]
-    for i, one in enumerate(spots):
-        for other in spots[:i]:
-            if not outlines.sees(loop, one, other):
-                continue
-            crosses = one[0] * other[0] < 0
-            drawn.append(_line(one, other, 0.05 + 0.05 * crosses, crosses))
-    return panel(drawn, size=520, turn=0, elevation=FROM_ABOVE)[110:410]
 
 
 def matrices() -> np.ndarray:
@@ -156,7 +76,7 @@ def matrices() -> np.ndarray:
         ("rays in a cone", {"sight": "CONE", "samples": 1200}),
     ):
         obj = shapes.dog()
-        shape = _parts(obj, f"the parts: {text}", 300, parts=6, **parameters)
+        shape = parts(obj, f"the parts: {text}", 300, parts=6, **parameters)
         row = [shape]
         for kind, name in (
             ("SIGHT", "lines of sight"),
@@ -197,37 +117,22 @@ def quality() -> np.ndarray:
     vase = _vase()
     return beside(
         [
-            _parts(shapes.suzanne(), text, 300, 22),
-            _parts(shapes.bear(), text, 300, 22),
-            _parts(shapes.dog(), text, 300),
-            _parts(shapes.chair(), text, 300),
-            _parts(vase, text, 300),
+            parts(shapes.suzanne(), text, 300, 22),
+            parts(shapes.bear(), text, 300, 22),
+            parts(shapes.dog(), text, 300),
+            parts(shapes.chair(), text, 300),
+            parts(vase, text, 300),
         ]
     )
 
 
 def overlap() -> np.ndarray:
     """Draw parts that overlap in volume (fig. 11)."""
-    bars = [((0, 0, 0), (4, 0.7, 0.7)), ((0, 0, 0), (0.7, 4, 0.7))]
-    obj = shapes.boxes([*bars, ((0, 0, 0), (0.7, 0.7, 4))])
-    whole = _parts(obj, "three bars through each other: {k} parts", 400)
+    bars = [((0, 0, 0), (5, 0.7, 0.6)), ((0.1, 0, 0.1), (0.6, 5, 0.7))]
+    obj = shapes.boxes([*bars, ((-0.1, 0.1, 0), (0.5, 0.5, 5))])
+    whole = parts(obj, "three bars through each other: {k} parts", 400)
     apart = _separated(obj)
     return beside([whole, panel(apart, "the parts, moved apart", 400)])
-
-
-def measures() -> np.ndarray:
-    """Draw a spoon and a fork over two measures of convexity (fig. 12)."""
-    return below([_compared(outlines.spoon()), _compared(outlines.fork())])
-
-
-def notches() -> np.ndarray:
-    """Draw notches of one depth and different widths (fig. 13)."""
-    panels = []
-    for width, bottom in ((1.9, -0.3), (0.3, -0.3), (0.06, 0.6)):
-        loop = outlines.notched(width, bottom)
-        rank = extension.rank(outlines.outline(loop))
-        panels.append(_flat(loop, f"{rank:.2f}"))
-    return beside(panels)
 
 
 def fingers() -> np.ndarray:
@@ -250,8 +155,8 @@ def containers() -> np.ndarray:
     """Draw a cup as a hollow thing and as a filled one (fig. 14)."""
     return beside(
         [
-            _parts(_cup(), "Containers hollow: {k} parts", 380, containers="HOLLOW"),
-            _parts(_cup(), "Containers filled: {k} part", 380),
+            parts(_cup(), "Containers hollow: {k} parts", 380, containers="HOLLOW"),
+            parts(_cup(), "Containers filled: {k} part", 380),
         ]
     )
 
@@ -260,16 +165,9 @@ def sheets() -> np.ndarray:
     """Draw a thin table top seen from above and from below (fig. 14)."""
     top = [((0, 0, 0), (5, 3, 0.08))]
     legs = [((x, y, -1.3), (0.3, 0.3, 2.6)) for x in (-2, 2) for y in (-1.1, 1.1)]
-    obj = shapes.boxes([*top, *legs], cuts=15)
-    above = _parts(obj, "{k} parts", 380)
+    obj = shapes.boxes([*top, *legs], cuts=31)
+    above = parts(obj, "{k} parts", 380)
     return beside([above, panel([obj], "from below", 380, elevation=-25)])
-
-
-# Radius and height along the profile of the vase.
-_VASE = [
-    (0.6, 0.0), (0.44, 0.4), (0.62, 0.75), (1.05, 1.3), (1.22, 1.9), (1.02, 2.5),
-    (0.6, 2.95), (0.4, 3.35), (0.44, 3.65), (0.68, 3.95),
-]  # fmt: skip
 
 
 def _vase() -> bpy.types.Object:
@@ -304,20 +202,8 @@ def _torus() -> bpy.types.Object:
 
 def _ball(place: np.ndarray, radius: float) -> bpy.types.Object:
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, radius=radius, location=place)
-    _paint(bpy.context.object, _MARK)
+    paint(bpy.context.object, RED)
     return bpy.context.object
-
-
-def _line(one, other, height: float, crosses: bool) -> bpy.types.Object:
-    """Return a thin bar between two points, above the outline."""
-    way = other - one
-    side = np.array((-way[1], way[0])) / np.linalg.norm(way) * 0.008
-    corners = [one + side, one - side, other - side, other + side]
-    mesh = bpy.data.meshes.new("Line")
-    mesh.from_pydata([(*corner, height) for corner in corners], [], [(0, 1, 2, 3)])
-    obj = bpy.data.objects.new("Line", mesh)
-    _paint(obj, _MARK if crosses else _SEEN)
-    return obj
 
 
 def _splat_object(cloud: bpy.types.Object) -> bpy.types.Object:
@@ -345,14 +231,12 @@ def _separated(obj: bpy.types.Object) -> list[bpy.types.Object]:
         copy = bpy.data.objects.new("Part", obj.data.copy())
         doomed = np.flatnonzero(labels != part)
         _delete_faces(copy.data, doomed)
-        copy.location = ((part - 1) * 2.2, (part - 1) * 2.2 * 0.7, 0)
+        copy.location = ((part - 1) * 1.7, (part - 1) * 1.2, 0)
         found.append(copy)
     return found
 
 
 def _delete_faces(mesh: bpy.types.Mesh, doomed: np.ndarray) -> None:
-    import bmesh
-
     build = bmesh.new()
     build.from_mesh(mesh)
     build.faces.ensure_lookup_table()
@@ -362,20 +246,10 @@ def _delete_faces(mesh: bpy.types.Mesh, doomed: np.ndarray) -> None:
     build.free()
 
 
-def _compared(loop: np.ndarray) -> np.ndarray:
-    share = outlines.area(loop) / ConvexHull(loop).volume
-    rank = extension.rank(outlines.outline(loop))
-    obj = outlines.outline(loop)
-    _paint(obj, _GRAY)
-    view = panel([obj], size=620, turn=0, elevation=FROM_ABOVE)[215:405]
-    text = f"area / area of the hull {share:.2f}, convexity rank {rank:.2f}"
-    return np.concatenate([view, caption(text, 620)])
-
-
-FIGURES: dict[str, Callable[[], np.ndarray]] = {
+FIGURES = {
     each.__name__: each
     for each in (
-        gallery, sight, hands, ranks, before_after, walk, matrices, clouds, quality,
-        overlap, measures, notches, fingers, containers, sheets,
+        gallery, sight, hands, matrices, clouds, quality, overlap, fingers, containers,
+        sheets,
     )
 }  # fmt: skip
