@@ -6,6 +6,7 @@ import bpy
 import extension
 import numpy as np
 import outlines
+import shapes
 from image import below, beside
 from panels import GREEN, RED, paint, parts
 from render import FROM_ABOVE, caption, panel
@@ -15,6 +16,17 @@ _GRAY = (0.42, 0.5, 0.58)
 _PALE = (0.75, 0.78, 0.82)
 
 
+def hands() -> np.ndarray:
+    """Draw a hand as an outline and as a solid (fig. 3)."""
+    flat = outlines.outline(outlines.hand())
+    return beside(
+        [
+            parts(flat, "an outline: {k} parts", 420),
+            parts(shapes.hand(), "a solid: {k} parts", 420, turn=10),
+        ]
+    )
+
+
 def ranks() -> np.ndarray:
     """Draw shapes over their convexity ranks (fig. 4)."""
     loops = (
@@ -22,13 +34,15 @@ def ranks() -> np.ndarray:
         outlines.lobes(2, 0.6),
         outlines.star(5, 0.6),
         outlines.dumbbell(),
+        outlines.lobes(3, 0.25),
         outlines.horseshoe(),
         outlines.star(5, 0.35),
         outlines.star(12, 0.3),
     )
     measured = [(extension.rank(outlines.outline(loop)), loop) for loop in loops]
     measured.sort(key=lambda pair: -pair[0])
-    return beside([_flat(loop, f"{rank:.2f}") for rank, loop in measured])
+    panels = [_flat(loop, f"{rank:.2f}") for rank, loop in measured]
+    return below([beside(panels[:4]), beside(panels[4:])])
 
 
 def before_after() -> np.ndarray:
@@ -61,7 +75,7 @@ def walk() -> np.ndarray:
                 continue
             crosses = one[0] * other[0] < 0
             drawn.append(_line(one, other, 0.05 + 0.05 * crosses, crosses))
-    return panel(drawn, size=520, turn=0, elevation=FROM_ABOVE)[110:410]
+    return panel(drawn, size=640, turn=0, elevation=FROM_ABOVE)[185:455]
 
 
 def measures() -> np.ndarray:
@@ -109,5 +123,6 @@ def _compared(loop: np.ndarray) -> np.ndarray:
 
 
 FIGURES = {
-    each.__name__: each for each in (ranks, before_after, walk, measures, notches)
+    each.__name__: each
+    for each in (hands, ranks, before_after, walk, measures, notches)
 }

@@ -8,7 +8,6 @@ import bmesh
 import bpy
 import extension
 import numpy as np
-import outlines
 import shapes
 from image import below, beside, resized
 from panels import BLUE, GREEN, RED, paint, parts
@@ -55,17 +54,6 @@ def sight() -> np.ndarray:
         mark = _ball(point, max(obj.dimensions) * 0.022)
         panels.append(panel([obj, mark], size=400, turn=20))
     return beside(panels)
-
-
-def hands() -> np.ndarray:
-    """Draw a hand as an outline and as a solid (fig. 3)."""
-    flat = outlines.outline(outlines.hand())
-    return beside(
-        [
-            parts(flat, "an outline: {k} parts", 420),
-            parts(shapes.hand(), "a solid: {k} parts", 420, turn=10),
-        ]
-    )
 
 
 def matrices() -> np.ndarray:
@@ -249,7 +237,7 @@ def _delete_faces(mesh: bpy.types.Mesh, doomed: np.ndarray) -> None:
 FIGURES = {
     each.__name__: each
     for each in (
-        gallery, sight, hands, matrices, clouds, quality, overlap, fingers, containers,
+        gallery, sight, matrices, clouds, quality, overlap, fingers, containers,
         sheets,
     )
 }  # fmt: skip

@@ -40,7 +40,10 @@ def on_files(files: Any, config: Any) -> Any:
 
 def on_page_markdown(markdown: str, **_: Any) -> str:
     """Fill in the tables, and turn links of the checkout into links of the site."""
-    return _MARK.sub(lambda mark: table(mark[1]), site_links(markdown))
+    return _MARK.sub(
+        lambda mark: f'<div class="parameters" markdown>\n\n{table(mark[1])}\n\n</div>',
+        site_links(markdown),
+    )
 
 
 def site_links(markdown: str) -> str:
