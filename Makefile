@@ -64,10 +64,14 @@ pictures: ## Take the pictures of the window anew: BLENDER=command
 	@cp build/window/sight-clicked.png docs/pictures/sight.png
 	@cp build/window/explode-exploded.png docs/pictures/exploded.png
 
-lint: development ## Check the format, the rules of the code and the types of core
+lint: development ## Check the format, the rules of the code and the types
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/ruff check .
-	$(VENV)/bin/mypy core
+	@echo "mypy core operators ui"  # by the package's name, whatever the checkout's is
+	@checkout=$$PWD; mypy=$$(realpath -s $(VENV)/bin/mypy); links=$$(mktemp -d); \
+	ln -s "$$checkout" "$$links/weak_convex_decomposition"; cd "$$links"; \
+	trap 'rm -r "$$links"' EXIT; "$$mypy" --config-file "$$checkout/pyproject.toml" \
+	  --cache-dir "$$checkout/.mypy_cache" weak_convex_decomposition/{core,operators,ui}
 
 zip: venv ## Build the installable zips into build/
 	@$(PYTHON_HERE) .tools/extension.py build --output build

@@ -82,16 +82,16 @@ def __dir__() -> list[str]:
 
 
 def register() -> None:
-    """Register the classes, the scene's settings and the command."""
+    """Register the operators, the settings and the command, then the panels."""
     from . import operators, ui
 
-    ui.register()
     operators.register()
+    ui.register()
 
 
 def unregister() -> None:
     """Undo `register`, last thing first."""
     from . import operators, ui
 
-    operators.unregister()
     ui.unregister()
+    operators.unregister()

@@ -1,30 +1,33 @@
-"""Decompose the active mesh into convex parts."""
+"""Decompose objects into convex parts, and clear what the extension added to them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import bpy
 
 from ..core.steps.progress import Steps
-from .bridge.read.converting import carrier_of
-from .bridge.read.target import decompose_refusal
+from .bridge.hulls.hull_objects import erase_hulls
+from .bridge.parts.erase import clear
+from .bridge.parts.exploding import implode
+from .bridge.parts.images import erase_images
+from .bridge.read.carrier import carrier_for, placed_carrier
+from .bridge.refusals import clear_refusal, decompose_refusal
 from .bridge.work.computing import summary
+from .bridge.work.editing import Edited
 from .bridge.work.locking import decompose_unlocked
 from .running.computation import Computation
-from .settings import ADVANCED, FRONT, annotations, draw, parameters_from
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from .bridge.work.editing import Edited
+from .running.on_objects import OnEach
+from .settings import ADVANCED, FRONT, draw, parameters_from, properties_for
 
 
 class WCD_OT_decompose(Computation, bpy.types.Operator):
-    """Split the active mesh into weakly convex parts, and show them on it."""
+    """Split objects into weakly convex parts, and show the parts on them."""
 
     bl_idname = "wcd.decompose"
     bl_label = "Decompose into Convex Parts"
     bl_description = (
-        "Split the selected meshes into weakly convex parts, and show them on them"
+        "Split the selected meshes into weakly convex parts, and show the parts on them"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 
@@ -34,14 +37,14 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the objects to work on, one of those that share a mesh."""
+        """Return the objects to work on; only the first of those that share a mesh."""
         firsts: dict[bpy.types.ID | None, bpy.types.Object] = {}
         for obj in super()._chosen(context):
             firsts.setdefault(obj and obj.data, obj)
         return list(firsts.values())
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the settings, those of the sidebar's front first."""
+        """Draw the settings; those at the front of the sidebar come first."""
         draw(self.layout, self, FRONT)
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
@@ -49,11 +52,33 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        return decompose_unlocked(obj, parameters_from(self))
+        return decompose_unlocked(carrier_for(obj), parameters_from(self))
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(carrier_of(obj))
+        value.write(placed_carrier(obj))
         return summary(value.decomposition)
 
 
-WCD_OT_decompose.__annotations__ = annotations()
+WCD_OT_decompose.__annotations__ = properties_for()
+
+
+class WCD_OT_clear(OnEach, bpy.types.Operator):
+    """Remove everything that the other operators added to objects."""
+
+    bl_idname = "wcd.clear"
+    bl_label = "Clear Convex Parts"
+    bl_description = (
+        "Remove the parts, the hulls and everything else that was added to the selected"
+        " objects"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return clear_refusal(obj)
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        erase_hulls(obj)
+        implode(obj)
+        erase_images(obj)
+        clear(obj)

@@ -2,29 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import bpy
 
 from ..core.errors import DecompositionError
 from ..core.steps.progress import Steps
-from .bridge.mesh.points import is_cloud
-from .bridge.parts.present_parts import edit_refusal
+from .bridge.mesh.selection import selected_faces
 from .bridge.parts.rows import active_part, chosen_parts
-from .bridge.read.shape import selected_faces
+from .bridge.refusals import assign_refusal, edit_refusal, merge_refusal
 from .bridge.work import edits
-from .bridge.work.editing import edit_object
-from .running.replacement import Replacement
-from .settings import annotations
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from .bridge.work.editing import Edited
+from .bridge.work.editing import Edited, edit_object
+from .running.computation import Replacement
+from .settings import properties_for
 
 SCOPE = bpy.props.EnumProperty(
     name="Seams Of",
-    description="Whose seams",
+    description="The parts whose seams are meant",
     items=(
-        ("CHOSEN", "Chosen Parts", "Those ticked in the table, or the highlighted one"),
+        ("CHOSEN", "Chosen Parts", "The ticked parts, or the highlighted one"),
         ("ALL", "All Parts", "All parts of the object"),
     ),
 )
@@ -36,7 +32,7 @@ def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
 
 
 class _Edit(Replacement):
-    """What edits of parts share."""
+    """Half an operator that edits parts."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -46,21 +42,18 @@ class _Edit(Replacement):
 
 
 class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
-    """Make one part of those that are ticked."""
+    """Make one part of the ticked parts."""
 
     bl_idname = "wcd.merge_parts"
     bl_label = "Merge Convex Parts"
     bl_description = (
-        "Make one part of those ticked in the table. It keeps the name and color of the"
-        " highlighted one, or of the first"
+        "Make one part of the parts that are ticked in the table. It keeps the name and"
+        " color of the highlighted part if that is ticked, else of the first"
     )
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = edit_refusal(obj)
-        if reason is None and len(chosen_parts(obj)) < 2:
-            reason = "Tick two or more parts in the table to merge them"
-        return reason
+        return merge_refusal(obj)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
@@ -76,8 +69,8 @@ class WCD_OT_split_parts(_Edit, bpy.types.Operator):
     bl_idname = "wcd.split_parts"
     bl_label = "Split Convex Parts"
     bl_description = (
-        "Decompose the chosen parts again, each by itself: all samples are on it, so"
-        " that small ones come apart, such as the fingers of a hand"
+        "Decompose the chosen parts again, each by itself. All samples are on one part,"
+        " so that small details come apart, such as the fingers of a hand"
     )
 
     def _begin(
@@ -93,8 +86,8 @@ class WCD_OT_split_parts(_Edit, bpy.types.Operator):
 WCD_OT_split_parts.__annotations__ = {
     "parts": bpy.props.IntProperty(
         name="Parts",
-        description="Number of parts that each is split into; 0 searches for the one"
-        " of largest psi",
+        description="Number of parts that each is split into; 0 searches for the number"
+        " with the largest psi",
         default=2,
         min=0,
         max=256,
@@ -111,12 +104,7 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = edit_refusal(obj)
-        if reason is None and is_cloud(obj):
-            reason = f"{obj.name} has no faces, only points"
-        if reason is None and obj.mode != "EDIT":
-            reason = "Faces are selected in Edit Mode; switch the mode"
-        return reason
+        return assign_refusal(obj)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
@@ -131,8 +119,8 @@ class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
     bl_idname = "wcd.smooth_seams"
     bl_label = "Smooth Seams of Convex Parts"
     bl_description = (
-        "Make the seams of parts shorter and smoother, along creases where there are"
-        " any, near to where they are"
+        "Make the seams of parts shorter and smoother. They stay near where they are,"
+        " and follow creases"
     )
 
     def _begin(
@@ -142,7 +130,7 @@ class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
         return edit_object(obj, edits.smoothing(chosen, self.smoothness))
 
 
-WCD_OT_smooth_seams.__annotations__ = {"scope": SCOPE, **annotations(["smoothness"])}
+WCD_OT_smooth_seams.__annotations__ = {"scope": SCOPE, **properties_for(["smoothness"])}
 
 
 class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):
@@ -151,8 +139,8 @@ class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):
     bl_idname = "wcd.mirror_parts"
     bl_label = "Mirror Convex Parts"
     bl_description = (
-        "Copy the parts on one side of the object's X axis to the other: faces get the"
-        " part of their mirror image. Parts on one side alone are named .L and .R"
+        "Copy the parts on one side of the object's X axis to the other. Each face gets"
+        " the part of its mirror image. Parts that lie on one side are named .L and .R"
     )
 
     def _begin(
@@ -165,7 +153,7 @@ class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):
 WCD_OT_mirror_parts.__annotations__ = {
     "direction": bpy.props.EnumProperty(
         name="Direction",
-        description="Which side's parts are copied",
+        description="The side whose parts are copied",
         items=(
             ("TO_NEGATIVE", "+X to -X", "Copy the parts at positive X"),
             ("TO_POSITIVE", "-X to +X", "Copy the parts at negative X"),

@@ -1,29 +1,30 @@
-"""Put convex hulls, or simpler shapes, around the active mesh."""
+"""Put collision hulls around objects, and make rigid bodies of objects with hulls."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import bpy
 
+from ..core.results import HullDecomposition
 from ..core.steps.progress import Steps
-from .bridge.hulls.hull_objects import hull_refusal, write_hulls
+from .bridge.hulls.hull_objects import hulls_of, write_hulls
+from .bridge.hulls.rigid_bodies import make_rigid
+from .bridge.refusals import hull_refusal, rigid_refusal
 from .bridge.work.computing import build_hulls_of, hull_summary
 from .running.computation import Computation
-from .settings import HULLS, annotations, draw, hull_parameters_from, parameters_from
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.hulls.build import HullDecomposition
+from .running.on_objects import OnEach
+from .settings import HULLS, draw, hull_parameters_from, parameters_from, properties_for
 
 
 class WCD_OT_build_hulls(Computation, bpy.types.Operator):
-    """Put collision hulls around the active mesh, or around its parts."""
+    """Put collision hulls around objects, or around their parts."""
 
     bl_idname = "wcd.build_hulls"
     bl_label = "Build Collision Hulls"
     bl_description = (
-        "Put collision hulls around the active mesh, as few as its error allows, or"
-        " one for each part; it is decomposed for that if it has no parts"
+        "Put collision hulls around the selected meshes: as few as the error allows, or"
+        " one for each part. For the latter, a mesh without parts is decomposed first"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
 
@@ -47,4 +48,35 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         return hull_summary(value)
 
 
-WCD_OT_build_hulls.__annotations__ = annotations(HULLS)
+WCD_OT_build_hulls.__annotations__ = properties_for(HULLS)
+
+
+class WCD_OT_make_rigid(OnEach, bpy.types.Operator):
+    """Make rigid bodies of objects with hulls."""
+
+    bl_idname = "wcd.make_rigid"
+    bl_label = "Rigid Body of Hulls"
+    bl_description = (
+        "Make the object a rigid body in the shape of its hulls, for Blender's own"
+        " simulation. Clear removes it"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return rigid_refusal(obj)
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        make_rigid(obj, hulls_of(obj), self.kind)
+
+
+WCD_OT_make_rigid.__annotations__ = {
+    "kind": bpy.props.EnumProperty(
+        name="Type",
+        description="How the object moves in the simulation",
+        items=(
+            ("ACTIVE", "Active", "It falls, and other bodies push it"),
+            ("PASSIVE", "Passive", "It stays where it is, or follows its animation"),
+        ),
+    )
+}

@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import bpy
 
 from ..core.errors import DecompositionError
 from ..core.parameters.parts import Parameters
+from ..core.results import Measurement
 from ..core.steps.progress import Steps
-from .bridge.read.shape import selected_faces
-from .bridge.read.target import refusal
+from .bridge.mesh.selection import selected_faces
+from .bridge.refusals import measure_refusal, selection_refusal
 from .bridge.stored.record import write_measurement
 from .bridge.work.computing import measure_object, measure_selection_of
 from .running.computation import Computation
-from .settings import MEASURE, SELECTION, annotations, draw, parameters_from
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.decomposition import Measurement
+from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
 
 
 class WCD_OT_measure(Computation, bpy.types.Operator):
-    """Measure the share of pairs of surface points that see each other."""
+    """Measure which share of the pairs of surface points see each other."""
 
     bl_idname = "wcd.measure"
     bl_label = "Measure Convexity"
@@ -31,7 +29,7 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return refusal(obj, writes_mesh=False)
+        return measure_refusal(obj)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
@@ -48,26 +46,23 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
         return _figures(value)
 
 
-WCD_OT_measure.__annotations__ = annotations(MEASURE)
+WCD_OT_measure.__annotations__ = properties_for(MEASURE)
 
 
 class WCD_OT_measure_selection(Computation, bpy.types.Operator):
-    """Measure the share of pairs of points on selected faces that see each other."""
+    """Measure the same for points on the selected faces."""
 
     bl_idname = "wcd.measure_selection"
     bl_label = "Measure Convexity of Selection"
     bl_description = (
         "Measure the share of pairs of points on the selected faces that see each"
-        " other, as for a part"
+        " other, as if the faces were a part"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = refusal(obj, writes_mesh=False)
-        if reason is None and obj.mode != "EDIT":
-            return "Faces are selected in Edit Mode; switch the mode"
-        return reason
+        return selection_refusal(obj)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
@@ -80,7 +75,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
     def _read(
         self, context: bpy.types.Context
     ) -> list[Steps[Any] | DecompositionError]:
-        self._n_faces: dict[int, int] = {}  # the selection may change meanwhile
+        self._n_faces: dict[int, int] = {}  # for the end, when the selection may differ
         return super()._read(context)
 
     def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
@@ -89,7 +84,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
         return f"{_figures(value)} of {n_faces:,} faces"
 
 
-WCD_OT_measure_selection.__annotations__ = annotations(SELECTION)
+WCD_OT_measure_selection.__annotations__ = properties_for(SELECTION)
 
 
 def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:

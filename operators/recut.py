@@ -1,10 +1,10 @@
-"""Cut the parts of the active object anew: as the sidebar changes, or by the chart."""
+"""Replace the parts of the active object, as settings change or by the chart."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import bpy
 
@@ -12,19 +12,18 @@ from ..core.errors import DecompositionError
 from ..core.parameters.parts import Parameters
 from ..core.steps.job import Job
 from ..core.steps.progress import Steps
-from .bridge.read.target import refusal
+from .bridge.refusals import recut_refusal
 from .bridge.stored.record import noted_parameters
 from .bridge.work.computing import is_quick
+from .bridge.work.editing import Edited
 from .bridge.work.locking import decompose_unlocked
 from .running import modal
-from .running.replacement import Replacement
-from .settings import annotations, parameters_from
+from .running.computation import Replacement
+from .settings import parameters_from, properties_for
 
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from .bridge.work.editing import Edited
-
-# Seconds that a slider may wait for parts; what takes longer goes on modally.
+# Seconds that a slider waits for the parts; after that a modal run finds them.
 _MOMENT = 0.3
+# Seconds until the next try to start a modal run.
 _RETRY = 0.1
 
 
@@ -33,12 +32,10 @@ class _Recut(Replacement):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = refusal(obj)
-        if reason is None and not noted_parameters(obj):
-            reason = f"{obj.name} has no parts to cut anew; press Decompose"
-        return reason
+        return recut_refusal(obj)
 
     def _wanted(self, context: bpy.types.Context) -> Parameters:
+        """Return the parameters of the new parts."""
         return parameters_from(context.scene.wcd)
 
     def _begin(
@@ -46,7 +43,9 @@ class _Recut(Replacement):
     ) -> Steps[Edited]:
         parameters = self._wanted(context)
         if not is_quick(obj, parameters):
-            self.report({"INFO"}, "The shape or its sampling is new: it is seen anew")
+            self.report(
+                {"INFO"}, "The shape or its sampling has changed: it is sampled again"
+            )
         return decompose_unlocked(obj, parameters)
 
 
@@ -60,26 +59,26 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether the active object has parts; a run that goes on is awaited."""
+        """Return whether the active object has parts, also while something runs."""
         return cls._refusal(context.active_object) is None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Cut at once where that takes a moment, and let a modal run do the rest.
+        """Replace the parts at once if that is quick, else start a modal run.
 
-        The setting's own undo step then holds the parts, too. Without a window nobody
-        waits for it.
+        If it is done at once, the parts belong to the undo step of the setting. Without
+        a window it is always done at once.
         """
         try:
             if modal.busy() is None and self._cut(context):
                 return {"FINISHED"}
         except DecompositionError:
-            pass  # the modal run tells it
+            pass  # the modal run fails, too, and reports it
         if not bpy.app.background and not bpy.app.timers.is_registered(_invoke):
             bpy.app.timers.register(_invoke)
         return {"CANCELLED"}
 
     def _cut(self, context: bpy.types.Context) -> bool:
-        """Cut if need be; return False if that would take longer than a moment."""
+        """Replace the parts if they differ; return False if that takes too long."""
         obj, parameters = context.active_object, self._wanted(context)
         if noted_parameters(obj) == parameters:
             return True
@@ -93,7 +92,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
 
 
 def _invoke() -> float | None:
-    """Start a modal run, as soon as none is running."""
+    """Start a modal run as soon as nothing else runs; return when to try again."""
     if modal.busy():
         return _RETRY
     window = bpy.context.window_manager.windows[0]
@@ -104,13 +103,13 @@ def _invoke() -> float | None:
 
 
 def stop() -> None:
-    """Start no modal run any more."""
+    """Forget a modal run that waits to be started."""
     if bpy.app.timers.is_registered(_invoke):
         bpy.app.timers.unregister(_invoke)
 
 
 class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
-    """Cut into a number of parts."""
+    """Replace the parts by a number of parts."""
 
     bl_idname = "wcd.choose_part_count"
     bl_label = "Choose Number of Parts"
@@ -125,4 +124,4 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
         return super()._commit(obj, value)
 
 
-WCD_OT_choose_part_count.__annotations__ = annotations(("parts",))
+WCD_OT_choose_part_count.__annotations__ = properties_for(("parts",))

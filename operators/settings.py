@@ -1,11 +1,11 @@
-"""Blender properties made from the fields of the parameters."""
+"""The settings: Blender properties made of the parameters' fields, and presets."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
 from dataclasses import Field, fields
-from typing import Any
+from typing import Any, ClassVar, cast
 
 import bpy
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parameter import ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
-from ..core.parameters.presets import Preset
+from ..core.parameters.presets import PRESETS, Preset, preset
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -25,34 +25,34 @@ MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
 
 
-def annotations(names: Iterable[str] = ALL) -> dict[str, Any]:
-    """Return the annotations that give a Blender class these parameters."""
+def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
+    """Return parameters as Blender properties, for the annotations of a class."""
     return {name: _property(_FIELDS[name]) for name in names}
 
 
 def _setting(name: str) -> Any:
-    """Return the annotation of a parameter as a setting of the sidebar."""
+    """Return the annotation of a parameter as a setting of a scene."""
     return _property(_FIELDS[name], **({"update": _recut} if name in RECUT else {}))
 
 
 def _recut(settings: Any, context: bpy.types.Context) -> None:
-    """Cut the parts of the active object anew if the settings are live."""
+    """Replace the parts of the active object if the settings are live."""
     if settings.live and bpy.ops.wcd.recut.poll():
         bpy.ops.wcd.recut()
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
-    """Return the `Parameters` that `owner`, of a class so annotated, holds."""
+    """Return the `Parameters` of an object whose class has these properties."""
     return Parameters(**{name: _value(owner, _FIELDS[name]) for name in names})
 
 
 def hull_parameters_from(owner: Any) -> HullParameters:
-    """Return the `HullParameters` that `owner`, of a class so annotated, holds."""
+    """Return the `HullParameters` of an object whose class has these properties."""
     return HullParameters(**{name: _value(owner, _FIELDS[name]) for name in HULLS})
 
 
 def is_used(owner: Any, name: str) -> bool:
-    """Return whether the other settings leave a setting any effect."""
+    """Return whether a setting has an effect, given the other settings."""
     if name in {"rays", "psi_pairs", "cone_angle"}:
         return owner.sight == "CONE"
     if name in {"min_parts", "max_parts"}:
@@ -69,7 +69,7 @@ def is_used(owner: Any, name: str) -> bool:
 
 
 def draw(layout: Any, owner: Any, names: Iterable[str]) -> None:
-    """Draw settings one below another, those without effect greyed."""
+    """Draw settings in a column; those without effect are greyed out."""
     layout.use_property_split = True
     layout.use_property_decorate = False
     for name in names:
@@ -79,6 +79,7 @@ def draw(layout: Any, owner: Any, names: Iterable[str]) -> None:
 
 
 def _property(field: Field[Any], **more: Any) -> Any:
+    """Return the Blender property of a parameter."""
     info = info_of(field)
     described = {
         "name": info.label,
@@ -102,22 +103,23 @@ def _property(field: Field[Any], **more: Any) -> Any:
 
 
 def _bounds(info: ParameterInfo, number: type) -> dict[str, Any]:
+    """Return the bounds of a parameter that are finite."""
     bounds = {"min": info.low, "max": info.high, "soft_max": info.usual}
     return {name: number(v) for name, v in bounds.items() if math.isfinite(v)}
 
 
 def _value(owner: Any, field: Field[Any]) -> Any:
-    """Return a setting as it was meant before Blender rounded it to float32."""
-    value = getattr(owner, field.name)
+    """Return a setting as the user typed it, before Blender rounded it to float32."""
+    value, default = getattr(owner, field.name), cast(Any, field.default)
     if not isinstance(value, float):
         return value
-    if value == float(np.float32(field.default)):
-        return field.default
+    if value == float(np.float32(default)):
+        return default
     return float(f"{value:.7g}")
 
 
 def hand_over(settings: Any, button: Any, names: Iterable[str]) -> None:
-    """Give a button's operator the scene's settings."""
+    """Copy settings of a scene to the operator of a button."""
     for name in names:
         setattr(button, name, getattr(settings, name))
 
@@ -125,23 +127,68 @@ def hand_over(settings: Any, button: Any, names: Iterable[str]) -> None:
 def use_preset(settings: Any, chosen: Preset) -> None:
     """Set all settings of a scene to those of a preset."""
     parameters = chosen.parameters()
-    live, settings.live = settings.live, False  # all at once, not one by one
+    live, settings.live = settings.live, False  # replace the parts once, at the end
     for name in ALL:
         setattr(settings, name, getattr(parameters, name))
     settings.live = live
     _recut(settings, bpy.context)
 
 
+class WCD_OT_use_preset(bpy.types.Operator):
+    """Set all settings of the scene to those of a preset."""
+
+    bl_idname = "wcd.use_preset"
+    bl_label = "Use Convex Parts Preset"
+    bl_description = "Set all settings in the sidebar to those of a preset"
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip of a preset's entry in the menu."""
+        return preset(properties.preset).help
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Set them."""
+        use_preset(context.scene.wcd, preset(self.preset))
+        return {"FINISHED"}
+
+
+WCD_OT_use_preset.__annotations__ = {
+    "preset": bpy.props.EnumProperty(
+        name="Preset",
+        description="The preset to use",
+        items=[(each.identifier, each.label, each.help) for each in PRESETS],
+    )
+}
+
+
 class WCD_PG_settings(bpy.types.PropertyGroup):
-    """The settings of a scene, handed to the operators by the sidebar."""
+    """The settings of a scene; the sidebar hands them to the operators."""
 
 
-WCD_PG_settings.__annotations__ = {name: _setting(name) for name in (*ALL, *HULLS)}
-WCD_PG_settings.__annotations__["live"] = bpy.props.BoolProperty(
-    name="Live",
-    description=(
-        "Cut the active object's parts anew as soon as their number, the balance or"
-        " another setting changes that asks for no new lines of sight"
+WCD_PG_settings.__annotations__ = {
+    **{name: _setting(name) for name in (*ALL, *HULLS)},
+    "live": bpy.props.BoolProperty(
+        name="Live",
+        description=(
+            "Replace the active object's parts as soon as a setting changes, such as"
+            " their number or the balance. Settings that need new lines of sight are"
+            " left out"
+        ),
+        update=_recut,
     ),
-    update=_recut,
-)
+}
+
+CLASSES = (WCD_PG_settings, WCD_OT_use_preset)
+
+
+def register() -> None:
+    """Give each scene its settings."""
+    bpy.types.Scene.wcd = bpy.props.PointerProperty(type=WCD_PG_settings)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    del bpy.types.Scene.wcd

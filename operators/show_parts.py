@@ -7,40 +7,32 @@ from typing import Any, ClassVar
 import bpy
 import numpy as np
 
-from .bridge.mesh.points import is_cloud
-from .bridge.mesh.selection import (
-    boundary_edges,
-    hide_faces,
-    mark_seams,
-    select_edges,
-    select_faces,
-)
+from .bridge.mesh.corners import boundary_edges
+from .bridge.mesh.selection import hide_faces, mark_seams, select_edges, select_faces
 from .bridge.mesh.viewing import frame_points, points_of_parts
-from .bridge.parts.present_parts import edit_refusal, present_parts
+from .bridge.parts.present_parts import present_parts
 from .bridge.parts.rows import chosen_parts
+from .bridge.refusals import edit_refusal, faces_refusal, isolate_refusal
 from .edit_parts import SCOPE, in_scope
 from .running.on_objects import OnActive, OnEach
 
 _EXTEND = bpy.props.BoolProperty(
-    name="Extend", description="Keep what is selected already", default=False
+    name="Extend", description="Keep the present selection", default=False
 )
 
 
 class _Show(OnActive, OnEach):
-    """What these operators share."""
+    """Half an operator on the faces of parts."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = edit_refusal(obj)
-        if reason is None and is_cloud(obj):
-            reason = f"{obj.name} has no faces, only points"
-        return reason
+        return faces_refusal(obj)
 
 
 def _members(obj: bpy.types.Object) -> np.ndarray:
-    """Return which faces, or points, are of the chosen parts."""
+    """Return which faces, or points, belong to the chosen parts."""
     return np.isin(present_parts(obj).labels, chosen_parts(obj))
 
 
@@ -50,8 +42,8 @@ class WCD_OT_select_parts(_Show, bpy.types.Operator):
     bl_idname = "wcd.select_parts"
     bl_label = "Select Convex Parts"
     bl_description = (
-        "Select the faces of the parts ticked in the table, or of the highlighted one."
-        " In Object Mode the selection shows when Edit Mode is entered"
+        "Select the faces of the parts that are ticked in the table, or of the"
+        " highlighted one. The selection shows in Edit Mode"
     )
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
@@ -67,23 +59,20 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
     bl_idname = "wcd.isolate_parts"
     bl_label = "Isolate Convex Parts"
     bl_description = (
-        "Hide the faces of all parts but those ticked in the table, or the highlighted"
-        " one"
+        "Hide the faces of all other parts. Parts that are ticked in the table stay, or"
+        " the highlighted one"
     )
 
     @classmethod
     def description(
         cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
     ) -> str:
-        """Return the tooltip of either button."""
+        """Return the tooltip of the button Isolate, or of Show All."""
         return cls.bl_description if properties.hide else "Show all hidden faces again"
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = _Show._refusal(obj)
-        if reason is None and obj.mode != "EDIT":
-            reason = "Faces are hidden in Edit Mode alone; switch the mode"
-        return reason
+        return isolate_refusal(obj)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         members = _members(obj)
@@ -105,7 +94,8 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
     bl_idname = "wcd.frame_parts"
     bl_label = "Frame Convex Parts"
     bl_description = (
-        "Move the view to the parts ticked in the table, or to the highlighted one"
+        "Move the view to the parts that are ticked in the table, or to the highlighted"
+        " one"
     )
     bl_options: ClassVar[set[str]] = set()
 
@@ -135,7 +125,7 @@ class WCD_OT_select_boundary(_Show, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
-        select_edges(obj, boundary_edges(obj, labels, chosen), self.extend)
+        select_edges(obj, boundary_edges(obj.data, labels, chosen), self.extend)
 
 
 WCD_OT_select_boundary.__annotations__ = {"scope": SCOPE, "extend": _EXTEND}
@@ -150,7 +140,7 @@ class WCD_OT_mark_seams(_Show, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
-        mark_seams(obj, boundary_edges(obj, labels, chosen))
+        mark_seams(obj, boundary_edges(obj.data, labels, chosen))
 
 
 WCD_OT_mark_seams.__annotations__ = {"scope": SCOPE}

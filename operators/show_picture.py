@@ -1,40 +1,35 @@
-"""What the parts come from, as pictures in the Image Editor."""
+"""Show in the Image Editor how the parts were found."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import bpy
 
 from ..core.parameters.choices import PICTURES
 from ..core.parameters.parameter import Choice
+from ..core.results import Picture
 from ..core.steps.progress import Steps
 from .bridge.parts.images import write_image
-from .bridge.parts.parted import decomposed_refusal
+from .bridge.refusals import picture_refusal
 from .bridge.work.computing import picture_of
 from .running.computation import Computation
 
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.pictures import Picture
-
 
 class WCD_OT_show_picture(Computation, bpy.types.Operator):
-    """Show a picture of what the parts come from."""
+    """Show a picture of how the parts were found."""
 
     bl_idname = "wcd.show_picture"
     bl_label = "Show Convex Parts in Image Editor"
     bl_description = (
-        "Draw what the parts come from: an image of the file, shown in open Image"
-        " Editors"
+        "Draw how the parts were found. The image is kept in the file, and shown in"
+        " open Image Editors"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        reason = decomposed_refusal(obj)
-        if reason is None and obj.mode != "OBJECT":
-            return "Edit Mode could not undo this; switch to Object Mode"
-        return reason
+        return picture_refusal(obj)
 
     @classmethod
     def description(
@@ -58,18 +53,19 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
 WCD_OT_show_picture.__annotations__ = {
     "picture": bpy.props.EnumProperty(
         name="Picture",
-        description="What to draw",
+        description="The picture to draw",
         items=[(each.identifier, each.label, each.help) for each in PICTURES],
     )
 }
 
 
 def _chosen_picture(properties: bpy.types.OperatorProperties) -> Choice:
+    """Return the picture that an operator is to draw."""
     return next(each for each in PICTURES if each.identifier == properties.picture)
 
 
 def _show(image: bpy.types.Image) -> bool:
-    """Show all of an image in open Image Editors; return whether there are any."""
+    """Show an image in all open Image Editors; return whether there are any."""
     editors = [
         (window, area)
         for window in bpy.context.window_manager.windows

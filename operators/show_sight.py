@@ -1,52 +1,51 @@
-"""Lines of sight of points that are clicked on, drawn over the viewports."""
+"""Show in the viewports what the points see that the user clicks on."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import bpy
 import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Vector
 
+from .. import core
 from ..core.errors import DecompositionError
 from ..core.steps.progress import Steps
 from . import sight_overlay
 from .bridge.mesh.points import vertices_now
 from .bridge.read.shape import stretch
-from .bridge.read.target import refusal
+from .bridge.read.target import Target
+from .bridge.refusals import measure_refusal
 from .bridge.work.computing import point_viewer_of
 from .running import modal
 from .running.computation import Computation
 from .running.on_objects import OnActive
-from .settings import SELECTION, annotations, parameters_from
+from .settings import SELECTION, parameters_from, properties_for
 from .sight_overlay import Overlay
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ..core.sight.point_view import PointViewer
 
 _HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hide"
 
 
 class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
-    """Show which samples the points see that are clicked on."""
+    """Show which samples a point sees that the user clicks on."""
 
     bl_idname = "wcd.show_sight"
     bl_label = "Show Lines of Sight"
     bl_description = (
-        "Click points of the active object to see what they see: samples in line of"
-        " sight are green, others blue. Nothing is written to the object"
+        "Click points of the active object to see what they see. Samples in line of"
+        " sight are green, others are blue. Nothing is written to the object"
     )
     bl_options: ClassVar[set[str]] = set()
 
-    _lookout: PointViewer | None = None
+    _viewer: Any = None  # the `core.PointViewer`, once it is made
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return refusal(obj, writes_mesh=False)
+        return measure_refusal(obj)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Show what the middle of a face sees, at once."""
+        """Show what the middle of a face sees."""
         if self.face < 0:
             self.report(
                 {"ERROR"},
@@ -57,11 +56,11 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         return super().execute(context)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Compute what is needed; then show what the points see that are clicked."""
-        if self._lookout is None:
+        """Make the object ready; then show what each clicked point sees."""
+        if self._viewer is None:
             answer = super().modal(context, event)
             return answer if answer != {"FINISHED"} else self._wait()
-        if sight_overlay.current is not self._overlay:  # hidden, or shown anew
+        if sight_overlay.current is not self._overlay:  # hidden, or replaced by another
             return {"FINISHED", "PASS_THROUGH"}
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
@@ -78,13 +77,14 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[PointViewer]:
+    ) -> Steps[core.PointViewer]:
         parameters = parameters_from(self, SELECTION)
         return point_viewer_of(obj, parameters)
 
-    def _commit(self, obj: bpy.types.Object, value: PointViewer) -> str:
+    def _commit(self, obj: bpy.types.Object, value: core.PointViewer) -> str:
         ray = None if self.face < 0 else _above_face(obj, self.face)
-        self._lookout = value
+        self._viewer = value
+        self._target = Target.of(obj)
         self._overlay = Overlay(
             obj.session_uid,
             stretch(obj),
@@ -97,14 +97,14 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         return f"{len(value.samples):,} samples"
 
     def _wait(self) -> set[str]:
-        """Go on to wait for clicks."""
+        """Wait for clicks."""
         modal.show_status(self._overlay.workspace, _HINT)
         return {"RUNNING_MODAL"}
 
     def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:
-        """Show what the point sees that is at a place of a viewport."""
+        """Show what the point under the cursor sees."""
         try:
-            obj = self._targets[0].find()
+            obj = self._target.find()
         except DecompositionError as error:
             stop()
             self.report({"WARNING"}, str(error))
@@ -119,16 +119,16 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
     def _show(self, origin: Vector, direction: Vector) -> None:
         """Show what the first point along a ray in object space sees."""
         scale = self._overlay.scale
-        view = self._lookout.look(np.array(origin) * scale, np.array(direction) * scale)
+        view = self._viewer.look(np.array(origin) * scale, np.array(direction) * scale)
         if view is not None:
             sight_overlay.show_view(view)
 
 
 WCD_OT_show_sight.__annotations__ = {
-    **annotations(SELECTION),
+    **properties_for(SELECTION),
     "face": bpy.props.IntProperty(
         name="Face",
-        description="Face whose middle looks around, -1 for none; for scripts",
+        description="For scripts: the face whose middle is looked from, -1 for none",
         default=-1,
         min=-1,
         options={"SKIP_SAVE"},
@@ -137,11 +137,11 @@ WCD_OT_show_sight.__annotations__ = {
 
 
 class WCD_OT_hide_sight(bpy.types.Operator):
-    """Take lines of sight off the viewports."""
+    """Remove lines of sight from the viewports."""
 
     bl_idname = "wcd.hide_sight"
     bl_label = "Hide Lines of Sight"
-    bl_description = "Take the lines of sight off the viewports"
+    bl_description = "Remove the lines of sight from the viewports"
     bl_options: ClassVar[set[str]] = set()
 
     @classmethod
@@ -160,7 +160,7 @@ CLASSES = (WCD_OT_show_sight, WCD_OT_hide_sight)
 
 @bpy.app.handlers.persistent
 def stop(*_: object) -> None:
-    """Hide the overlay, and what the status bar says of it."""
+    """Hide the overlay, and clear its text from the status bar."""
     overlay = sight_overlay.current
     sight_overlay.hide()
     if overlay is not None:
@@ -169,7 +169,7 @@ def stop(*_: object) -> None:
 
 @bpy.app.handlers.persistent
 def _stop_if_stale(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
-    """Hide the overlay as soon as the shape is another than the one it was made of."""
+    """Hide the overlay if its object's vertices have moved."""
     overlay = sight_overlay.current
     if overlay is None:
         return
@@ -199,7 +199,7 @@ def unregister() -> None:
 
 
 def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
-    """Return a ray in object space that comes down on the middle of a face."""
+    """Return a ray in object space that hits the middle of a face from outside."""
     polygons = obj.data.polygons
     if face >= len(polygons):
         raise DecompositionError(
@@ -213,7 +213,7 @@ def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
 def _viewport_at(
     context: bpy.types.Context, x: int, y: int
 ) -> tuple[bpy.types.Region, int, int] | None:
-    """Return the viewport at a place of the window, and the place in it."""
+    """Return the viewport at a point of the window, and the point in its pixels."""
     for area in context.window.screen.areas:
         there = [region for region in area.regions if _holds(region, x, y)]
         if area.type == "VIEW_3D" and {r.type for r in there} == {"WINDOW"}:
@@ -222,4 +222,5 @@ def _viewport_at(
 
 
 def _holds(region: Any, x: int, y: int) -> bool:
+    """Return whether a point of the window is in a region."""
     return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height

@@ -1,46 +1,36 @@
-"""What parts are good for: objects, exploded views, face sets and colors."""
+"""Use the parts: as objects, exploded views, face sets and colors."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import ClassVar
 
 import bpy
 
-from .bridge.parts.explode_slider import exploding
-from .bridge.parts.exploding import explode, implode
-from .bridge.parts.parted import object_mode_refusal, parts_refusal
+from .bridge.parts.exploding import explode, exploding, implode
 from .bridge.parts.separating import replace, separate
 from .bridge.parts.showing import write_colors, write_face_sets
+from .bridge.refusals import object_mode_refusal, parts_refusal
 from .running.on_objects import OnEach
 
 
 class _OnParts(OnEach):
-    """Half an operator on objects with parts, in Object Mode unless it says other."""
+    """Half an operator on objects with parts, usually in Object Mode."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-    _refusal: Callable[[bpy.types.Object], str | None] = staticmethod(
-        object_mode_refusal
-    )
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return object_mode_refusal(obj)
 
 
 class WCD_OT_separate(_OnParts, bpy.types.Operator):
-    """Make objects of the parts."""
+    """Make an object of each part."""
 
     bl_idname = "wcd.separate"
     bl_label = "Separate Convex Parts"
     bl_description = (
-        "Make an object of each part, in a collection of their own; modifiers, groups,"
+        "Make an object of each part, in a new collection. Modifiers, groups,"
         " attributes and materials are kept"
-    )
-
-    original: bpy.props.EnumProperty(
-        name="Original",
-        description="What becomes of the object that is separated",
-        items=(
-            ("HIDE", "Hide", "It stays as it is, hidden in viewports and renders"),
-            ("REMOVE", "Remove", "It is deleted; its children go to the largest part"),
-        ),
     )
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
@@ -61,35 +51,50 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
             layer.objects.active = there[0]
 
 
+WCD_OT_separate.__annotations__ = {
+    "original": bpy.props.EnumProperty(
+        name="Original",
+        description="What happens to the object that is separated",
+        items=(
+            ("HIDE", "Hide", "It stays as it is, hidden in viewports and renders"),
+            ("REMOVE", "Remove", "It is deleted; its children go to the largest part"),
+        ),
+    )
+}
+
+
 class WCD_OT_explode(_OnParts, bpy.types.Operator):
     """Move the parts apart."""
 
     bl_idname = "wcd.explode"
     bl_label = "Exploded View of Convex Parts"
     bl_description = (
-        "Move the parts away from the center, by a modifier: the mesh itself stays as"
-        " it is, and so do the parts"
-    )
-
-    distance: bpy.props.FloatProperty(
-        name="Distance",
-        description="How much farther from the center of the shape parts are",
-        default=0.5,
-        min=0.0,
-        soft_max=3.0,
-        subtype="FACTOR",
+        "Move the parts away from the center with a modifier. The mesh itself does not"
+        " change"
     )
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         explode(obj, self.distance)
 
 
+WCD_OT_explode.__annotations__ = {
+    "distance": bpy.props.FloatProperty(
+        name="Distance",
+        description="How much farther the parts are from the center of the shape",
+        default=0.5,
+        min=0.0,
+        soft_max=3.0,
+        subtype="FACTOR",
+    )
+}
+
+
 class WCD_OT_implode(_OnParts, bpy.types.Operator):
-    """Take exploded views back."""
+    """Remove exploded views."""
 
     bl_idname = "wcd.implode"
     bl_label = "End Exploded View"
-    bl_description = "Take the modifier of the exploded view away again"
+    bl_description = "Remove the modifier of the exploded view"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -106,10 +111,13 @@ class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
     bl_idname = "wcd.face_sets"
     bl_label = "Face Sets from Convex Parts"
     bl_description = (
-        "Make a face set of each part, for Sculpt Mode; Clear brings back those there"
-        " were"
+        "Make a face set of each part, for Sculpt Mode. Clear restores the former face"
+        " sets"
     )
-    _refusal = staticmethod(parts_refusal)
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return parts_refusal(obj)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         write_face_sets(obj)
@@ -124,7 +132,10 @@ class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
         "Write the colors of the parts to the color attribute wcd_color, for Vertex"
         " Paint, shaders and export"
     )
-    _refusal = staticmethod(parts_refusal)
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return parts_refusal(obj)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         write_colors(obj)

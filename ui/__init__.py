@@ -1,9 +1,8 @@
-"""What the user sees: the settings and the panels."""
+"""What the user sees: panels, lists, menus and drawings over the viewports."""
 
 import bpy
 
-from ..operators.settings import WCD_PG_settings
-from . import menus
+from . import menus, sight_drawing
 from .chart import WCD_PT_chart
 from .hulls_panel import WCD_PT_hulls
 from .menus import WCD_MT_parts
@@ -12,7 +11,6 @@ from .parts_table import WCD_PT_edit, WCD_UL_parts
 from .use_panel import WCD_PT_use, WCD_PT_why
 
 CLASSES = (
-    WCD_PG_settings,
     WCD_PT_main,
     WCD_UL_parts,
     WCD_PT_parts,
@@ -27,16 +25,16 @@ CLASSES = (
 
 
 def register() -> None:
-    """Register the classes and the settings of scenes."""
+    """Register the classes, the submenu and the drawing; operators come before."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.Scene.wcd = bpy.props.PointerProperty(type=WCD_PG_settings)
     menus.register()
+    sight_drawing.register()
 
 
 def unregister() -> None:
     """Undo `register`."""
+    sight_drawing.unregister()
     menus.unregister()
-    del bpy.types.Scene.wcd
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -1,4 +1,4 @@
-"""Psi against the number of parts: a bar for each that was tried, to choose by."""
+"""The panel with a bar of psi for each number of parts that was tried."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import bpy
 from .panels import WCD_PT_parts
 from .sidebar import Sidebar, result_of
 
-# Room beside a bar for the number of parts, and height of a row in rows.
+# Share of the width for the number of parts, and height of a row, in usual rows.
 _NUMBER = 0.22
 _HEIGHT = 0.8
 
@@ -44,7 +44,7 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
     ) -> None:
         """Draw the button that chooses a number of parts; a star marks the best."""
         icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
-        # Deeper levels add parts to the k of the first one.
+        # With deeper levels, k counts the parts of all levels.
         shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
         button = layout.operator(
             "wcd.choose_part_count", text=str(k), icon=icon, depress=shown

@@ -48,7 +48,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
 
 
 def endings(names: Sequence[str]) -> list[str]:
-    """Return what tells names apart: there is no room for what they begin with."""
+    """Return names without the beginning that all share; there is no room for it."""
     if len(names) < 2:
         return list(names)
     shared = commonprefix(names)  # noqa: RUF071  # letters are meant, not folders

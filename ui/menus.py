@@ -7,8 +7,8 @@ import bpy
 from ..operators.settings import ALL, HULLS, MEASURE, SELECTION, hand_over
 from .sidebar import draw_choices
 
-# Operators in the order of the menu, with the settings they take from the scene, or the
-# property that a submenu offers; None for a line between groups. F3 finds them all.
+# Operators in the order of the menu, each with the settings that it takes from the
+# scene, or with the property that its submenu offers. None is a line between groups.
 _ENTRIES = (
     ("wcd.decompose", ALL),
     ("wcd.measure", MEASURE),
@@ -29,12 +29,12 @@ _ENTRIES = (
     ("wcd.clear", ()),
 )
 
-# Menus of Blender's that have the submenu at their ends.
+# The menus of Blender that get the submenu at their end.
 _HOMES = ("VIEW3D_MT_object", "VIEW3D_MT_edit_mesh")
 
 
 class WCD_MT_parts(bpy.types.Menu):
-    """All that can be done with convex parts."""
+    """All operators on convex parts."""
 
     bl_label = "Convex Parts"
 

@@ -1,4 +1,4 @@
-"""The sidebar's tab: it draws, and decides nothing."""
+"""The panels on settings and results in the sidebar."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..operators.running import current as running
-from ..operators.running.current import Running
+from ..operators.running import modal as running
+from ..operators.running.modal import Running
 from ..operators.settings import ADVANCED, ALL, FRONT, MEASURE, draw, hand_over
 from .parts_table import draw_table
 from .sidebar import Sidebar, result_of, width_of
 
-# Widths at interface scale 1: the tabs, the margins and an icon; a letter on average.
+# Widths at interface scale 1: of tabs, margins and an icon together; of a letter.
 _MARGINS = 80
 _LETTER = 6
 
@@ -21,7 +21,7 @@ _LETTER = 6
 def notes_of(result: dict[str, Any]) -> list[str]:
     """Return the sentences that came with a result, each once.
 
-    The status bar shows one report at a time, the last one.
+    They are drawn because the status bar shows only the last report.
     """
     results = (result, result.get("measured", {}), result.get("hulls", {}))
     notes = [note for noted in results for note in noted.get("notes", ())]
@@ -36,7 +36,7 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         """Draw the menu of presets."""
         self.layout.emboss = "NONE"
-        self.layout.ui_units_x = 1.6  # the icon, and its arrow beside it
+        self.layout.ui_units_x = 1.6  # room for the icon and its arrow
         self.layout.operator_menu_enum(
             "wcd.use_preset", "preset", text="", icon="PRESET"
         )
@@ -105,7 +105,7 @@ class WCD_PT_advanced(Sidebar, bpy.types.Panel):
 
 
 def _progress(row: bpy.types.UILayout, run: Running) -> None:
-    """Draw how far a computation is, and the button that stops it."""
+    """Draw the progress of a computation, and the button that stops it."""
     progress = run.job.progress
     split = row.split(factor=0.7)
     split.progress(factor=progress.fraction, text=progress.stage)
@@ -115,7 +115,7 @@ def _progress(row: bpy.types.UILayout, run: Running) -> None:
 def _paragraph(
     layout: bpy.types.UILayout, text: str, context: bpy.types.Context
 ) -> None:
-    """Draw a warning in as many lines as the width of the sidebar asks for."""
+    """Draw a warning, broken into lines that fit the sidebar."""
     width = int((width_of(context) - _MARGINS) / _LETTER)
     column = layout.column(align=True)
     column.scale_y = 0.8
@@ -124,7 +124,7 @@ def _paragraph(
 
 
 def line(layout: bpy.types.UILayout, name: str, value: str) -> None:
-    """Draw a name and what it has."""
+    """Draw a name and a value."""
     split = layout.split(factor=0.4)
     split.label(text=name)
     split.label(text=value)

@@ -9,17 +9,18 @@ import bpy
 from .sidebar import Sidebar, result_of, width_of
 
 _ROWS = 6
-# Widths at interface scale 1: of the color beside a button, in its own; of a column of
-# figures, of a name at least, and of all else. What goes first where there is no room.
+# Width of a color, as a share of a button's.
 _SWATCH = 0.35
+# Widths at interface scale 1: of a column of figures; of a short name; of all else.
 _FIGURE = 30
 _NAME = 50
 _REST = 134
+# The columns that are left out where there is no room, in this order.
 _GO_FIRST = ("Area", "Faces", "Hull")
 
 
 class WCD_UL_parts(bpy.types.UIList):
-    """A part a row: figures from the record, ticks and locks of the row."""
+    """The table of parts: figures come from the record, ticks and locks from rows."""
 
     def draw_item(
         self,
@@ -49,13 +50,14 @@ class WCD_UL_parts(bpy.types.UIList):
         columns = headings(result, width)
         split = line.split(factor=_name_share(width, len(columns)))
         split.prop(row, "name", text="", emboss=False)
-        _numbers(split, *map(_figures(result, index).get, columns))
+        figures = _figures(result, index)
+        _numbers(split, *(figures[name] for name in columns))
         lock = "LOCKED" if row.locked else "UNLOCKED"
         line.prop(row, "locked", text="", icon=lock, emboss=False)
 
 
 def headings(result: dict[str, Any], width: float) -> list[str]:
-    """Return the headings of the figures that a table so wide has room for."""
+    """Return the headings of the columns that fit into a table of this width."""
     names = ["Faces", "Area", "Rank"]
     hulls = result.get("hulls", {}).get("hulls", ())
     if any(hull["part"] is not None for hull in hulls):
@@ -66,12 +68,12 @@ def headings(result: dict[str, Any], width: float) -> list[str]:
 
 
 def _name_share(width: float, n_figures: int) -> float:
-    """Return what share a name gets of what it has with figures in a table so wide."""
+    """Return the name's share of the width that it has together with the figures."""
     return 1 - n_figures * _FIGURE / max(width - _REST, n_figures * _FIGURE + _NAME)
 
 
 def _figures(result: dict[str, Any], index: int) -> dict[str, str]:
-    """Return the faces, area, convexity rank and hull error of a part, in short."""
+    """Return the texts for the faces, area, rank and hull error of a part."""
     part = result["parts"][index]
     faces, area = part["faces"], part["area"]
     hulls = result.get("hulls", {}).get("hulls", ())
@@ -85,14 +87,14 @@ def _figures(result: dict[str, Any], index: int) -> dict[str, str]:
 
 
 def _area(area: float) -> str:
-    """Return an area in as many signs as others have, so that columns line up."""
+    """Return the text for an area; all are about as long, so that columns line up."""
     if area < 0.01:
         return f"{area:.0e}"
     return next(f"{area:.{n}f}" for n in (2, 1, 0) if area < 10 ** (3 - n) or n == 0)
 
 
 def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
-    """Draw texts at the right."""
+    """Draw texts side by side, at the right."""
     columns = layout.row(align=True)
     columns.alignment = "RIGHT"
     for text in texts:
@@ -100,7 +102,7 @@ def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
 
 
 def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) -> None:
-    """Draw the parts of an object in a sidebar so wide."""
+    """Draw the parts of an object, in a sidebar of this width."""
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
     heading.label(text="", icon="BLANK1")
@@ -115,7 +117,7 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
 
 
 class WCD_PT_edit(Sidebar, bpy.types.Panel):
-    """What can be done to the rows of the table."""
+    """The buttons that edit parts."""
 
     bl_label = "Edit Parts"
     bl_parent_id = "WCD_PT_parts"

@@ -1,4 +1,4 @@
-"""What all panels share: the tab they are in, and the record they draw."""
+"""What all panels share: their tab, and the record that they draw."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ..operators.bridge.stored.record_text import parse_record
+from ..operators.bridge.stored.record import parse_record
 
 
 class Sidebar:
@@ -19,7 +19,7 @@ class Sidebar:
 
 
 def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
-    """Return what was noted on an object, empty if nothing or not ours."""
+    """Return the record of an object, empty if it has none of ours."""
     noted = obj and obj.get("wcd")
     return _parsed(noted) if isinstance(noted, str) else {}
 
@@ -34,7 +34,8 @@ def draw_choices(
 ) -> None:
     """Draw the menu of an operator's choices.
 
-    If it cannot run now, a button in its place is greyed and says why; a menu does not.
+    If the operator cannot run now, a greyed button is drawn, which says why; a menu
+    would not.
     """
     module, name = operator.split(".")
     if getattr(getattr(bpy.ops, module), name).poll():
@@ -43,7 +44,7 @@ def draw_choices(
         layout.operator(operator, **look)
 
 
-# Drawn many times a second, each row by itself, from one and the same text.
+# Each row of each panel asks for it, many times a second.
 @lru_cache(maxsize=1)
 def _parsed(noted: str) -> dict[str, Any]:
     return parse_record(noted) or {}

@@ -1,4 +1,4 @@
-"""Panels on what parts are good for, and on why they are as they are."""
+"""The panels on the use of parts, and on how the parts were found."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import ClassVar
 import bpy
 
 from ..operators import sight_overlay
-from ..operators.bridge.parts.explode_slider import exploding, slider
+from ..operators.bridge.parts.exploding import exploding, slider
 from ..operators.settings import SELECTION, hand_over
 from .panels import line
 from .sidebar import Sidebar, draw_choices, result_of
@@ -42,7 +42,7 @@ class WCD_PT_use(Sidebar, bpy.types.Panel):
 
 
 class WCD_PT_why(Sidebar, bpy.types.Panel):
-    """Lines of sight, ranks of selections, matrices."""
+    """Lines of sight, convexity of the selection, pictures."""
 
     bl_label = "See Why"
     bl_parent_id = "WCD_PT_main"

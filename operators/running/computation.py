@@ -1,42 +1,55 @@
-"""What operators share that compute: they run, report and take errors."""
+"""What operators that compute share: they read, run, write and report."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import bpy
 
 from ...core.errors import DecompositionError
-from ...core.steps.progress import Steps, in_turn, run
+from ...core.steps.progress import Progress, Steps, in_turn, mapped, run
+from ..bridge.read.carrier import discard_waiting
 from ..bridge.read.target import Target
-from . import current as running
+from ..bridge.work.computing import summary
+from ..bridge.work.editing import Edited
 from . import modal
-from .cursor import with_cursor
-from .on_objects import OnObjects
+from .on_objects import OnActive, OnObjects
+
+T = TypeVar("T")
+
+_ENDS = {"FINISHED", "CANCELLED"}
 
 
 class Computation(OnObjects):
     """Half an operator that computes.
 
-    The other half has `_refusal(obj)`; `_begin(context, obj)`, which checks and reads
-    an object and returns the `Steps` to be done; and `_commit(obj, value)`, which
-    writes what they return to the object and returns the figures in a line.
-    Buttons invoke it; scripts and Adjust Last Operation execute it. All is written at
-    the end; where there are several objects, those that fail are told of and left out.
+    The other half has three methods. `_refusal(obj)` returns why an object cannot be
+    worked on. `_begin(context, obj)` checks and reads an object, and returns the
+    `Steps` to be done. `_commit(obj, value)` writes the value of the steps to the
+    object, and returns the figures in a line.
+
+    Buttons invoke the operator; scripts and Adjust Last Operation execute it. All
+    results are written at the end. If an object fails, it is reported and left out.
     """
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute while Blender waits."""
-        steps = in_turn(self._read(context), self._names)
-        return self._write(run(with_cursor(context.window_manager, steps)), Target.find)
+        try:
+            steps = in_turn(self._read(context), self._names)
+            outcomes = run(with_cursor(context.window_manager, steps))
+            return self._write(outcomes, Target.find)
+        finally:
+            discard_waiting()
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to compute while the window stays alive."""
         works = self._read(context)
-        if all(isinstance(work, DecompositionError) for work in works):
-            return self._write(works, Target.find)
+        errors = [work for work in works if isinstance(work, DecompositionError)]
+        if len(errors) == len(works):
+            discard_waiting()
+            return self._write(errors, Target.find)
         steps = in_turn(works, self._names)
         self._running = modal.start(context, self.bl_label, steps)
         context.window_manager.modal_handler_add(self)
@@ -44,14 +57,10 @@ class Computation(OnObjects):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Compute a little more at each event of the timer; Esc cancels."""
-        if running.current is not self._running:  # the button Cancel was pressed
-            return {"CANCELLED", "PASS_THROUGH"}
-        if event.type == "ESC" and event.value == "PRESS":
-            modal.stop()
-            return {"CANCELLED"}
-        if event.type != "TIMER" or not modal.advance(self._running):
-            return {"PASS_THROUGH"}
-        return self._write(self._running.job.result(), self._changeable)
+        answer = self._go_on(event)
+        if answer & _ENDS:
+            discard_waiting()
+        return answer
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Stop: Blender closes the window or loads another file."""
@@ -62,29 +71,43 @@ class Computation(OnObjects):
         """Return what else is running, or why nothing can be done."""
         return modal.busy() or super()._obstacle(context)
 
+    def _go_on(self, event: bpy.types.Event) -> set[str]:
+        """Take an event; write the results once all is computed."""
+        if modal.current is not self._running:  # the button Cancel was pressed
+            return {"CANCELLED", "PASS_THROUGH"}
+        if event.type == "ESC" and event.value == "PRESS":
+            modal.stop()
+            return {"CANCELLED"}
+        if event.type != "TIMER" or not modal.advance(self._running):
+            return {"PASS_THROUGH"}
+        return self._write(self._running.job.result(), self._changeable)
+
     def _read(
         self, context: bpy.types.Context
     ) -> list[Steps[Any] | DecompositionError]:
         """Check and read the objects; return the work to be done on each."""
         self._started = time.perf_counter()
-        self._names, self._targets = [], []
+        self._names: list[str] = []
+        self._targets: list[Target | None] = []
         return [self._begun(context, obj) for obj in self._chosen(context)]
 
     def _begun(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Any] | DecompositionError:
+        """Return the work to be done on an object, or why there is none."""
         self._names.append(obj.name)
         self._targets.append(None)
         try:
             self._targets[-1] = Target.of(obj)
-            return self._begin(context, obj)
+            steps: Steps[Any] = self._begin(context, obj)
         except DecompositionError as error:
             return error
+        return steps
 
     def _write(
-        self, outcomes: Sequence[Any], find: Callable[[Target], bpy.types.Object]
+        self, outcomes: Sequence[Any], find: Callable[[Any], bpy.types.Object]
     ) -> set[str]:
-        """Write what was computed to the objects, and report it and what failed."""
+        """Write the results to the objects; report them and the failures."""
         failures = []
         for target, name, outcome in zip(
             self._targets, self._names, outcomes, strict=True
@@ -105,7 +128,8 @@ class Computation(OnObjects):
     def _changeable(self, target: Target) -> bpy.types.Object:
         """Return the object that was read, or raise if it must not be written to now.
 
-        Modes may have changed since, and undo in a mode knows the objects in it alone.
+        The mode may have changed since, and undo in Edit Mode takes back only changes
+        of the objects in it.
         """
         obj = target.find()
         reason = self._refusal(obj)
@@ -116,6 +140,34 @@ class Computation(OnObjects):
         return obj
 
     def _warn(self, notes: Sequence[str]) -> None:
-        """Report what is worth knowing."""
+        """Report the notes that came with a result."""
         for note in notes:
             self.report({"WARNING"}, f"{self._title}{note}")
+
+
+class Replacement(OnActive, Computation):
+    """Half an operator that replaces the parts of the active object.
+
+    Its `_begin` returns the work of an `Edited`. It takes one object, because the table
+    shows the parts of one, and because the lines of sight of one are kept.
+    """
+
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        value.write(obj)
+        return summary(value.decomposition)
+
+
+def with_cursor(window_manager: bpy.types.WindowManager, steps: Steps[T]) -> Steps[T]:
+    """Run `steps`; show their progress at the mouse cursor, if there is a window."""
+    if bpy.app.background:
+        return (yield from steps)
+
+    def show(progress: Progress) -> Progress:
+        window_manager.progress_update(round(progress.fraction * 100))
+        return progress
+
+    window_manager.progress_begin(0, 100)
+    try:
+        return (yield from mapped(steps, show))
+    finally:
+        window_manager.progress_end()

@@ -1,46 +1,77 @@
-"""Computations in slices of time, so that the window stays alive: one at a time.
+"""Compute in slices of time, so that the window stays alive: one run at a time.
 
-However a computation ends, it ends in `stop`.
+However a run ends, it ends in `stop`.
 """
 
 from __future__ import annotations
 
+import math
 import time
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import bpy
 
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
-from . import current as running
-from .current import Running
 
-# Seconds of work in a slice, after which the window takes what the user does; between
-# two slices; and between two looks at the progress, as drawing takes time, too. Steps
-# end some 20 ms late.
+# Seconds of work in a slice; the window takes the user's input after it. Steps end some
+# 20 ms late.
 _SLICE = 0.03
+# Seconds between two slices.
 _PAUSE = 0.01
+# Seconds between two updates of the progress, because drawing takes time, too.
 _LOOK = 0.2
 
 
+@dataclass
+class Running:
+    """A computation that goes on in a window.
+
+    Attributes
+    ----------
+    title : str
+        What is done, as its button says it.
+    job : Job
+    timer : bpy.types.Timer
+        Calls for the job's next slice.
+    workspace : str
+        Name of the workspace whose status bar shows the progress.
+    shown : float
+        When the progress was shown last, by `time.perf_counter`.
+    """
+
+    title: str
+    job: Job[Any]
+    timer: bpy.types.Timer
+    workspace: str
+    shown: float = -math.inf
+
+
+# The one computation that is running, for panels and operators. It is not in Blender's
+# data, because a file saved meanwhile would remember it.
+current: Running | None = None
+
+
 def busy() -> str | None:
-    """Return why nothing can be started just now, None if it can."""
-    if running.current is None:
+    """Return why nothing can be started now, None if it can."""
+    if current is None:
         return None
-    return f"{running.current.title} is running; wait for it, or press Esc"
+    return f"{current.title} is running; wait for it, or press Esc"
 
 
 def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
     """Start computing in a window; its timer events ask for `advance`."""
+    global current
     timer = context.window_manager.event_timer_add(_PAUSE, window=context.window)
-    running.current = Running(title, Job(steps), timer, context.workspace.name)
-    _show(running.current)
-    return running.current
+    current = Running(title, Job(steps), timer, context.workspace.name)
+    _show(current)
+    return current
 
 
 def advance(run: Running) -> bool:
     """Compute for a moment; return whether all is done."""
-    over = True  # an error is an end, too
+    over = True  # also if a step raises an error
     try:
         over = run.job.advance(_SLICE)
     finally:
@@ -52,8 +83,9 @@ def advance(run: Running) -> bool:
 
 
 def stop() -> None:
-    """End the computation, if any, and leave nothing of it in the window."""
-    run, running.current = running.current, None
+    """End the computation, if any, and remove its traces from the window."""
+    global current
+    run, current = current, None
     if run is None:
         return
     run.job.cancel()
@@ -63,6 +95,7 @@ def stop() -> None:
 
 
 def _show(run: Running) -> None:
+    """Show the progress, unless it was shown a moment ago."""
     now = time.perf_counter()
     if now < run.shown + _LOOK:
         return
@@ -74,16 +107,17 @@ def _show(run: Running) -> None:
 
 
 def show_status(name: str, text: str | None) -> None:
-    """Show a text in the status bar of a workspace, or what is usually there."""
+    """Show a text in the status bar of a workspace; None shows the usual one again."""
     workspace = bpy.data.workspaces.get(name)
     if workspace is None:
         return
-    # Whichever workspace the method belongs to, it sets the text of the context's.
+    # Blender sets the text of the workspace in the context, not of the one called.
     with bpy.context.temp_override(workspace=workspace):
         workspace.status_text_set(text)
 
 
 def _redraw_sidebars() -> None:
+    """Let Blender draw the sidebars of all 3D viewports."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type != "VIEW_3D":
@@ -98,13 +132,13 @@ class WCD_OT_cancel(bpy.types.Operator):
 
     bl_idname = "wcd.cancel"
     bl_label = "Cancel Convex Parts"
-    bl_description = "Stop computing; the object stays as it was. So does Esc"
+    bl_description = "Stop computing; the object stays as it was. Esc does the same"
     bl_options: ClassVar[set[str]] = set()
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there is anything to stop."""
-        return running.current is not None
+        """Return whether anything is running."""
+        return current is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Stop it."""

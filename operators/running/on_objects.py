@@ -1,16 +1,21 @@
-"""What operators on objects share: which they are for, and what is told of failures."""
+"""What operators on objects share: which objects they take, and how they report."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import bpy
 
 from ...core.errors import DecompositionError
-from ..bridge.read.target import chosen
+
+if TYPE_CHECKING:  # at run time the whole operator has this base, and its halves not
+    from bpy.types import Operator
+else:
+    Operator = object
 
 
-class OnObjects:
+class OnObjects(Operator):
     """Half an operator on the selected objects.
 
     The other half has `_refusal(obj)`, which returns why an object cannot be worked on.
@@ -27,17 +32,19 @@ class OnObjects:
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
         """Return why nothing can be done now, None if something can."""
-        return cls._refusal(cls._chosen(context)[0])
+        reason: str | None = cls._refusal(cls._chosen(context)[0])
+        return reason
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Return the objects to work on, the active one first."""
-        return chosen(context, cls._refusal)
+        return chosen_objects(context, cls._refusal)
 
     def _conclude(self, failures: Sequence[str], n_objects: int) -> set[str]:
-        """Report what failed; return what an operator on so many objects is to return.
+        """Report the failures among `n_objects`; return the answer of the operator.
 
-        Errors are exceptions to scripts, so that they are for when nothing was done.
+        Scripts get an error as an exception. So failures are errors only if nothing was
+        done; otherwise they are warnings.
         """
         none_done = len(failures) == n_objects
         for failure in failures:
@@ -45,8 +52,8 @@ class OnObjects:
         return {"CANCELLED" if none_done else "FINISHED"}
 
 
-class OnActive:
-    """Half an operator on the active object alone, before `OnObjects`."""
+class OnActive(Operator):
+    """Half an operator on the active object only; comes before `OnObjects`."""
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -57,7 +64,7 @@ class OnActive:
 class OnEach(OnObjects):
     """Half an operator that does `_work(context, obj)` on each object at once.
 
-    One that fails does not stop the others.
+    If one object fails, the others are still done.
     """
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -70,3 +77,20 @@ class OnEach(OnObjects):
                 title = f"{obj.name}: " if objects[1:] else ""
                 failures.append(f"{title}{error}")
         return self._conclude(failures, len(objects))
+
+
+def chosen_objects(
+    context: bpy.types.Context, refusal: Callable[[bpy.types.Object], str | None]
+) -> list[bpy.types.Object]:
+    """Return the selected objects, or those in Edit Mode, that `refusal` lets pass.
+
+    The active object comes first. If no object passes, it is the only one, so that the
+    user is told why.
+    """
+    active = context.active_object
+    if active and active.mode == "EDIT":
+        there = context.objects_in_mode
+    else:
+        there = context.selected_objects
+    fit = [obj for obj in there if refusal(obj) is None]
+    return sorted(fit, key=lambda obj: bool(obj != active)) or [active]

@@ -3,7 +3,7 @@
 import bpy
 from weak_convex_decomposition.operators import recut, sight_overlay
 from weak_convex_decomposition.operators.bridge.work import session_cache
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 
 def leftovers():
@@ -11,7 +11,6 @@ def leftovers():
     found = {
         "computation": running.current is not None,
         "overlay": sight_overlay.current is not None,
-        "draw handler": sight_overlay._handler is not None,
         "timer": bpy.app.timers.is_registered(recut._invoke),
     }
     return [name for name, there in found.items() if there]

@@ -1,71 +1,55 @@
-"""Hull decompositions -> objects in a collection of their own, and back."""
+"""Make objects of hulls, in a collection of their own, and remove them."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 import numpy as np
 
 from .... import core
 from ....core.errors import DecompositionError
+from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
-from ..mesh.points import is_cloud
-from ..parts.beside import new_collection
+from ....core.results import HullDecomposition
 from ..parts.materials import part_materials
+from ..parts.separating import new_collection
 from ..read.shape import stretch
-from ..read.target import refusal
 from ..stored.identity import usual_identities
+from ..stored.names import HULL_TAG
 from ..stored.record import identities_of, record_of, write_hull_record
 from .rigid_bodies import soften
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.geometry.primitives import CollisionShape
-    from ....core.hulls.build import HullDecomposition
-
-# Custom property of hulls, and of the collections made for them.
-_TAG = "wcd_hull"
-
-
-def hull_refusal(obj: bpy.types.Object | None) -> str | None:
-    """Return why hulls cannot be made for an object, None if they can."""
-    reason = refusal(obj, writes_mesh=False)
-    if reason is None and is_cloud(obj):
-        return f"Hulls need faces, and {obj.name} has none; give it a surface first"
-    if reason is None and obj.mode != "OBJECT":
-        return "Hulls are objects: made in Object Mode alone; switch the mode"
-    return reason
 
 
 def is_hull(obj: bpy.types.Object) -> bool:
     """Return whether an object is a hull of its parent."""
-    return _TAG in obj and obj.parent is not None
+    return HULL_TAG in obj and obj.parent is not None
 
 
 def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """Return the hulls that an object has, by name."""
-    return sorted((c for c in obj.children if _TAG in c), key=lambda c: c.name)
+    """Return the hulls of an object, sorted by name."""
+    return sorted((c for c in obj.children if HULL_TAG in c), key=lambda c: c.name)
 
 
 def write_hulls(
     obj: bpy.types.Object, found: HullDecomposition, parameters: HullParameters
 ) -> list[bpy.types.Object]:
-    """Make the hulls of an object, in place of earlier ones; return them.
+    """Make objects of the hulls of an object, in place of earlier ones; return them.
 
     Raises
     ------
     DecompositionError
-        If another object has a name that a hull needs; nothing is changed then.
+        If another object has a name that a hull needs. Nothing is changed then.
     """
     kinds = [shape.kind for shape in found.shapes]
     names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
     _check_free(names, hulls_of(obj))
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
-    collection[_TAG] = True
+    collection[HULL_TAG] = True
     if found.has_parts:
         colors = found.parts
         identities = identities_of(record_of(obj)) or usual_identities(colors.max() + 1)
@@ -78,7 +62,7 @@ def write_hulls(
     for row, name in enumerate(names):
         material = materials[colors[row]]
         hull = _hull_object(name, found.shapes[row], scale, material)
-        hull[_TAG] = json.dumps(_figures(found, row))
+        hull[HULL_TAG] = json.dumps(_figures(found, row))
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
@@ -96,7 +80,7 @@ def erase_hulls(obj: bpy.types.Object) -> None:
             " Object Mode first."
         )
     soften(obj, hulls)
-    collections = {c for hull in hulls for c in hull.users_collection if _TAG in c}
+    collections = {c for hull in hulls for c in hull.users_collection if HULL_TAG in c}
     meshes = [hull.data for hull in hulls]
     for hull in hulls:
         bpy.data.objects.remove(hull)
@@ -109,7 +93,7 @@ def erase_hulls(obj: bpy.types.Object) -> None:
 
 
 def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> None:
-    """Raise if an object has a name that a hull needs, `former` ones aside."""
+    """Raise if an object that is not in `former` has a name that a hull needs."""
     ours = {hull.name for hull in former}
     taken = [name for name in names if name in bpy.data.objects and name not in ours]
     if taken:
@@ -137,7 +121,7 @@ def _hull_object(
 
 
 def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
-    """Return what is noted of a hull."""
+    """Return the figures of a hull, to be noted."""
     shape = found.shapes[row]
     return {
         "kind": shape.kind,

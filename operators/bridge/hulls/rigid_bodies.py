@@ -1,4 +1,4 @@
-"""Objects that fall as what their hulls are together, in Blender's own simulation."""
+"""Make an object a rigid body of Blender's simulation, in the shape of its hulls."""
 
 from __future__ import annotations
 
@@ -7,15 +7,13 @@ from collections.abc import Sequence
 import bpy
 
 from ....core.errors import DecompositionError
-
-# Custom property of objects, and of the collection of a simulation, made rigid by us.
-_TAG = "wcd_rigid"
+from ..stored.names import RIGID_TAG
 
 
 def make_rigid(
     obj: bpy.types.Object, hulls: Sequence[bpy.types.Object], kind: str
 ) -> None:
-    """Make an object a compound of its hulls.
+    """Make an object a rigid body that is the compound of its hulls.
 
     Parameters
     ----------
@@ -30,7 +28,7 @@ def make_rigid(
     DecompositionError
         If the object is a rigid body of the user's, or cannot be one.
     """
-    if obj.rigid_body is not None and _TAG not in obj:
+    if obj.rigid_body is not None and RIGID_TAG not in obj:
         raise DecompositionError(
             f"{obj.name} is a rigid body already; remove that before its hulls get it."
         )
@@ -47,23 +45,23 @@ def make_rigid(
         with _on(each):
             bpy.ops.rigidbody.object_add(type=kind)
         each.rigid_body.collision_shape = shape
-    obj[_TAG] = True
+    obj[RIGID_TAG] = True
     if ours:
-        bpy.context.scene.rigidbody_world.collection[_TAG] = True
+        bpy.context.scene.rigidbody_world.collection[RIGID_TAG] = True
 
 
 def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
-    """Take back what `make_rigid` made, and a simulation of ours left empty."""
-    if _TAG not in obj:
+    """Undo `make_rigid`; remove our simulation if nothing is left in it."""
+    if RIGID_TAG not in obj:
         return
-    del obj[_TAG]
+    del obj[RIGID_TAG]
     for each in (obj, *hulls):
         if each.rigid_body is not None:
             with _on(each):
                 bpy.ops.rigidbody.object_remove()
     for scene in bpy.data.scenes:
         bodies = scene.rigidbody_world and scene.rigidbody_world.collection
-        if bodies and _TAG in bodies and not bodies.objects:
+        if bodies and RIGID_TAG in bodies and not bodies.objects:
             with bpy.context.temp_override(scene=scene):
                 bpy.ops.rigidbody.world_remove()
             bpy.data.collections.remove(bodies)

@@ -1,31 +1,60 @@
-"""Corners of a mesh's faces: Blender's loops, one for each vertex of each face."""
+"""The corners of a mesh's faces, which Blender calls loops.
+
+A face has one corner for each of its vertices. The corners of face 0 come first, then
+the corners of face 1, and so on.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-IntArray = NDArray[np.int32]
+from .attributes import BoolArray, IntArray, read_ints
 
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
     """Return the vertex of each corner, (C,)."""
-    return _read(mesh.loops, "vertex_index")
+    return read_ints(mesh.loops, "vertex_index")
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
     """Return the edge from each corner to the next one of its face, (C,)."""
-    return _read(mesh.loops, "edge_index")
+    return read_ints(mesh.loops, "edge_index")
 
 
 def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
     """Return the face of each corner, (C,)."""
-    sizes = _read(mesh.polygons, "loop_total")
+    sizes = read_ints(mesh.polygons, "loop_total")
     return np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
 
 
-def _read(elements: bpy.types.bpy_prop_collection, name: str) -> IntArray:
-    values = np.empty(len(elements), dtype=np.int32)
-    elements.foreach_get(name, values)
-    return values
+def boundary_edges(
+    mesh: bpy.types.Mesh, labels: NDArray[np.integer[Any]], chosen: Sequence[int]
+) -> BoolArray:
+    """Return which edges lie between a chosen part and another part.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    labels : (P,) int
+        Part of each face.
+    chosen : sequence of int
+        Parts.
+
+    Returns
+    -------
+    (E,) bool
+    """
+    edges, of_corners = corner_edges(mesh), labels[corner_faces(mesh)]
+    lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max)
+    highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
+    np.minimum.at(lowest, edges, of_corners)
+    np.maximum.at(highest, edges, of_corners)
+    between = (highest >= 0) & (lowest != highest)
+    of_chosen = np.zeros(len(mesh.edges), dtype=bool)
+    of_chosen[edges[np.isin(of_corners, chosen)]] = True
+    return between & of_chosen

@@ -1,7 +1,7 @@
-"""Face numbers, material indices and weights of a mesh, in Object and in Edit mode.
+"""Read and write face numbers, material indices and weights, in Object and Edit Mode.
 
-In Edit mode the mesh is a BMesh, which knows nothing of what is written to
-attributes, polygons or vertex groups.
+In Edit Mode the mesh is a BMesh. It does not see what is written to attributes,
+polygons or vertex groups, and has layers of its own instead.
 """
 
 from __future__ import annotations
@@ -9,14 +9,20 @@ from __future__ import annotations
 import bmesh
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from .corners import IntArray, corner_faces
+from .attributes import FloatArray, IntArray, read_ints, write_floats, write_ints
+from .corners import corner_faces
 from .points import is_cloud
 
 
+def flush_edits(obj: bpy.types.Object) -> None:
+    """Copy what was done in Edit Mode to the object's mesh, to be read there."""
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+
+
 class ObjectModeLayers:
-    """Access to the layers of an object whose mesh is not being edited."""
+    """The layers of an object in Object Mode."""
 
     _domain = "FACE"
 
@@ -38,25 +44,20 @@ class ObjectModeLayers:
     def faces(self, name: str) -> IntArray | None:
         """Return an attribute of the faces, None if there is none."""
         attribute = self._mesh.attributes.get(name)
-        if attribute is None:
-            return None
-        values = np.empty(len(attribute.data), dtype=np.int32)
-        attribute.data.foreach_get("value", values)
-        return values
+        return None if attribute is None else read_ints(attribute.data, "value")
 
     def set_faces(self, name: str, values: IntArray) -> None:
         """Write an attribute of the faces."""
         attribute = self._mesh.attributes.get(name)
         if attribute is None:
             attribute = self._mesh.attributes.new(name, "INT", self._domain)
-        # Anything but int32 is converted value by value, 20 times slower.
-        attribute.data.foreach_set("value", values.astype(np.int32))
+        write_ints(attribute.data, "value", values)
 
-    def set_colors(self, name: str, colors: NDArray[np.float32]) -> None:
+    def set_colors(self, name: str, colors: FloatArray) -> None:
         """Write an attribute of the corners, from a color for each face (P, 4)."""
         there = self._mesh.color_attributes
         attribute = there.get(name) or there.new(name, "FLOAT_COLOR", "CORNER")
-        attribute.data.foreach_set("color", colors[corner_faces(self._mesh)].ravel())
+        write_floats(attribute.data, "color", colors[corner_faces(self._mesh)])
 
     def remove(self, name: str) -> None:
         """Remove an attribute, of faces or points, if it is there."""
@@ -74,7 +75,7 @@ class ObjectModeLayers:
 
 
 class PointLayers(ObjectModeLayers):
-    """The same access to a point cloud: its points stand for faces.
+    """The layers of a point cloud: its points stand for faces.
 
     All points have one material, which shows their colors.
     """
@@ -93,7 +94,7 @@ class PointLayers(ObjectModeLayers):
 
 
 class EditModeLayers:
-    """The same access to the layers of an object whose mesh is being edited."""
+    """The layers of an object in Edit Mode."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self._obj = obj
@@ -124,7 +125,7 @@ class EditModeLayers:
         for face, value in zip(self._bm.faces, values.tolist(), strict=True):
             face[layer] = value
 
-    def set_colors(self, name: str, colors: NDArray[np.float32]) -> None:
+    def set_colors(self, name: str, colors: FloatArray) -> None:
         """Write a layer of the corners, from a color for each face (P, 4)."""
         layers = self._bm.loops.layers.float_color
         layer = layers.get(name) or layers.new(name)
@@ -162,7 +163,7 @@ class EditModeLayers:
 
 
 def layers_of(obj: bpy.types.Object) -> ObjectModeLayers | EditModeLayers:
-    """Return access to the layers of an object's mesh in the mode it is in."""
+    """Return the layers of an object, for the mode it is in."""
     if is_cloud(obj):
         return PointLayers(obj)
     return EditModeLayers(obj) if obj.data.is_editmode else ObjectModeLayers(obj)

@@ -1,22 +1,20 @@
-"""Faces and edges of parts selected, hidden or marked, in Object and in Edit Mode.
+"""Select, hide and mark faces and edges, in Object and in Edit Mode.
 
-In Edit Mode the mesh is a BMesh; in Object Mode the mesh keeps flags that Edit Mode
-begins with.
+In Edit Mode the mesh is a BMesh. In Object Mode the mesh keeps flags, which Edit Mode
+starts from.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import bmesh
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from .corners import IntArray, corner_edges, corner_faces, corner_vertices
-
-BoolArray = NDArray[np.bool_]
+from .attributes import BoolArray, IntArray, read_flags, read_ints, write_flags
+from .corners import corner_edges, corner_faces, corner_vertices
+from .layers import flush_edits
 
 
 def select_faces(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
@@ -33,8 +31,17 @@ def select_faces(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     _show(mesh)
 
 
+def selected_faces(obj: bpy.types.Object) -> BoolArray:
+    """Return which faces of a mesh are selected, (P,)."""
+    flush_edits(obj)
+    return read_flags(obj.data.polygons, "select")
+
+
 def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
-    """Select edges, and nothing else unless `extend`; they show where faces do, too."""
+    """Select edges, and nothing else unless `extend`.
+
+    If Blender is in face select mode, it is set to edge select mode.
+    """
     mesh = obj.data
     settings = bpy.context.scene.tool_settings
     if settings.mesh_select_mode[:] == (False, False, True):
@@ -42,10 +49,8 @@ def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, "edges", chosen, extend)
         return
-    ends = np.empty(len(mesh.edges) * 2, dtype=np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    touched = ends.reshape(-1, 2)[chosen].ravel()
-    _select(mesh.vertices, _flags(len(mesh.vertices), touched), extend)
+    ends = read_ints(mesh.edges, "vertices", 2)[chosen].ravel()
+    _select(mesh.vertices, _flags(len(mesh.vertices), ends), extend)
     _select(mesh.edges, chosen, extend)
     _select(mesh.polygons, np.zeros(len(mesh.polygons), dtype=bool), extend)
     _show(mesh)
@@ -55,9 +60,8 @@ def mark_seams(obj: bpy.types.Object, chosen: BoolArray) -> None:
     """Mark edges as seams, for unwrapping; other seams stay."""
     mesh = obj.data
     if not mesh.is_editmode:
-        seams = np.empty(len(mesh.edges), dtype=bool)
-        mesh.edges.foreach_get("use_seam", seams)
-        mesh.edges.foreach_set("use_seam", seams | chosen)
+        seams = read_flags(mesh.edges, "use_seam")
+        write_flags(mesh.edges, "use_seam", seams | chosen)
     else:
         edges = bmesh.from_edit_mesh(mesh).edges
         edges.ensure_lookup_table()
@@ -67,7 +71,7 @@ def mark_seams(obj: bpy.types.Object, chosen: BoolArray) -> None:
 
 
 def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
-    """Hide these faces of a mesh that is edited, and show all others."""
+    """Hide these faces of a mesh in Edit Mode, and show all others."""
     bm = bmesh.from_edit_mesh(obj.data)
     for element in (*bm.verts, *bm.edges, *bm.faces):
         element.hide_set(False)
@@ -77,41 +81,24 @@ def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
     _show(obj.data)
 
 
-def boundary_edges(
-    obj: bpy.types.Object, labels: IntArray, chosen: Sequence[int]
-) -> BoolArray:
-    """Return which edges lie between chosen parts and other parts, (E,)."""
-    mesh = obj.data
-    edges, labels = corner_edges(mesh), labels[corner_faces(mesh)]
-    lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max)
-    highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
-    np.minimum.at(lowest, edges, labels)
-    np.maximum.at(highest, edges, labels)
-    between = (highest >= 0) & (lowest != highest)
-    of_chosen = np.zeros(len(mesh.edges), dtype=bool)
-    of_chosen[edges[np.isin(labels, chosen)]] = True
-    return between & of_chosen
-
-
 def _flags(size: int, rows: IntArray) -> BoolArray:
+    """Return an array that is true in these rows."""
     flags = np.zeros(size, dtype=bool)
     flags[rows] = True
     return flags
 
 
 def _select(elements: Any, chosen: BoolArray, extend: bool) -> None:
-    """Select vertices, edges or polygons of a mesh that is not edited."""
+    """Select vertices, edges or polygons of a mesh in Object Mode."""
     if extend:
-        before = np.empty(len(elements), dtype=bool)
-        elements.foreach_get("select", before)
-        chosen = chosen | before
-    elements.foreach_set("select", chosen)
+        chosen = chosen | read_flags(elements, "select")
+    write_flags(elements, "select", chosen)
 
 
 def _select_in_edit_mode(
     mesh: bpy.types.Mesh, domain: str, chosen: BoolArray, extend: bool
 ) -> None:
-    """Select edges or faces of a mesh that is edited, but for hidden ones."""
+    """Select edges or faces of a mesh in Edit Mode; hidden ones stay unselected."""
     bm = bmesh.from_edit_mesh(mesh)
     if not extend:
         for element in (*bm.faces, *bm.edges, *bm.verts):

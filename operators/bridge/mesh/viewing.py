@@ -1,4 +1,4 @@
-"""The 3D viewport moved to what there is to see."""
+"""Move the 3D viewport to points."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from .corners import corner_faces, corner_vertices
 from .points import is_cloud, positions_of
 
-# Room around what is framed.
+# How much wider the view is than what it frames.
 _MARGIN = 1.1
 
 
 def points_of_parts(
     obj: bpy.types.Object, members: NDArray[np.bool_]
 ) -> NDArray[np.float64]:
-    """Return the points of some faces of an object, or of some points, in the world."""
+    """Return the corners of some faces, or some points, in world space, (N, 3)."""
     places = positions_of(obj).astype(np.float64)
     if is_cloud(obj):
         places = places[members]
@@ -40,5 +40,5 @@ def frame_points(space: bpy.types.SpaceView3D, points: NDArray[np.float64]) -> N
     if region.view_perspective == "CAMERA":
         region.view_perspective = "PERSP"
     region.view_location = Vector((low + high) / 2)
-    # As wide as Blender's viewports see: their sensor has twice a camera's 36 mm.
+    # The sensor of a viewport is 72 mm wide, twice that of a camera.
     region.view_distance = _MARGIN * radius / math.sin(math.atan(36 / space.lens))

@@ -1,55 +1,37 @@
-"""Takes back what `write` wrote, and nothing else."""
+"""Remove from an object what `write` wrote to it, and nothing else."""
 
 from __future__ import annotations
 
 import bpy
 import numpy as np
 
-from ..mesh.layers import EditModeLayers, IntArray, ObjectModeLayers, layers_of
+from ..mesh.attributes import IntArray
+from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
+from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, MATERIAL_LAYER, PART_LAYER
 from ..stored.record import check_records, forget_parts, forget_result
 from ..stored.restore import Restore, read_restore, write_restore
 from .materials import discard_unused, is_ours, our_materials
 from .rows import erase_rows
-
-PART_LAYER = "wcd_part"
-MATERIAL_LAYER = "wcd_material_index"
-# The face sets there were before ours, 0 where there were none.
-FACE_SET_LAYER = "wcd_face_set"
-# Colors by part, of points or of the corners of faces.
-COLOR_LAYER = "wcd_color"
-# Of points whose own normals were not to be used.
-NORMAL_LAYER = "wcd_normal"
-LAYERS = {
-    PART_LAYER: "INT",
-    MATERIAL_LAYER: "INT",
-    FACE_SET_LAYER: "INT",
-    COLOR_LAYER: "FLOAT_COLOR",
-    NORMAL_LAYER: "FLOAT_VECTOR",
-}
-
-
-# Where Blender keeps the face sets of Sculpt Mode, counted from 1.
-FACE_SETS = ".sculpt_face_set"
 
 
 def clear(obj: bpy.types.Object) -> None:
     """Remove everything of ours from an object, its mesh and the file."""
     check_records(obj)
     erase_parts(obj)
-    discard_unused(our_materials())  # those whose slots the user removed, too
+    discard_unused(our_materials())  # also where the user removed their slots
     forget_result(obj)
 
 
 def sharers(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
-    """Return the objects that a mesh belongs to."""
+    """Return the objects that use a mesh."""
     return [obj for obj in bpy.data.objects if obj.data == mesh]
 
 
 def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
-    """Bring back an object's mesh; return the materials taken out of its slots.
+    """Remove the parts from a mesh; return the materials taken out of its slots.
 
-    What the user did to the mesh meanwhile stays: faces given other materials keep
-    them, and so do renamed groups and materials.
+    Changes that the user made since stay: faces with another material keep it, and
+    renamed groups and materials are not removed.
     """
     mesh = obj.data
     restore = read_restore(mesh)
@@ -86,7 +68,7 @@ def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
 
 
 def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
-    """Bring back the face sets there were, unless the user changed ours since."""
+    """Restore the former face sets, unless the user changed ours since."""
     before, parts = layers.faces(FACE_SET_LAYER), layers.faces(PART_LAYER)
     now = layers.faces(FACE_SETS)
     if before is None or now is None or parts is None or (now != parts + 1).any():
@@ -100,7 +82,7 @@ def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
 def _indices_without_ours(
     mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
 ) -> IntArray | None:
-    """Return the material index of each face for when our slots are gone."""
+    """Return the material index of each face after our slots are removed."""
     if not getattr(mesh, "polygons", None):  # points
         return None
     now = layers.material_indices()
@@ -121,7 +103,7 @@ def _indices_without_ours(
 
 
 def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
-    """Return the indices of the slots that hold what we put there."""
+    """Return the indices of the slots that hold our materials."""
     return [
         index
         for index, material in enumerate(mesh.materials)
@@ -139,12 +121,12 @@ def _names_without(mesh: bpy.types.Mesh, ours: list[int]) -> list[str]:
 
 
 def _moved(indices: IntArray, slots: list[str], remaining: list[str]) -> IntArray:
-    """Return indices of the former slots as indices of those that will remain.
+    """Return indices of former slots as indices of the slots that will remain.
 
     The user may have moved, removed or renamed materials since.
     """
     moved = indices.copy()
-    place = 0  # of the slot before: Blender leaves a removed slot's faces to it
+    place = 0  # Blender gives the faces of a removed slot to the slot before
     for former, name in enumerate(slots):
         there = remaining[former] if former < len(remaining) else None
         renamed = name not in remaining and there is not None and there not in slots
@@ -163,14 +145,14 @@ def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Mate
     if not ours:
         return []
     active = obj.active_material_index
-    # Popping a slot of the mesh leaves the objects' own materials where they were.
+    # Removing a slot of the mesh does not move the objects' own materials.
     linked = [
         (sharer, [_object_link(slot) for slot in sharer.material_slots])
         for sharer in sharers(mesh)
     ]
     materials = [mesh.materials[i] for i in ours]
     if len(ours) == len(mesh.materials):
-        mesh.materials.clear()  # popping the last one leaves objects an empty slot
+        mesh.materials.clear()  # `pop` would leave the objects an empty slot
     else:
         for index in reversed(ours):
             mesh.materials.pop(index=index)
@@ -191,7 +173,7 @@ def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Mate
 def _object_link(
     slot: bpy.types.MaterialSlot,
 ) -> tuple[bool, bpy.types.Material | None]:
-    """Return whether a slot is the object's own, and its material then."""
+    """Return whether a slot's material is the object's own, and that material."""
     own = slot.link == "OBJECT"
     return own, slot.material if own else None
 

@@ -1,4 +1,4 @@
-"""Exploded views: a node group that moves parts apart, in a modifier of the object."""
+"""Exploded views: a modifier with a node group that moves parts apart."""
 
 from __future__ import annotations
 
@@ -7,16 +7,36 @@ from typing import Any
 import bpy
 
 from ....core.errors import DecompositionError
-from .erase import PART_LAYER
-from .explode_slider import TAG, exploding, slider
+from ..stored.names import EXPLODE_TAG, PART_LAYER
 
 _NAME = "Exploded View"
-# Shares of the way from the center of the shape that its parts are moved further by.
+# Largest distance of the slider; at 1, parts are twice as far from the center.
 _FARTHEST = 3.0
 
 
+def exploding(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
+    """Return the modifier that moves an object's parts apart, None without one."""
+    for modifier in obj.modifiers:
+        if modifier.type == "NODES" and EXPLODE_TAG in (modifier.node_group or ()):
+            return modifier
+    return None
+
+
+def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
+    """Return the owner of the property that holds the distance, and its path."""
+    sockets = modifier.node_group.interface.items_tree
+    identifier = next(
+        socket.identifier
+        for socket in sockets
+        if socket.in_out == "INPUT" and socket.socket_type == "NodeSocketFloat"
+    )
+    if bpy.app.version >= (5, 2):  # inputs were custom properties before
+        return getattr(modifier.properties.inputs, identifier), "value"
+    return modifier, f'["{identifier}"]'
+
+
 def explode(obj: bpy.types.Object, distance: float) -> None:
-    """Move the parts of an object away from its center, leaving its mesh alone."""
+    """Move the parts of an object away from its center; its mesh stays as it is."""
     modifier = exploding(obj)
     if modifier is None:
         modifier = obj.modifiers.new(_NAME, "NODES")
@@ -30,7 +50,7 @@ def explode(obj: bpy.types.Object, distance: float) -> None:
 
 
 def implode(obj: bpy.types.Object) -> None:
-    """Take an exploded view back; its nodes go with the last one."""
+    """Remove an exploded view, and its node group if nothing else uses it."""
     modifier = exploding(obj)
     if modifier is None:
         return
@@ -46,12 +66,12 @@ def implode(obj: bpy.types.Object) -> None:
 
 
 def _node_group() -> bpy.types.GeometryNodeTree:
-    """Return the node group of all exploded views in the file, made if missing."""
+    """Return the node group that all exploded views share; make it if missing."""
     for group in bpy.data.node_groups:
-        if TAG in group and group.library is None:
+        if EXPLODE_TAG in group and group.library is None:
             return group
     group = bpy.data.node_groups.new(_NAME, "GeometryNodeTree")
-    group[TAG] = True
+    group[EXPLODE_TAG] = True
     group.is_modifier = True
     for in_out in ("INPUT", "OUTPUT"):
         group.interface.new_socket(
@@ -60,7 +80,7 @@ def _node_group() -> bpy.types.GeometryNodeTree:
     distance = group.interface.new_socket(
         "Distance", in_out="INPUT", socket_type="NodeSocketFloat"
     )
-    distance.description = "How much farther from the center of the shape parts are"
+    distance.description = "How much farther the parts are from the center of the shape"
     distance.subtype = "FACTOR"
     distance.min_value, distance.max_value = 0.0, _FARTHEST
     _wire(group)
@@ -68,10 +88,10 @@ def _node_group() -> bpy.types.GeometryNodeTree:
 
 
 def _wire(group: bpy.types.GeometryNodeTree) -> None:
-    """Fill the group: split along the seams, move by the parts' centers.
+    """Fill the group: split the mesh along the seams, and move each part by its center.
 
-    All faces of a part have the same offset, so that its points, which have the mean
-    of those of their faces, have it too once no two parts share a point.
+    Every face of a part has the same offset. A point gets the mean offset of its faces,
+    which is that of its part, because after the split no two parts share a point.
     """
     nodes = _Nodes(group)
     given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 6)
@@ -125,7 +145,7 @@ class _Nodes:
         return self.math("DIVIDE", places, areas)
 
     def math(self, operation: str, first: Any, second: Any) -> bpy.types.NodeSocket:
-        """Return what vectors give."""
+        """Return the result of an operation on vectors."""
         node = self.add("ShaderNodeVectorMath", 3, operation=operation)
         self._group.links.new(first, node.inputs[0])
         if second is not None:

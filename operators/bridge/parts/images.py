@@ -1,4 +1,4 @@
-"""Pictures of an object's parts as images of the file."""
+"""Keep pictures of an object's parts as images in the file."""
 
 from __future__ import annotations
 
@@ -6,21 +6,20 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-# Custom property of our images: the name of the object they are of.
-_TAG = "wcd_picture"
+from ..stored.names import IMAGE_TAG
 
 
 def write_image(
     obj: bpy.types.Object, label: str, pixels: NDArray[np.float64]
 ) -> bpy.types.Image:
-    """Make an image, in place of the former one of that label.
+    """Make an image, in place of the former one with that label.
 
     Parameters
     ----------
     obj : bpy.types.Object
-        What the image is of.
+        The object that the image shows.
     label : str
-        What it shows.
+        What the image shows of it, for the image's name.
     pixels : (H, W, 3) float
         sRGB in 0…1; the first row is the upper one.
     """
@@ -29,8 +28,8 @@ def write_image(
     image = next((each for each in images_of(obj) if each.name == name), None)
     if image is None:
         image = bpy.data.images.new(name, width, height)
-        image[_TAG] = obj.name
-        image.use_fake_user = True  # nothing else may keep it in the file
+        image[IMAGE_TAG] = obj.name
+        image.use_fake_user = True  # images without users are not saved
     elif tuple(image.size) != (width, height):
         image.scale(width, height)
     rgba = np.ones((height, width, 4), dtype=np.float32)
@@ -43,7 +42,7 @@ def write_image(
 
 def images_of(obj: bpy.types.Object) -> list[bpy.types.Image]:
     """Return our images of an object."""
-    return [image for image in bpy.data.images if image.get(_TAG) == obj.name]
+    return [image for image in bpy.data.images if image.get(IMAGE_TAG) == obj.name]
 
 
 def erase_images(obj: bpy.types.Object) -> None:

@@ -1,7 +1,7 @@
 """The materials of parts: one for each number and name, shared by all objects.
 
-A material is ours as long as it carries our tag and the name we gave it. One that the
-user renames is the user's from then on, unless it is renamed in the table of parts.
+A material is ours if it has our tag and the name that we gave it. A material that the
+user renames becomes the user's, unless it is renamed in the table of parts.
 """
 
 from __future__ import annotations
@@ -12,36 +12,33 @@ from collections.abc import Iterable
 import bpy
 
 from ..stored.identity import Identity, part_name
+from ..stored.names import MATERIAL_NAME, MATERIAL_TAG
 from .palette import part_color
 
-_TAG = "wcd_part"
-# The name of a material of ours that has not the one of its number.
-_NAME = "wcd_name"
-# What the tag says on the one material that shows the parts of any points.
+# The number in the tag of the material that shows the parts of all point clouds.
 _OF_POINTS = -1
-# Blender numbers names that are taken: another file's "Part 01" comes in as
-# "Part 01.001".
+# Blender adds a number to a name that is taken: "Part 01.001".
 _NUMBERED = re.compile(r"\.\d{3,}$")
 
 
 def _usual_name(tag: int) -> str:
-    """Return the name that we give to a material of an unnamed part, or of points."""
+    """Return the name of a material whose part has no name of its own, or of points."""
     return "Parts of Points" if tag == _OF_POINTS else part_name(tag)
 
 
 def _plain(name: str) -> str:
-    """Return a name without the number that Blender gives to those that are taken."""
+    """Return a name without the number that Blender adds to a name that is taken."""
     return _NUMBERED.sub("", name)
 
 
 def _name_of(material: bpy.types.Material) -> str:
     """Return the name that we gave to a material of ours, without a number."""
-    return _plain(material.get(_NAME, _usual_name(material[_TAG])))
+    return _plain(material.get(MATERIAL_NAME, _usual_name(material[MATERIAL_TAG])))
 
 
 def is_ours(material: bpy.types.Material | None) -> bool:
     """Return whether a material is one that we made and the user did not rename."""
-    if material is None or not isinstance(material.get(_TAG), int):
+    if material is None or not isinstance(material.get(MATERIAL_TAG), int):
         return False
     return _plain(material.name) == _name_of(material)
 
@@ -54,9 +51,9 @@ def our_materials() -> list[bpy.types.Material]:
 def part_materials(
     identities: Iterable[Identity], taken: list[str]
 ) -> list[bpy.types.Material]:
-    """Return the materials of parts, making those that are missing.
+    """Return the materials of parts; make those that are missing.
 
-    Those with the names `taken` are left to the slots that already show them.
+    Materials with the names `taken` are not used, because they are in the user's slots.
     """
     free = _free_materials(taken)
     return [
@@ -68,9 +65,9 @@ def part_materials(
 def renamed_material(
     material: bpy.types.Material, identity: Identity
 ) -> bpy.types.Material:
-    """Return a material that looks like one of ours and has the name of a part.
+    """Return a copy of a material of ours with the name of a part.
 
-    Other objects may show the former, which is therefore not renamed itself.
+    The material itself keeps its name, because other objects may use it.
     """
     copy = material.copy()
     _name_as(copy, identity)
@@ -95,17 +92,17 @@ def points_material(color_layer: str, taken: list[str]) -> bpy.types.Material:
 
 
 def _free_materials(taken: list[str]) -> dict[tuple[int, str], bpy.types.Material]:
-    """Return materials of ours by tag and name, but for those with names `taken`."""
+    """Return materials of ours by tag and name, without those named in `taken`."""
     free_ones: dict[tuple[int, str], bpy.types.Material] = {}
     for material in bpy.data.materials:
         free = material.library is None and material.name not in taken
         if free and is_ours(material):
-            free_ones.setdefault((material[_TAG], _name_of(material)), material)
+            free_ones.setdefault((material[MATERIAL_TAG], _name_of(material)), material)
     return free_ones
 
 
 def discard_unused(materials: Iterable[bpy.types.Material]) -> None:
-    """Remove those materials of ours that nothing uses any more."""
+    """Remove materials of ours that nothing uses any more."""
     for material in materials:
         if material.users == 0 and material.library is None:
             bpy.data.materials.remove(material)
@@ -115,19 +112,19 @@ def _new(identity: Identity) -> bpy.types.Material:
     """Return a new material with our tag and name."""
     material = bpy.data.materials.new(identity.name)
     _name_as(material, identity)
-    if material.node_tree is None:  # before Blender 5.0 nodes have to be asked for
+    if material.node_tree is None:  # Blender before 5.0 makes nodes on request only
         material.use_nodes = True
     return material
 
 
 def _name_as(material: bpy.types.Material, identity: Identity) -> None:
     """Give a material our tag, and the name of a part."""
-    material[_TAG] = identity.number
+    material[MATERIAL_TAG] = identity.number
     material.name = identity.name
     if _plain(identity.name) != _usual_name(identity.number):
-        material[_NAME] = identity.name
-    elif _NAME in material:
-        del material[_NAME]
+        material[MATERIAL_NAME] = identity.name
+    elif MATERIAL_NAME in material:
+        del material[MATERIAL_NAME]
 
 
 def _make(identity: Identity) -> bpy.types.Material:

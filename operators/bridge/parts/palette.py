@@ -1,9 +1,9 @@
-"""Colors of parts, told apart by color-blind people too."""
+"""Colors of parts that color-blind people can tell apart, too."""
 
 from __future__ import annotations
 
-# Okabe and Ito, "Color Universal Design", 2008, without black, in an order in which
-# neighbors contrast; a middle gray in its place.
+# Okabe and Ito, "Color Universal Design", 2008, with a middle gray in place of black.
+# The order puts contrasting colors next to each other.
 _HUES = (
     0x0072B2,
     0xE69F00,
@@ -14,18 +14,18 @@ _HUES = (
     0xF0E442,
     0x999999,
 )
-# Later rounds mix the hues with black or white: (gray level, share of it).
+# Each further round mixes the hues with black or white: (gray level, share of it).
 _ROUNDS = ((0.0, 0.0), (0.0, 0.5), (1.0, 0.6), (0.0, 0.75))
 
 
 def part_color(index: int) -> tuple[float, float, float, float]:
-    """Return the linear RGBA color of a part; colors repeat after 32 parts."""
+    """Return the linear RGBA color of a part, each in 0…1; repeats after 32 parts."""
     red, green, blue = map(_linear, part_srgb(index))
     return red, green, blue, 1.0
 
 
 def part_srgb(index: int) -> tuple[float, float, float]:
-    """Return the same color in sRGB, as pictures have it."""
+    """Return the sRGB color of a part, each in 0…1, for pictures."""
     hue = _HUES[index % len(_HUES)]
     gray, share = _ROUNDS[index // len(_HUES) % len(_ROUNDS)]
     pure = ((hue >> shift & 0xFF) / 255 for shift in (16, 8, 0))

@@ -1,4 +1,4 @@
-"""The parts that an object has now: its labels, and what the record says of them."""
+"""The parts that an object has now, as edits of them need them."""
 
 from __future__ import annotations
 
@@ -10,12 +10,10 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ..mesh.layers import layers_of
-from ..read.target import flush_edits, refusal
+from ..mesh.layers import flush_edits, layers_of
 from ..stored.identity import Identity
+from ..stored.names import PART_LAYER
 from ..stored.record import identities_of, noted_parameters, record_of
-from ..stored.restore import read_restore
-from .erase import PART_LAYER
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +28,15 @@ class PresentParts:
     locked : (K,) bool
         Which parts a new decomposition keeps.
     parameters : Parameters
-        Of the decomposition that they come from.
-    areas, ranks : (K,) float
-        As recorded.
+        Of the decomposition that made the parts.
+    areas : (K,) float
+        As recorded, in square Blender units.
+    ranks : (K,) float
+        Convexity ranks, as recorded.
     psi_by_k : dict of int to float
+        Psi of each number of parts that was tried.
     best_k : int
-        The number of parts that a search chooses.
+        The number of parts that the search chose.
     """
 
     labels: NDArray[np.int64]
@@ -48,18 +49,8 @@ class PresentParts:
     best_k: int
 
 
-def edit_refusal(obj: bpy.types.Object | None) -> str | None:
-    """Return why the parts of an object cannot be edited, None if they can."""
-    reason = refusal(obj)
-    if reason is None and not (
-        read_restore(obj.data) and record_of(obj).get("parts") and obj.wcd_parts
-    ):
-        reason = f"{obj.name} has no parts yet; press Decompose first"
-    return reason
-
-
 def present_parts(obj: bpy.types.Object) -> PresentParts:
-    """Return the parts of an object, which `edit_refusal` has nothing against."""
+    """Return the parts of an object that passed `edit_refusal`."""
     flush_edits(obj)
     record = record_of(obj)
     entries = record["parts"]
@@ -69,7 +60,7 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
             f"{obj.name} has lost its attribute {PART_LAYER}; press Decompose again."
         )
     return PresentParts(
-        # Faces made since may carry any number.
+        # Blender gives any number to faces that the user adds.
         labels=np.clip(labels, 0, len(entries) - 1).astype(np.int64),
         identities=identities_of(record),
         locked=np.array([row.locked for row in obj.wcd_parts], dtype=bool),

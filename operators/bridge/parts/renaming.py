@@ -1,4 +1,4 @@
-"""A part renamed: its vertex group, material and entry in the record go along."""
+"""Rename a part, with its vertex group, its material and its entry in the record."""
 
 from __future__ import annotations
 
@@ -15,7 +15,13 @@ from .materials import discard_unused, is_ours, renamed_material
 
 
 def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
-    """Rename a part of an object, if it can be; return the name it has then."""
+    """Rename a part of an object, unless the name is empty or taken.
+
+    Returns
+    -------
+    str
+        The name of the part afterwards. Blender may add a number to the name asked for.
+    """
     record, restore = record_of(obj), read_restore(obj.data)
     entries = record.get("parts", [])
     if restore is None or index >= len(entries):
@@ -27,7 +33,7 @@ def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
     group = obj.type == "MESH" and obj.vertex_groups.get(entry["name"])
     if group:
         group.name = name
-        name = group.name  # Blender numbers names that are taken
+        name = group.name  # with a number if the name is taken
         groups = list(restore.groups)
         groups[groups.index(entry["name"])] = name
         write_restore(obj.data, replace(restore, groups=groups))
@@ -40,7 +46,7 @@ def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
 def _rename_material(
     obj: bpy.types.Object, entry: dict[str, Any], identity: Identity
 ) -> None:
-    """Put a material with the part's new name into its slot."""
+    """Put a material with the part's new name into the part's slot."""
     materials = obj.data.materials
     index = materials.find(entry["material"])
     if index < 0 or is_cloud(obj) or not is_ours(materials[index]):

@@ -1,7 +1,7 @@
-"""The rows of the table of parts: what the user has ticked, locked and renamed.
+"""The rows of the table of parts: which parts the user has ticked, locked and renamed.
 
-Figures, colors and order are the record's; a row adds what the record cannot know. Rows
-are Blender's data, so that undo, saving and copying take care of them.
+Figures, colors and order come from the record. Rows are Blender properties, so that
+undo, saving and copying treat them like all other data.
 """
 
 from __future__ import annotations
@@ -36,20 +36,20 @@ WCD_PG_part.__annotations__ = {
     "number": bpy.props.IntProperty(options={"HIDDEN"}),
     "chosen": bpy.props.BoolProperty(
         name="Choose",
-        description="Have buttons act on this part. Where none is ticked, they act on"
-        " the highlighted one",
+        description="Let the buttons act on this part. If no part is ticked, they act"
+        " on the highlighted one",
     ),
     "locked": bpy.props.BoolProperty(
         name="Lock",
-        description="Keep this part when the object is decomposed again. The number of"
-        " Parts counts locked ones, too",
+        description="Keep this part when the object is decomposed again. Locked parts"
+        " count towards the number of Parts",
     ),
 }
 
 
 @dataclass(frozen=True)
 class Row:
-    """What a row adds to the record."""
+    """The state of a row that the record does not hold."""
 
     chosen: bool
     locked: bool
@@ -57,7 +57,7 @@ class Row:
 
 
 def kept_rows(obj: bpy.types.Object) -> dict[int, Row]:
-    """Return what the rows of an object's table add, by the numbers of the parts."""
+    """Return the state of an object's rows, by the numbers of the parts."""
     return {
         row.number: Row(row.chosen, row.locked, place == active_part(obj))
         for place, row in enumerate(obj.wcd_parts)
@@ -67,7 +67,7 @@ def kept_rows(obj: bpy.types.Object) -> dict[int, Row]:
 def write_rows(
     obj: bpy.types.Object, identities: Iterable[Identity], kept: dict[int, Row]
 ) -> None:
-    """Make the table's rows those of these parts, in step with the record."""
+    """Replace the rows of the table; parts that had a row keep its state."""
     obj.wcd_parts.clear()
     obj.wcd_active_part = 0
     for place, identity in enumerate(identities):
@@ -80,13 +80,13 @@ def write_rows(
 
 
 def erase_rows(obj: bpy.types.Object) -> None:
-    """Leave nothing of the table on an object."""
+    """Remove the table from an object."""
     for name in ("wcd_parts", "wcd_active_part"):
         obj.property_unset(name)
 
 
 def chosen_parts(obj: bpy.types.Object) -> list[int]:
-    """Return the parts that buttons act on: those ticked, or the highlighted one."""
+    """Return the ticked parts, or the highlighted one if none is ticked."""
     ticked = [index for index, row in enumerate(obj.wcd_parts) if row.chosen]
     return ticked or [active_part(obj)]
 
@@ -97,7 +97,7 @@ def active_part(obj: bpy.types.Object) -> int:
 
 
 def register() -> None:
-    """Give objects their table."""
+    """Add the table's properties to objects."""
     bpy.utils.register_class(WCD_PG_part)
     bpy.types.Object.wcd_parts = bpy.props.CollectionProperty(type=WCD_PG_part)
     bpy.types.Object.wcd_active_part = bpy.props.IntProperty(

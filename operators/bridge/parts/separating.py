@@ -1,4 +1,4 @@
-"""Parts as objects of their own."""
+"""Make an object of each part."""
 
 from __future__ import annotations
 
@@ -8,19 +8,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from .beside import new_collection
 from .erase import clear
 from .exploding import implode
 from .materials import part_materials
 from .parted import part_identities, part_labels
 
 
+def new_collection(obj: bpy.types.Object, name: str) -> bpy.types.Collection:
+    """Return a new collection in the first editable one that holds an object.
+
+    It is in the scene's collection if a library holds all of the object's.
+    """
+    collection = bpy.data.collections.new(name)
+    homes = [c for c in obj.users_collection if c.is_editable]
+    (homes[0] if homes else bpy.context.scene.collection).children.link(collection)
+    return collection
+
+
 def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     """Make an object of each part, and return them; the object itself stays.
 
-    They are copies of the object as it was before it was decomposed, with the faces of
-    their part alone: modifiers, constraints, groups and attributes are there. Where the
-    mesh has no materials, they show their part's.
+    Each is a copy of the object from before it was decomposed, with the faces of one
+    part only. Modifiers, constraints, groups and attributes are copied, too. If the
+    mesh has no materials, the copy gets the material of its part.
     """
     labels = part_labels(obj)
     if labels is None:
@@ -32,7 +42,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     bare = _copy(obj)
     implode(bare)
     clear(bare)
-    pieces = []
+    pieces: list[bpy.types.Object] = []
     for part in parts.tolist():
         piece = _copy(bare)
         piece.name = piece.data.name = f"{obj.name} {identities[part].name}"
@@ -47,7 +57,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
 
 
 def replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
-    """Remove an object whose parts were separated; its children go to one of them."""
+    """Remove an object whose parts were separated; `piece` gets its children."""
     for child in obj.children:
         child.parent = piece
     _remove(obj)
@@ -60,7 +70,7 @@ def _copy(obj: bpy.types.Object) -> bpy.types.Object:
 
 
 def _remove(obj: bpy.types.Object) -> None:
-    """Remove an object, and its mesh if nothing else has it."""
+    """Remove an object, and its mesh if nothing else uses it."""
     mesh = obj.data
     bpy.data.objects.remove(obj)
     if mesh.users == 0:
@@ -68,7 +78,7 @@ def _remove(obj: bpy.types.Object) -> None:
 
 
 def _keep_faces(mesh: bpy.types.Mesh, kept: NDArray[np.bool_], loose: bool) -> None:
-    """Delete the other faces of a mesh, and what is loose unless it is to stay."""
+    """Delete the other faces of a mesh, and loose vertices and edges unless `loose`."""
     bm = bmesh.new()
     try:
         bm.from_mesh(mesh)

@@ -1,4 +1,4 @@
-"""Parts where other tools look for them: face sets, and a color attribute."""
+"""Show parts to other tools: as face sets and as a color attribute."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import numpy as np
 from ....core.errors import DecompositionError
 from ..mesh.layers import layers_of
 from ..mesh.points import is_cloud
-from .erase import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
+from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
 from .palette import part_color
 from .parted import part_identities, part_labels
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:
-    """Make a face set of each part; those there were are kept aside for Clear."""
+    """Make a face set of each part; Clear restores the former face sets."""
     layers, labels = layers_of(obj), _labels(obj)
     if layers.faces(FACE_SET_LAYER) is None:
         before = layers.faces(FACE_SETS)
@@ -35,7 +35,7 @@ def write_colors(obj: bpy.types.Object) -> None:
 
 
 def shown(obj: bpy.types.Object) -> tuple[bool, bool]:
-    """Return whether the parts of faces are shown as face sets, and as colors."""
+    """Return whether parts are shown as face sets, and whether as colors."""
     if is_cloud(obj):
         return False, False
     colors = obj.data.attributes.get(COLOR_LAYER)
@@ -44,7 +44,7 @@ def shown(obj: bpy.types.Object) -> tuple[bool, bool]:
 
 
 def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:
-    """Show the parts of faces as face sets, and as colors."""
+    """Show the parts as face sets, as colors, or both."""
     if face_sets:
         write_face_sets(obj)
     if colors:

@@ -1,38 +1,30 @@
-"""Decompositions -> vertex groups, material slots, an attribute and a record."""
+"""Write a decomposition: vertex groups, material slots, an attribute and a record."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
+from ....core.results import Decomposition
+from ..mesh.attributes import IntArray
 from ..mesh.corners import corner_faces, corner_vertices
-from ..mesh.layers import IntArray, layers_of
+from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
-from ..read.target import flush_edits, refusal
+from ..refusals import refusal
 from ..stored.identity import Identity, usual_identities
+from ..stored.names import COLOR_LAYER, LAYERS, MATERIAL_LAYER, NORMAL_LAYER, PART_LAYER
 from ..stored.record import check_records, write_result
 from ..stored.restore import Restore, read_restore, write_restore
-from .erase import (
-    COLOR_LAYER,
-    LAYERS,
-    MATERIAL_LAYER,
-    NORMAL_LAYER,
-    PART_LAYER,
-    erase_parts,
-)
+from .erase import erase_parts
 from .materials import discard_unused, part_materials, points_material
 from .palette import part_color
 from .rows import kept_rows, write_rows
 from .showing import show, shown
-
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.parts.find import Decomposition
 
 
 def write_parts(
@@ -43,14 +35,22 @@ def write_parts(
 ) -> None:
     """Show a decomposition on its object, in place of an earlier one.
 
-    Everything is checked before anything is written. Parts that have been there before
-    are given by the identities `kept` of all; they keep names, colors, ticks and locks.
+    Everything is checked before anything is written.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    decomposition : Decomposition
+    parameters : Parameters
+        To be recorded with it.
+    kept : tuple of Identity, optional
+        The identities of all parts, if some of them were there before. Those keep their
+        names, colors, ticks and locks. Without it all parts are new.
 
     Raises
     ------
     DecompositionError
-        If the object cannot be written to, or holds data of the user's under names
-        that are needed.
+        If the object cannot be written to, or the user has data under our names.
     """
     check_writable(obj)
     n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
@@ -91,7 +91,7 @@ def check_writable(obj: bpy.types.Object) -> None:
     written = read_restore(obj.data) is not None
     for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
-        # On points where those got faces, or on faces of what is points now.
+        # Points and faces both: the user may turn a mesh into points, or back.
         ours = attribute and written and attribute.domain in {"FACE", "POINT"}
         fits = attribute is None or (ours and attribute.data_type == data_type)
         if not fits or name in obj.vertex_groups:
@@ -107,7 +107,7 @@ def _write_mesh(
     decomposition: Decomposition,
     identities: Sequence[Identity],
 ) -> Restore:
-    """Write parts to a mesh that has none; return how to bring it back."""
+    """Write parts to a mesh without parts; return how to bring it back."""
     mesh = obj.data
     before = layers_of(obj).material_indices()
     uniform = before is None or bool((before == before[0]).all())
@@ -115,14 +115,14 @@ def _write_mesh(
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
     active_slot = obj.active_material_index
     groups = []
-    if obj.type == "MESH":  # Blender gives point cloud objects no groups
+    if obj.type == "MESH":  # point cloud objects have no groups
         groups = _add_groups(obj, identities, active_group)
     for material in _materials(obj, identities, slots):
         mesh.materials.append(material)
     obj.active_material_index = active_slot
     layers = layers_of(obj)
     labels = decomposition.labels.astype(np.int32)
-    if not uniform:
+    if before is not None and not uniform:
         layers.set_faces(MATERIAL_LAYER, before)
     layers.set_faces(PART_LAYER, labels)
     layers.set_material_indices(labels + len(slots))
@@ -143,7 +143,7 @@ def _write_mesh(
 def _add_groups(
     obj: bpy.types.Object, identities: Sequence[Identity], active: str
 ) -> list[str]:
-    """Add a group for each part, keep a group active; return the names given."""
+    """Add a group for each part; return the groups' names. `active` stays active."""
     groups = obj.vertex_groups
     names = [groups.new(name=identity.name).name for identity in identities]
     groups.active_index = groups[active].index if active else 0
@@ -153,7 +153,7 @@ def _add_groups(
 def _materials(
     obj: bpy.types.Object, identities: Sequence[Identity], slots: list[str]
 ) -> list[bpy.types.Material]:
-    """Return what shows the parts: a material for each, or one for all points."""
+    """Return a material for each part of a mesh, or one for all points."""
     if is_cloud(obj):
         return [points_material(COLOR_LAYER, slots)]
     return part_materials(identities, slots)
@@ -164,7 +164,7 @@ def _write_points(
     decomposition: Decomposition,
     identities: Sequence[Identity],
 ) -> None:
-    """Write what is on points alone: colors, and normals that were found."""
+    """Write the colors of points, and their normals if we estimated them."""
     palette = np.array([part_color(identity.number) for identity in identities])
     set_points(obj, COLOR_LAYER, "FLOAT_COLOR", palette[decomposition.labels])
     if decomposition.normals is not None:
@@ -174,7 +174,7 @@ def _write_points(
 def _vertices_by_part(
     obj: bpy.types.Object, labels: IntArray, n_parts: int
 ) -> Iterator[IntArray]:
-    """Yield the vertices of each part in turn: points, or those of its faces."""
+    """Yield the vertices, or points, of each part."""
     if is_cloud(obj):
         vertices, parts = np.arange(len(labels), dtype=np.int32), labels
     else:

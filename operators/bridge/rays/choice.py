@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from contextlib import suppress
 from importlib import import_module
-from typing import TYPE_CHECKING
 
 from ....core.errors import DecompositionError
-
-if TYPE_CHECKING:  # imports SciPy, which importing the package must not
-    from ....core.sight.ray_march import MakeCaster
+from ....core.sight.ray_march import MakeCaster
 
 
 def choose_ray_caster() -> MakeCaster:

@@ -112,7 +112,7 @@ def _is_blender_object(shape: object) -> bool:
 
 def _check_readable(obj: Any) -> None:
     """Raise if a Blender object has neither faces nor points."""
-    from ..read.converting import CONVERTIBLE
+    from ..refusals import CONVERTIBLE
 
     if obj.type not in CONVERTIBLE | {"MESH", "POINTCLOUD"}:
         raise DecompositionError(

@@ -1,12 +1,12 @@
-"""Curves, texts, surfaces and metaballs as meshes: made on a copy.
+"""Make meshes of curves, texts, surfaces and metaballs.
 
-Outlines are filled with faces; whatever is flat gets small ones, for seams to follow.
+Outlines are filled with faces. Flat shapes get small faces, so that seams can run
+anywhere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+import hashlib
 
 import bmesh
 import bpy
@@ -14,67 +14,25 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ....core.errors import DecompositionError
+from ..mesh.attributes import read_floats, read_ints
+from ..mesh.corners import corner_vertices
 
-# Objects that Blender makes meshes of.
-CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
-# Points this far from a plane lie in it, and the longest edges in it, in diagonals.
+# A shape is flat if its points are this close to a plane, as a share of its size.
 _FLAT = 1e-4
+# The longest edge of a flat shape, as a share of its diagonal.
 _LONGEST = 1 / 60
-# Times that edges are halved at most: their length falls to a thousandth.
+# Edges are halved this often at most, to a thousandth of their length.
 _MOST_HALVINGS = 10
-# Custom property of objects that carry the parts of others.
-_TAG = "wcd_parts_of"
 
 
-@contextmanager
-def mesh_of(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    """Yield the mesh of an object, one made for the moment if it is of another type.
+def converted(obj: bpy.types.Object) -> bpy.types.Mesh:
+    """Return a new mesh made of an object of another type.
 
     Raises
     ------
     DecompositionError
         If no faces can be made of it.
     """
-    if obj.type not in CONVERTIBLE:
-        yield obj.data
-        return
-    mesh = converted(obj)
-    try:
-        yield mesh
-    finally:
-        bpy.data.meshes.remove(mesh)
-
-
-def carrier_of(obj: bpy.types.Object) -> bpy.types.Object:
-    """Return what parts are written to: the object, or a new mesh object beside it.
-
-    The latter is the active child of the former and takes the place of an earlier one.
-    """
-    if obj.type not in CONVERTIBLE:
-        return obj
-    mesh = converted(obj)
-    for child in [child for child in obj.children if _TAG in child]:
-        former = child.data
-        bpy.data.objects.remove(child)
-        if former.users == 0:
-            bpy.data.meshes.remove(former)
-    mesh.name = f"{obj.name} parts"
-    carrier = bpy.data.objects.new(mesh.name, mesh)
-    carrier[_TAG] = obj.name
-    carrier.parent = obj
-    for collection in obj.users_collection:
-        collection.objects.link(carrier)
-    bpy.context.view_layer.update()
-    shown = bpy.context.view_layer.objects  # others may be since it was begun
-    if carrier.name in shown:
-        obj.select_set(False)
-        carrier.select_set(True)
-        shown.active = carrier
-    return carrier
-
-
-def converted(obj: bpy.types.Object) -> bpy.types.Mesh:
-    """Return a new mesh of an object that is none; errors are those of `mesh_of`."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(depsgraph))
     if not mesh.polygons and obj.type == "CURVE":
@@ -94,8 +52,32 @@ def converted(obj: bpy.types.Object) -> bpy.types.Mesh:
     return mesh
 
 
+def fingerprint(obj: bpy.types.Object) -> str:
+    """Return a text that changes if `converted` would return another mesh.
+
+    It comes from the mesh that Blender itself shows, which is at hand; filling and
+    dividing take far longer.
+    """
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    arrays = (
+        read_floats(mesh.vertices, "co", 3),
+        read_ints(mesh.edges, "vertices", 2),
+        read_ints(mesh.polygons, "loop_total"),
+        corner_vertices(mesh),
+    )
+    evaluated.to_mesh_clear()
+    digest = hashlib.sha1(str([array.shape for array in arrays]).encode())
+    for array in arrays:
+        digest.update(array.tobytes())
+    return digest.hexdigest()
+
+
 def _filled(obj: bpy.types.Object) -> bpy.types.Mesh:
-    """Return what the closed splines of a flat curve enclose, turned any way."""
+    """Return the area inside the closed splines of a flat curve, as a mesh.
+
+    The plane of the curve may be any; the mesh is empty if there is none.
+    """
     curve = obj.data.copy()
     for spline in [spline for spline in curve.splines if not spline.use_cyclic_u]:
         curve.splines.remove(spline)
@@ -120,9 +102,9 @@ def _filled(obj: bpy.types.Object) -> bpy.types.Mesh:
 
 
 def _plane(places: np.ndarray) -> Matrix | None:
-    """Return what turns places (N, 3) in a plane into z = 0, None if they are in none.
+    """Return the turn of a plane through points (N, 3) into z = 0.
 
-    Those in a line are in none.
+    None if they are in no plane, or all on a line.
     """
     if len(places) < 3:
         return None

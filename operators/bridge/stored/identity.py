@@ -1,4 +1,4 @@
-"""What a part keeps when others are merged, split or renamed: number and name."""
+"""The number and name of a part, which stay when other parts are edited."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import bpy
 
 @dataclass(frozen=True)
 class Identity:
-    """What tells a part from others, whatever its place among them.
+    """The number and name of a part; its place among the parts may change.
 
     Attributes
     ----------
     number : int
-        Of its color, counted from 0.
+        Chooses its color; counted from 0.
     name : str
         Of its vertex group, material and entry in the record.
     """
@@ -42,13 +42,13 @@ def identities_after(
     Parameters
     ----------
     before : sequence of Identity
-        Of the K parts that were there.
+        Of the K parts before the edit.
     former : sequence of int
-        What each part was: one of these, or new from K on. New ones get the lowest
-        numbers that are free.
+        For each part, its place in `before`, or K and more if it is new. New parts get
+        the lowest free numbers.
     mirrored : mapping of int to int
-        New parts that are mirror images, and of which part: they are named for the
-        other side.
+        New parts that are mirror images, and the parts that they mirror. They get the
+        name of the other side.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def identities_after(
         image: bpy.utils.flip_name(found[label].name)
         for image, label in mirrored.items()
     }
-    # Mirror images take the place of those that have been there.
+    # A mirror image takes the place of the part that had its name.
     found |= {label: gone[name] for label, name in names.items() if name in gone}
     taken = {each.number for each in found.values()}
     for label in former:
@@ -75,9 +75,9 @@ def identities_after(
 def with_sides(
     identities: Sequence[Identity], sources: Iterable[int], side: str
 ) -> tuple[Identity, ...]:
-    """Return identities, those of `sources` named for a side, "L" or "R".
+    """Return identities; `sources` get the ending of a side, "L" or "R".
 
-    A name that tells a side already stays.
+    A name that has such an ending already stays.
     """
     named = list(identities)
     for label in sources:

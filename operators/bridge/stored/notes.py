@@ -1,4 +1,4 @@
-"""Notes of ours in the user's file: JSON in custom properties."""
+"""Notes in the user's file: JSON in custom properties."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from typing import Any
 import bpy
 
 from ....core.errors import DecompositionError
-from .record_text import parse_json
 
 _MANIFEST = Path(__file__).parents[3] / "blender_manifest.toml"
 
@@ -20,6 +19,15 @@ def version() -> str:
     """Return the version of the extension."""
     manifest = tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))
     return str(manifest["version"])
+
+
+def parse_json(noted: object) -> dict[str, Any] | None:
+    """Return the JSON object that a custom property holds, None if it holds none."""
+    try:
+        found = json.loads(noted) if isinstance(noted, str) else None
+    except ValueError:
+        return None
+    return found if isinstance(found, dict) else None
 
 
 def read_note(
@@ -45,7 +53,7 @@ def write_note(owner: bpy.types.ID, key: str, noted: dict[str, Any]) -> None:
 
 
 def not_ours(owner: bpy.types.ID, key: str) -> DecompositionError:
-    """Return the error that a property under one of our names is the user's."""
+    """Return the error for a property of the user's that has one of our names."""
     return DecompositionError(
         f"{owner.name} has a custom property {key} that this add-on did not write;"
         " rename or delete it."

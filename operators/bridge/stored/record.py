@@ -1,28 +1,23 @@
-"""What is noted on an object for people and programs: its result, `wcd`."""
+"""The record of a result on its object: JSON for people, programs and the sidebar."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
+from ....core.results import Decomposition, HullDecomposition, Measurement
 from .identity import Identity
-from .notes import read_note, version, write_note
-from .record_text import parse_record
+from .names import RESULT
+from .notes import parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore
 
-if TYPE_CHECKING:  # imports SciPy, which enabling the add-on must not
-    from ....core.decomposition import Measurement
-    from ....core.hulls.build import HullDecomposition
-    from ....core.parts.find import Decomposition
-
-_RESULT = "wcd"
 _MEASURED = "measured"
 _SELECTION = "selection"
 _HULLS = "hulls"
@@ -30,12 +25,18 @@ _HULLS = "hulls"
 
 def has_record(obj: bpy.types.Object) -> bool:
     """Return whether there is anything of ours on an object or its mesh."""
-    return _RESULT in obj or has_parts(obj)
+    return RESULT in obj or has_parts(obj)
+
+
+def parse_record(noted: object) -> dict[str, Any] | None:
+    """Return the record that a custom property holds, None if it holds none of ours."""
+    record = parse_json(noted)
+    return record if record and "version" in record else None
 
 
 def record_of(obj: bpy.types.Object) -> dict[str, Any]:
     """Return what is noted on an object, empty if nothing is."""
-    return read_note(obj, _RESULT, parse_record)
+    return read_note(obj, RESULT, parse_record)
 
 
 def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
@@ -48,18 +49,19 @@ def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
 
 def write_record(obj: bpy.types.Object, record: dict[str, Any]) -> None:
     """Note a changed record on its object."""
-    write_note(obj, _RESULT, record)
+    write_note(obj, RESULT, record)
 
 
 def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
-    """Return what the parts of an object were found with, None if it is not noted."""
+    """Return the parameters that an object's parts were found with, None if unknown."""
     try:
         noted = record_of(obj).get("parameters")
     except DecompositionError:  # a property of the user's
         return None
     if noted is None:
         return None
-    known = {each.name for each in fields(Parameters)}  # other versions have others
+    # Other versions of the extension have other parameters.
+    known = {each.name for each in fields(Parameters)}
     return Parameters(**{name: noted[name] for name in known & noted.keys()})
 
 
@@ -76,7 +78,7 @@ def write_result(
     identities: Sequence[Identity],
     materials: list[str],
 ) -> None:
-    """Note a decomposition on its object, keeping all else."""
+    """Note a decomposition on its object; measurements and hulls stay noted."""
     parts = zip(
         identities,
         materials,
@@ -109,8 +111,8 @@ def write_result(
     }
     beside = _beside_parts(obj)
     for hull in beside.get(_HULLS, {}).get("hulls", ()):
-        hull["part"] = None  # it is around one of the parts that were before
-    write_note(obj, _RESULT, {**result, **beside})
+        hull["part"] = None  # it is around a former part
+    write_note(obj, RESULT, {**result, **beside})
 
 
 def write_measurement(
@@ -119,7 +121,7 @@ def write_measurement(
     parameters: dict[str, Any],
     faces: int | None = None,
 ) -> None:
-    """Note a measurement of an object, or of so many of its faces, keeping all else."""
+    """Note a measurement of an object, or of some faces: `faces` is their number."""
     result = record_of(obj) or {"version": version()}
     noted = {
         "convexity_rank": float(measurement.rank),
@@ -132,7 +134,7 @@ def write_measurement(
         result[_MEASURED] = noted
     else:
         result[_SELECTION] = {"faces": faces, **noted}
-    write_note(obj, _RESULT, result)
+    write_note(obj, RESULT, result)
 
 
 def write_hull_record(
@@ -141,7 +143,7 @@ def write_hull_record(
     parameters: HullParameters,
     hulls: list[dict[str, Any]],
 ) -> None:
-    """Note the hulls of an object, keeping what else is noted."""
+    """Note the hulls of an object; all else stays noted."""
     result = record_of(obj) or {"version": version()}
     ratio = found.volume_ratio
     result[_HULLS] = {
@@ -151,11 +153,11 @@ def write_hull_record(
         "hulls": hulls,
         "notes": list(found.notes),
     }
-    write_note(obj, _RESULT, result)
+    write_note(obj, RESULT, result)
 
 
 def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
-    """Return what is noted on an object besides its decomposition."""
+    """Return the measurements and hulls that are noted on an object."""
     result = record_of(obj)
     return {
         key: result[key] for key in (_MEASURED, _SELECTION, _HULLS) if key in result
@@ -163,11 +165,11 @@ def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
 
 
 def forget_parts(obj: bpy.types.Object) -> None:
-    """Remove what was noted of a decomposition, keeping all else."""
+    """Remove the record of a decomposition; measurements and hulls stay noted."""
     kept = _beside_parts(obj)
-    write_note(obj, _RESULT, {"version": version(), **kept} if kept else {})
+    write_note(obj, RESULT, {"version": version(), **kept} if kept else {})
 
 
 def forget_result(obj: bpy.types.Object) -> None:
     """Remove everything that was noted on an object."""
-    write_note(obj, _RESULT, {})
+    write_note(obj, RESULT, {})

@@ -1,7 +1,7 @@
-"""What is noted on a mesh to bring it back: `wcd_restore`.
+"""The note on a mesh that says how to bring it back.
 
-It is the mesh's, as groups, slots and attributes are, whichever of its objects was
-active.
+It is on the mesh and not on the object, because groups, slots and attributes are the
+mesh's, too: several objects may share one.
 """
 
 from __future__ import annotations
@@ -10,14 +10,13 @@ from dataclasses import asdict, dataclass, fields
 
 import bpy
 
+from .names import RESTORE
 from .notes import not_ours, read_note, write_note
-
-_RESTORE = "wcd_restore"
 
 
 @dataclass(frozen=True)
 class Restore:
-    """What it takes to bring a mesh back.
+    """The state of a mesh before parts were written to it.
 
     Attributes
     ----------
@@ -30,7 +29,7 @@ class Restore:
     active_slot : int
         Index of the active slot of the object before.
     material_index : int or None
-        The one material index that all faces had, None if they differed.
+        The material index of all faces, None if faces had different ones.
     had_material_index : bool
         Whether the mesh kept material indices at all.
     """
@@ -45,19 +44,19 @@ class Restore:
 
 def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
     """Return what was noted on a mesh, None if we have not written to it."""
-    noted = read_note(mesh, _RESTORE)
+    noted = read_note(mesh, RESTORE)
     if not noted:
         return None
     if noted.keys() != {field.name for field in fields(Restore)}:
-        raise not_ours(mesh, _RESTORE)
+        raise not_ours(mesh, RESTORE)
     return Restore(**noted)
 
 
 def write_restore(mesh: bpy.types.Mesh, restore: Restore | None) -> None:
     """Note on a mesh how to bring it back; None removes the note."""
-    write_note(mesh, _RESTORE, asdict(restore) if restore else {})
+    write_note(mesh, RESTORE, asdict(restore) if restore else {})
 
 
 def has_parts(obj: bpy.types.Object) -> bool:
     """Return whether the mesh of an object has parts of ours."""
-    return _RESTORE in obj.data
+    return RESTORE in obj.data

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterable
 from dataclasses import replace
 from importlib import import_module
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import bpy
 import numpy as np
@@ -21,23 +21,16 @@ from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition, HullDecomposition, Measurement, Picture
 from ....core.steps.progress import Progress, Steps, within
-from ..hulls.hull_objects import hull_refusal
+from ..mesh.selection import selected_faces
 from ..parts.palette import part_srgb
 from ..parts.parted import part_identities, part_labels
 from ..parts.write import check_writable
-from ..read.converting import CONVERTIBLE
-from ..read.shape import read_shape, reading_notes, selected_faces
+from ..read.shape import read_shape, reading_notes
+from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
 from .session_cache import has_seen, session_cache
 
-Result = TypeVar(
-    "Result",
-    Decomposition,
-    Measurement,
-    HullDecomposition,
-    Picture,
-    "core.PointViewer",
-)
+Result = TypeVar("Result")  # of any kind that has notes
 
 # In the order in which they load each other.
 _LIBRARIES = (
@@ -61,8 +54,7 @@ def decompose_object(
     DecompositionError
         At once, if the object cannot be read or written to.
     """
-    if obj.type not in CONVERTIBLE:  # parts of these go to a new object
-        check_writable(obj)
+    check_writable(obj)
     shape = read_shape(obj)
 
     def work() -> Steps[Decomposition]:
@@ -209,7 +201,7 @@ def hull_summary(found: HullDecomposition) -> str:
 def _with_libraries(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
     """Load the libraries, run `steps`, and put `notes` before those of their value."""
     yield from load_libraries()
-    value = yield from steps
+    value: Any = yield from steps
     return replace(value, notes=(*notes, *value.notes))
 
 

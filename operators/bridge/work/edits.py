@@ -45,7 +45,8 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
     def change(
         shape: Shape, _: core.PartMemo, parts: PresentParts
     ) -> Steps[core.Change]:
-        labels, ranks = parts.labels.copy(), {}
+        labels = parts.labels.copy()
+        ranks: dict[int, float] = {}
         free = len(parts.identities)
         parameters = replace(parts.parameters, parts=n_parts, levels=1)
         for turn, part in enumerate(chosen):

@@ -12,7 +12,8 @@ from ....core.errors import DecompositionError
 from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
 from ....core.steps.progress import Steps
-from ..parts.present_parts import PresentParts, edit_refusal, present_parts
+from ..parts.present_parts import PresentParts, present_parts
+from ..refusals import edit_refusal
 from .computing import decompose_object
 from .editing import Edited, edit_object
 from .session_cache import session_cache

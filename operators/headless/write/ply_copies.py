@@ -8,24 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...bridge.mesh.corners import corner_faces, corner_vertices
-from ...bridge.mesh.points import count_points, is_cloud, positions_of
-from ...bridge.parts.erase import PART_LAYER
-from ...bridge.parts.palette import part_color
-from ..current_file import mesh_objects
-from .blender_arrays import (
+from ...bridge.mesh.attributes import (
     FloatArray,
     IntArray,
-    fill,
+    read_floats,
     read_ints,
     read_labels,
-    read_vectors,
+    write_floats,
+    write_ints,
 )
+from ...bridge.mesh.corners import corner_faces, corner_vertices
+from ...bridge.mesh.points import count_points, is_cloud, positions_of
+from ...bridge.parts.palette import part_color
+from ...bridge.stored.names import PART_LAYER
+from ..current_file import mesh_objects
 
 # Name of the property that holds part numbers in the file.
 _NUMBER = "part"
@@ -106,25 +108,25 @@ def _mesh_on(
     """Return a mesh with the faces and the UV map of `mesh`, on other vertices."""
     split = bpy.data.meshes.new(mesh.name)
     split.vertices.add(len(positions))
-    fill(split.vertices, "co", positions)
+    write_floats(split.vertices, "co", positions)
     split.loops.add(len(corners))
-    fill(split.loops, "vertex_index", corners)
+    write_ints(split.loops, "vertex_index", corners)
     split.polygons.add(len(mesh.polygons))
-    fill(split.polygons, "loop_start", read_ints(mesh.polygons, "loop_start"))
+    write_ints(split.polygons, "loop_start", read_ints(mesh.polygons, "loop_start"))
     split.update(calc_edges=True)
     if mesh.uv_layers.active:
-        uv = read_vectors(mesh.uv_layers.active.uv, "vector", 2)
-        fill(split.uv_layers.new().uv, "vector", uv)
+        uv = read_floats(mesh.uv_layers.active.uv, "vector", 2)
+        write_floats(split.uv_layers.new().uv, "vector", uv)
     return split
 
 
-def _paint(mesh: bpy.types.Mesh, colors: NDArray[np.floating], parts: IntArray) -> None:
+def _paint(mesh: bpy.types.Mesh, colors: NDArray[Any], parts: IntArray) -> None:
     """Write the color (V, 4) and the part number (V,) of each vertex."""
     paint = mesh.color_attributes.new("Color", "FLOAT_COLOR", "POINT")
-    fill(paint.data, "color", colors)
+    write_floats(paint.data, "color", colors)
     mesh.color_attributes.active_color = paint
     number = mesh.attributes.new(_NUMBER, "INT", "POINT")
-    fill(number.data, "value", parts)
+    write_ints(number.data, "value", parts)
 
 
 def _object_like(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:

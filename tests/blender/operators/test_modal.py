@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import bpy
 import pytest
 import weak_convex_decomposition as package
+from hands import hand_curve
 from snapshot import snapshot
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 from weak_convex_decomposition.operators.hulls import WCD_OT_build_hulls
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
-from weak_convex_decomposition.operators.running import current as running
 from weak_convex_decomposition.operators.running import modal
 
 OPERATORS = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_build_hulls)
@@ -58,7 +58,7 @@ class Window:
         self.status = text
 
     def is_clean(self):
-        return not self.timers and self.status is None and running.current is None
+        return not self.timers and self.status is None and modal.current is None
 
 
 @pytest.fixture
@@ -164,8 +164,8 @@ def test_several_objects_have_one_progress_and_esc_leaves_all(window):
     assert [snapshot(obj) for obj in objects] == before
     pressed = press(WCD_OT_decompose, window)
     while pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
-        shares.append(running.current.job.progress.fraction)
-        stages.append(running.current.job.progress.stage.partition(":")[0])
+        shares.append(modal.current.job.progress.fraction)
+        stages.append(modal.current.job.progress.stage.partition(":")[0])
     assert shares == sorted(shares)
     assert set(stages) == {"Cube", "Cube.001", "Cube.002"}
     assert all("wcd_part" in obj.data.attributes for obj in objects)
@@ -196,7 +196,7 @@ def test_progress_is_told_and_other_events_pass(suzanne, window, monkeypatch):
     pressed = press(WCD_OT_decompose, window)
     shares = []
     while pressed.modal(None, MOUSE) == pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
-        progress = running.current.job.progress
+        progress = modal.current.job.progress
         shares.append(progress.fraction)
         assert f"{progress.stage}, {progress.fraction:.0%}" in window.status
     assert shares == sorted(shares)
@@ -274,9 +274,27 @@ def test_what_changed_meanwhile_is_left_alone(suzanne, window, cls, change, sent
     there = [(obj.name, snapshot(obj)) for obj in bpy.data.objects]
     assert finish(pressed) == {"CANCELLED"}
     (error,) = errors_of(pressed)
-    assert sentence in error or "Object Mode alone; switch the mode" in error
+    assert sentence in error or "Object Mode only; switch the mode" in error
     assert [(obj.name, snapshot(obj)) for obj in bpy.data.objects] == there
     assert window.is_clean()
+
+
+def test_a_curve_gets_its_mesh_at_the_end_and_esc_leaves_none(window):
+    hand = hand_curve()
+    before = [obj.name for obj in bpy.data.objects], len(bpy.data.meshes)
+    pressed = press(WCD_OT_decompose, window)
+    pressed.modal(None, TIMER)
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert ([obj.name for obj in bpy.data.objects], len(bpy.data.meshes)) == before
+    pressed = press(WCD_OT_decompose, window)
+    assert finish(pressed) == {"FINISHED"}
+    (carrier,) = hand.children
+    assert carrier.name in bpy.context.scene.objects
+    assert len(bpy.data.meshes) == before[1] + 1
+    pressed = press(WCD_OT_decompose, window)
+    assert bpy.ops.wcd.cancel() == {"FINISHED"}
+    assert "CANCELLED" in pressed.modal(None, MOUSE)
+    assert hand.children == (carrier,)
 
 
 def test_undo_meanwhile_is_noticed(suzanne, window):

@@ -103,5 +103,5 @@ def test_the_chart_chooses_a_number(suzanne, settings):
 
 
 def test_the_chart_needs_parts(suzanne):
-    with pytest.raises(RuntimeError, match="no parts to cut anew; press Decompose"):
+    with pytest.raises(RuntimeError, match="no parts to replace; press Decompose"):
         bpy.ops.wcd.choose_part_count(parts=3)

@@ -102,7 +102,7 @@ def clicking(cube):
     bpy.ops.wcd.show_sight(face=0, **FAST)
     own = vars(show_sight.WCD_OT_show_sight)
     waiting = type("Waiting", (), {"modal": own["modal"]})()
-    waiting._lookout, waiting._overlay = object(), sight_overlay.current
+    waiting._viewer, waiting._overlay = object(), sight_overlay.current
     waiting._clicked = lambda *place: place
     return waiting
 

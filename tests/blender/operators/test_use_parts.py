@@ -14,7 +14,7 @@ from hand_made import (
     in_mode,
 )
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.explode_slider import (
+from weak_convex_decomposition.operators.bridge.parts.exploding import (
     exploding,
     slider,
 )

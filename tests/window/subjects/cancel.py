@@ -5,7 +5,7 @@ import time
 import bpy
 from leftovers import leftovers
 from snapshot import snapshot
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 # Seconds, on machines that do other things, too; `make bench-speed` measures steps.
 _AT_ONCE = 2.0

@@ -5,7 +5,7 @@ import json
 import bpy
 from leftovers import leftovers
 from snapshot import snapshot
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 # Where a row of the table has its box to tick, in shares of the sidebar's width.
 _TICK = 0.11

@@ -3,7 +3,7 @@
 import bpy
 from leftovers import leftovers
 from snapshot import snapshot
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 
 def mode():

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 from leftovers import leftovers
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 
 def steps(hands):

@@ -4,7 +4,7 @@ import bpy
 import weak_convex_decomposition as package
 from leftovers import handlers, leftovers, remembered
 from weak_convex_decomposition.operators import sight_overlay
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 
 def steps(hands):

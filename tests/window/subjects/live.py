@@ -5,7 +5,7 @@ import time
 
 import bpy
 from leftovers import leftovers
-from weak_convex_decomposition.operators.running import current as running
+from weak_convex_decomposition.operators.running import modal as running
 
 # Where the number of parts is dragged to, in points.
 _OFFSETS = (5, 10, 15, 20)

@@ -1,0 +1,192 @@
+"""Why an operator cannot work on an object: every "why not", each in one sentence.
+
+Each function returns None if the object can be worked on. The sentences say what is
+wrong and what to do about it. They have no full stop: whoever shows them adds one.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from .mesh.points import is_cloud
+from .stored.names import HULL_TAG
+from .stored.record import has_record, noted_parameters, record_of
+from .stored.restore import has_parts, read_restore
+
+# An object of Blender, or None if there is no active one.
+Candidate: TypeAlias = Any
+
+# Types of objects that Blender makes meshes of.
+CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
+# Types of objects that are read and written as they are.
+WORKED_ON = {"MESH", "POINTCLOUD"}
+
+_LEAVE_EDIT_MODE = "Edit Mode could not undo this; switch to Object Mode"
+_ENTER_EDIT_MODE = "Faces are selected in Edit Mode; switch the mode"
+
+
+def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
+    """Return why an object cannot be worked on at all."""
+    if obj is None:
+        return "There is no active object; select a mesh"
+    if obj.type in CONVERTIBLE:
+        return (
+            f"{obj.name} is not a mesh; Decompose makes one beside it, or convert it"
+            " (Object > Convert > Mesh)"
+        )
+    if obj.type not in WORKED_ON:
+        return f"{obj.name} is not a mesh; select a mesh or a point cloud"
+    if not obj.is_editable or (writes_mesh and not obj.data.is_editable):
+        return (
+            f"{obj.name} is linked from a library and cannot be changed; make it local"
+            " first (Object > Relations > Make Local)"
+        )
+    if obj.mode not in {"OBJECT", "EDIT"}:
+        return "Parts are made in Object or Edit Mode; switch the mode"
+    if obj.mode == "EDIT" and is_cloud(obj):
+        return "Parts of points are made in Object Mode; leave Edit Mode"
+    return None
+
+
+def measure_refusal(obj: Candidate) -> str | None:
+    """Return why an object cannot be measured: its mesh is read, and not written."""
+    return refusal(obj, writes_mesh=False)
+
+
+def decompose_refusal(obj: Candidate) -> str | None:
+    """Return why an object, or a mesh made of it, cannot be decomposed."""
+    if obj is None or obj.type not in CONVERTIBLE:
+        return refusal(obj)
+    if not obj.is_editable:
+        return (
+            f"{obj.name} is linked from a library; make it local first (Object >"
+            " Relations > Make Local)"
+        )
+    if obj.mode != "OBJECT":
+        return f"{obj.name} is decomposed in Object Mode; leave Edit Mode"
+    return None
+
+
+def recut_refusal(obj: Candidate) -> str | None:
+    """Return why the parts of an object cannot be replaced by others."""
+    reason = refusal(obj)
+    if reason is None and not noted_parameters(obj):
+        return f"{obj.name} has no parts to replace; press Decompose"
+    return reason
+
+
+def clear_refusal(obj: Candidate) -> str | None:
+    """Return why nothing can be cleared from an object."""
+    reason = refusal(obj, writes_mesh=False)
+    if reason is None and not has_record(obj):
+        return f"{obj.name} has no parts to clear"
+    return reason
+
+
+def selection_refusal(obj: Candidate) -> str | None:
+    """Return why the selected faces of an object cannot be measured."""
+    reason = measure_refusal(obj)
+    if reason is None and obj.mode != "EDIT":
+        return _ENTER_EDIT_MODE
+    return reason
+
+
+# The parts of an object, to be used.
+
+
+def decomposed_refusal(obj: Candidate) -> str | None:
+    """Return why the parts of an object cannot be used."""
+    reason = refusal(obj)
+    if reason is None and not has_parts(obj):
+        return f"{obj.name} has no parts; press Decompose first"
+    return reason
+
+
+def picture_refusal(obj: Candidate) -> str | None:
+    """Return why no picture of an object's parts can be made."""
+    reason = decomposed_refusal(obj)
+    if reason is None and obj.mode != "OBJECT":
+        return _LEAVE_EDIT_MODE
+    return reason
+
+
+def parts_refusal(obj: Candidate) -> str | None:
+    """Return why parts that consist of faces cannot be used."""
+    reason = decomposed_refusal(obj)
+    if reason is None and is_cloud(obj):
+        return f"{obj.name} has no faces; give it a surface first"
+    return reason
+
+
+def object_mode_refusal(obj: Candidate) -> str | None:
+    """Return why parts cannot be used for what undo in Edit Mode cannot take back."""
+    reason = parts_refusal(obj)
+    if reason is None and obj.mode != "OBJECT":
+        return _LEAVE_EDIT_MODE
+    return reason
+
+
+# The parts of an object, to be edited by hand.
+
+
+def edit_refusal(obj: Candidate) -> str | None:
+    """Return why the parts of an object cannot be edited."""
+    reason = refusal(obj)
+    if reason is None and not (
+        read_restore(obj.data) and record_of(obj).get("parts") and obj.wcd_parts
+    ):
+        return f"{obj.name} has no parts yet; press Decompose first"
+    return reason
+
+
+def merge_refusal(obj: Candidate) -> str | None:
+    """Return why no parts of an object can be merged."""
+    reason = edit_refusal(obj)
+    if reason is None and sum(row.chosen for row in obj.wcd_parts) < 2:
+        return "Tick two or more parts in the table to merge them"
+    return reason
+
+
+def faces_refusal(obj: Candidate) -> str | None:
+    """Return why the faces of parts cannot be selected."""
+    reason = edit_refusal(obj)
+    if reason is None and is_cloud(obj):
+        return f"{obj.name} has no faces, only points"
+    return reason
+
+
+def assign_refusal(obj: Candidate) -> str | None:
+    """Return why selected faces cannot be given to a part."""
+    reason = faces_refusal(obj)
+    if reason is None and obj.mode != "EDIT":
+        return _ENTER_EDIT_MODE
+    return reason
+
+
+def isolate_refusal(obj: Candidate) -> str | None:
+    """Return why the faces of parts cannot be hidden."""
+    reason = faces_refusal(obj)
+    if reason is None and obj.mode != "EDIT":
+        return "Faces can be hidden in Edit Mode only; switch the mode"
+    return reason
+
+
+# Hulls.
+
+
+def hull_refusal(obj: Candidate) -> str | None:
+    """Return why hulls cannot be made for an object."""
+    reason = refusal(obj, writes_mesh=False)
+    if reason is None and is_cloud(obj):
+        return f"Hulls need faces, and {obj.name} has none; give it a surface first"
+    if reason is None and obj.mode != "OBJECT":
+        return "Hulls are objects, which are made in Object Mode only; switch the mode"
+    return reason
+
+
+def rigid_refusal(obj: Candidate) -> str | None:
+    """Return why an object cannot become a rigid body of its hulls."""
+    reason = hull_refusal(obj)
+    if reason is None and not any(HULL_TAG in child for child in obj.children):
+        return f"{obj.name} has no hulls; build them first"
+    return reason

@@ -1,0 +1,44 @@
+"""Every name under which the extension keeps something in a file."""
+
+from __future__ import annotations
+
+# Custom property of an object: its result, JSON for people and programs.
+RESULT = "wcd"
+# Custom property of a mesh: how to bring it back, JSON.
+RESTORE = "wcd_restore"
+
+# Attribute of faces, or of points: the number of the part, counted from 0.
+PART_LAYER = "wcd_part"
+# Attribute of faces: the material index before ours.
+MATERIAL_LAYER = "wcd_material_index"
+# Attribute of faces: the face set before ours, 0 where the mesh had none.
+FACE_SET_LAYER = "wcd_face_set"
+# Attribute of face corners, or of points: the color of the part.
+COLOR_LAYER = "wcd_color"
+# Attribute of points: the normals that we estimated.
+NORMAL_LAYER = "wcd_normal"
+# All attributes of ours, with their data types.
+LAYERS = {
+    PART_LAYER: "INT",
+    MATERIAL_LAYER: "INT",
+    FACE_SET_LAYER: "INT",
+    COLOR_LAYER: "FLOAT_COLOR",
+    NORMAL_LAYER: "FLOAT_VECTOR",
+}
+# Blender's own attribute for the face sets of Sculpt Mode, counted from 1.
+FACE_SETS = ".sculpt_face_set"
+
+# Custom properties of a material of ours: the number of the part, and the name of the
+# part where it is not the usual one for that number.
+MATERIAL_TAG = "wcd_part"
+MATERIAL_NAME = "wcd_name"
+# Custom property of hulls, and of the collections made for them: the figures of a hull.
+HULL_TAG = "wcd_hull"
+# Custom property of objects that we made rigid bodies, and of our collection of bodies.
+RIGID_TAG = "wcd_rigid"
+# Custom property of the node group that makes exploded views.
+EXPLODE_TAG = "wcd_explode"
+# Custom property of our images: the name of the object that they show.
+IMAGE_TAG = "wcd_picture"
+# Custom property of mesh objects with the parts of a curve: the name of the curve.
+CARRIER_TAG = "wcd_parts_of"

@@ -1,0 +1,93 @@
+"""Curves are converted once a run, and the mesh that was read gets the parts."""
+
+from collections import Counter
+
+import bpy
+import pytest
+from hands import hand_curve
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.read import (
+    carrier,
+    converting,
+    shape,
+)
+from weak_convex_decomposition.operators.bridge.read.target import Target
+
+FAST = {"samples": 200, "parts": 2}
+
+
+@pytest.fixture
+def conversions(monkeypatch):
+    """Return how often each object was converted."""
+    counts = Counter()
+
+    def counted(obj):
+        counts[obj.name] += 1
+        return converting.converted(obj)
+
+    for module in (carrier, shape):
+        monkeypatch.setattr(module, "converted", counted)
+    return counts
+
+
+def test_a_run_converts_each_curve_once(conversions):
+    hand = hand_curve()
+    other = hand_curve()
+    hand.select_set(True)
+    bpy.ops.wcd.decompose(**FAST)
+    assert conversions == {hand.name: 1, other.name: 1}
+
+
+def test_the_scale_of_the_curve_is_that_of_the_shape_that_is_read():
+    hand = hand_curve()
+    hand.scale = (1, 3, 1)
+    bpy.context.view_layer.update()
+    expected = shape.read_shape(hand)
+    found = shape.read_shape(carrier.carrier_for(hand))
+    assert (found.vertices == expected.vertices).all()
+    assert (found.triangles == expected.triangles).all()
+
+
+def move_a_point(hand):
+    hand.data.splines[0].points[3].co.x += 0.1
+
+
+def open_the_outline(hand):
+    hand.data.splines[0].use_cyclic_u = False
+
+
+def add_a_modifier(hand):
+    hand.modifiers.new("Array", "ARRAY")
+
+
+@pytest.mark.parametrize("change", [move_a_point, open_the_outline, add_a_modifier])
+def test_a_curve_that_changed_meanwhile_is_refused(change):
+    hand = hand_curve()
+    target = Target.of(hand)
+    hand.location.x = 1.0
+    bpy.context.view_layer.update()
+    assert target.find() == hand
+    change(hand)
+    bpy.context.view_layer.update()
+    with pytest.raises(DecompositionError, match="changed or deleted meanwhile"):
+        target.find()
+
+
+def test_a_carrier_without_parts_is_discarded_alone():
+    hand = hand_curve()
+    bpy.ops.wcd.decompose(**FAST)
+    objects, meshes = bpy.data.objects[:], bpy.data.meshes[:]
+    waiting = carrier.carrier_for(hand)
+    assert carrier.is_waiting(waiting)
+    carrier.discard_waiting()
+    assert bpy.data.objects[:] == objects
+    assert bpy.data.meshes[:] == meshes
+
+
+def test_a_carrier_that_undo_removed_is_made_again():
+    hand = hand_curve()
+    carrier.carrier_for(hand)
+    carrier.discard_waiting()
+    placed = carrier.placed_carrier(hand)
+    assert (placed.name, placed.parent) == ("Hand parts", hand)
+    assert placed == bpy.context.active_object
