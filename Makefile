@@ -52,7 +52,7 @@ docs: ## Build the pages as a site into build/docs/
 	  --config-file docs/site/mkdocs.yml
 	@echo "build/docs/index.html"
 
-figures: venv ## Draw the figures of docs/ anew: FIGURES="sight overlap" for some of them
+figures: venv ## Draw the figures of docs/ anew: FIGURES="hands ranks" for some of them
 	@$(PYTHON_HERE) docs/figures/make_figures.py $(FIGURES)
 
 pictures: ## Take the pictures of the window anew: BLENDER=command

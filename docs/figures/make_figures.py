@@ -1,7 +1,7 @@
 """Draw the figures of docs/paper.md into docs/pictures/.
 
     make figures                          all of them
-    make figures FIGURES="sight ranks"    some of them
+    make figures FIGURES="hands ranks"    some of them
 
 Each figure is a function of `solid_drawings` or `flat_drawings`. The extension of this
 checkout computes what they show.

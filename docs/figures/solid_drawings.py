@@ -31,7 +31,7 @@ def gallery() -> np.ndarray:
     )
 
 
-def sight() -> np.ndarray:
+def line_of_sight() -> np.ndarray:
     """Draw what a picked point sees, in green (fig. 2)."""
     picks = (
         (shapes.bear(), (0.0, -1, 0.0), (-0.4, 1, 0.0)),
@@ -237,7 +237,7 @@ def _delete_faces(mesh: bpy.types.Mesh, doomed: np.ndarray) -> None:
 FIGURES = {
     each.__name__: each
     for each in (
-        gallery, sight, matrices, clouds, quality, overlap, fingers, containers,
+        gallery, line_of_sight, matrices, clouds, quality, overlap, fingers, containers,
         sheets,
     )
 }  # fmt: skip
