@@ -48,7 +48,7 @@ docs: ## Build the pages as a site into build/docs/
 	  rm -rf .venv-docs; $$python -m venv .venv-docs; \
 	  .venv-docs/bin/pip install -qq --disable-pip-version-check -r $$wanted; \
 	  cp $$wanted $$made; }
-	@PYTHONDONTWRITEBYTECODE=1 NO_MKDOCS_2_WARNING=1 .venv-docs/bin/mkdocs build --quiet --strict --clean \
+	@PYTHONDONTWRITEBYTECODE=1 NO_MKDOCS_2_WARNING=1 .venv-docs/bin/mkdocs build --strict --clean \
 	  --config-file docs/site/mkdocs.yml
 	@echo "build/docs/index.html"
 

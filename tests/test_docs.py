@@ -76,6 +76,12 @@ def test_every_picture_is_there_and_shown_and_all_are_small():
     assert sum(path.stat().st_size for path in kept) < 1_500_000
 
 
+def test_nothing_on_a_page_is_taken_for_a_tag():
+    for path, page in ALL_PAGES.items():
+        text = re.sub(r"```.*?```|`[^`]*`|<!-- table: \w+ -->", "", page, flags=re.S)
+        assert "<" not in text, path.name
+
+
 def test_every_page_is_in_the_navigation(hooks):
     settings = (DOCS / "site" / "mkdocs.yml").read_text(encoding="utf-8")
     named = re.findall(r": (\w+\.md)$", settings, re.M)
@@ -196,3 +202,10 @@ def test_hooks_of_commits_need_no_network():
     assert set(re.findall(r"- repo: (\S+)", text)) == {"local"}
     assert set(re.findall(r"language: (\S+)", text)) == {"system"}
     assert set(re.findall(r"entry: make ([\w-]+)", text)) <= make_targets()
+
+
+def test_the_site_is_built_strictly():
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    (call,) = re.findall(r"mkdocs build (.*)", makefile)
+    assert "--strict" in call
+    assert "--quiet" not in call, "it hides warnings, which --strict then misses"
