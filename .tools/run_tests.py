@@ -1,6 +1,6 @@
 """Run all tests, as `make test` does; arguments go to pytest.
 
-Several processes share the tests, file by file: see `pytest_collection_modifyitems` in
+Several processes share the tests, file by file: see `pytest_xdist_make_scheduler` in
 tests/conftest.py. Each has a Blender of its own.
 
 Blender 4.2 crashes now and then in a process that has loaded hundreds of files, so that
@@ -16,7 +16,7 @@ from pathlib import Path
 TESTS = Path(__file__).parents[1] / "tests"
 RING = TESTS / "blender"
 NOTHING_COLLECTED = 5
-# More hardly help: the tests of the zips are one group, and take longest.
+# More hardly help: the tests of the zips stay in one process, and take longest.
 MOST_PROCESSES = 4
 
 
@@ -26,8 +26,8 @@ def groups() -> list[list[str]]:
         files = sorted(RING.rglob("test_*.py"))
         return [[str(TESTS), f"--ignore={RING}"], *([str(path)] for path in files)]
     number = min(MOST_PROCESSES, os.cpu_count() or 1)
-    # Groups start in the order that tests/conftest.py gives them.
-    return [[str(TESTS), f"-n{number}", "--dist=loadgroup", "--no-loadscope-reorder"]]
+    # Files start in the order that tests/conftest.py gives them.
+    return [[str(TESTS), f"-n{number}", "--dist=loadfile", "--no-loadscope-reorder"]]
 
 
 def main() -> int:

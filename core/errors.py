@@ -1,5 +1,5 @@
-"""The one error that is meant for the user's eyes."""
+"""The one error whose text is shown to the user."""
 
 
 class DecompositionError(Exception):
-    """One sentence to the artist: what is wrong, and what to do about it."""
+    """An error with one sentence for the user: what is wrong, and what to do."""

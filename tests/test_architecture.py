@@ -123,11 +123,12 @@ MODULES = {name_of(path): path for path in SHIPPED}
 
 def imported_by(name, path):
     """Yield the names of the project's modules that one of them imports, anywhere."""
-    folder = name.split(".") if path.stem == "__init__" else name.split(".")[:-1]
+    folder = [part for part in name.split(".") if part]
+    folder = folder if path.stem == "__init__" else folder[:-1]
     for node in ast.walk(parsed(path)):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
-        base = folder[: len(folder) - node.level + 1] if folder != [""] else []
+        base = folder[: len(folder) - node.level + 1]
         base += node.module.split(".") if node.module else []
         for alias in node.names:
             whole = ".".join([*base, alias.name])
@@ -190,10 +191,6 @@ def test_no_floor_knows_one_above_it():
     assert not back, "; ".join(back)
 
 
-def lines_of(path):
-    return len(path.read_text(encoding="utf-8").splitlines())
-
-
 def listed(sizes):
     return "; ".join(f"{name}: {size}" for name, size in sizes.items())
 
@@ -213,7 +210,8 @@ def test_folders_hold_at_most_16_entries():
 
 
 def test_files_have_30_to_250_lines():
-    lengths = {str(path.relative_to(ROOT)): lines_of(path) for path in SHIPPED}
+    texts = {str(p.relative_to(ROOT)): p.read_text(encoding="utf-8") for p in SHIPPED}
+    lengths = {name: text.count("\n") for name, text in texts.items()}
     long = {name: number for name, number in lengths.items() if number > 250}
     # A short module is part of its neighbor.
     short = {
@@ -243,3 +241,9 @@ def test_functions_have_at_most_50_lines():
     lengths = {name: length_of(function) for name, function in functions.items()}
     long = {name: number for name, number in lengths.items() if number > 50}
     assert not long, listed(long)
+
+
+def test_no_two_test_modules_have_one_name():
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    twice = {name for name in names if names.count(name) > 1}
+    assert not twice, twice

@@ -1,1 +1,1 @@
-"""What points have in place of faces: normals, splats, neighbors."""
+"""Surfaces from point clouds: normals, splats and graphs of neighbors."""

@@ -1,4 +1,4 @@
-"""Surfaces of second order, jets, fitted to the nearest points of each of a cloud."""
+"""Normals from jets: quadratic surfaces fitted to the neighbors of each point."""
 
 from __future__ import annotations
 
@@ -10,28 +10,39 @@ from ..geometry.frames import frames, unit
 from ..steps.progress import Progress, Steps
 from .splats import placed, spacing_of
 
-# Points that tell how much noise there is, and the nearest that each asks for it.
+# Most points at which noise is measured.
 _PROBES = 1000
+# Points in each neighborhood that noise is measured in, with the point itself.
 _NEAREST = 10
-# Share of places that are flat: others may be at edges.
+# Quantile of the measured noise that is used: neighborhoods at edges are thick
+# without noise.
 _FLATTEST = 0.2
-# How little points count at least that face elsewhere: beyond an edge, mostly.
+# Least factor of the weight of points that face elsewhere. Most of them are beyond an
+# edge.
 _LEAST_WEIGHT = 0.01
-# What is added to squares of curvatures, and to all: few points do not settle them.
+# Regularization of the quadratic terms, as a share of the total weight: few points do
+# not determine them.
 _STIFFNESS = 1e-2
+# Regularization of all terms.
 _LEAST = 1e-6
-# Points whose jets are fitted at a time.
+# Jets fitted in one step.
 _FITS_PER_STEP = 2**12
 
 
 def noise_of(points: NDArray[np.float64]) -> float:
-    """Return how far points are off their surface, in the width of the nearest few.
+    """Return the noise of a cloud: thickness of small neighborhoods over their width.
 
-    From 0 to somewhat above 0.5, where points fill a volume.
+    It is 0 where points lie exactly in planes, and somewhat above 0.5 where they fill a
+    volume.
 
     Parameters
     ----------
     points : (N, 3) float
+
+    Returns
+    -------
+    float
+        A ratio, without unit.
     """
     probes = points[:: -(-len(points) // _PROBES)]
     _, nearest = cKDTree(points).query(probes, min(_NEAREST, len(points)))
@@ -46,18 +57,29 @@ def noise_of(points: NDArray[np.float64]) -> float:
 def jet_normals(
     points: NDArray[np.float64], normals: NDArray[np.float64], n_neighbors: int
 ) -> Steps[NDArray[np.float64]]:
-    """Return normals (N, 3) of the jets through the points around each.
+    """Return the normals of jets fitted to the nearest points of each point.
 
-    A jet is a height above the plane that faces along the rough normal, quadratic in
-    the two coordinates there (Cazals and Pouget 2003). Near points count more, those of
-    another side of a thin wall hardly.
+    A jet is a height above the plane at right angles to the rough normal, quadratic in
+    the two coordinates of that plane. Near points weigh more. Points on the other side
+    of a thin wall weigh very little.
 
     Parameters
     ----------
     points : (N, 3) float
     normals : (N, 3) float
-        Rough ones, unit vectors.
+        Rough normals, unit vectors.
     n_neighbors : int
+        Points that each jet is fitted to, with the point itself.
+
+    Returns
+    -------
+    Steps of (N, 3) float
+        Unit vectors.
+
+    References
+    ----------
+    Cazals and Pouget, "Estimating differential quantities using polynomial fitting of
+    osculating jets", 2003.
     """
     places = placed(points, normals, spacing_of(points))
     tree, found = cKDTree(places), []
@@ -76,9 +98,9 @@ def _jets(
     cosines: NDArray[np.float64],
     normals: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return normals (N, 3) of jets through some points around each, (N, k, 3).
+    """Return normals (N, 3) of jets through neighbors at `offsets` (N, k, 3).
 
-    `cosines` tell how these face, in comparison to `normals`.
+    `cosines` (N, k) are those between the normals of neighbors and `normals` (N, 3).
     """
     tangents, bitangents = frames(normals)
     axes = np.stack([tangents, bitangents, normals], axis=2)

@@ -1,4 +1,4 @@
-"""The points of a cloud as a graph: what labels move along where there are no faces."""
+"""The graph of a cloud's points, used where there are no faces."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 from ..geometry.face_graph import FaceGraph
 from .splats import nearest_points
 
-# Neighbors of a point, and how far off they may be, in the sides of the squares that
-# the two points stand for.
+# Nearest neighbors of each point.
 _NEIGHBORS = 8
+# Greatest length of an edge, in sides of the square that its two points stand for on
+# average.
 _REACH = 3.0
 
 
@@ -24,8 +25,14 @@ def neighbor_graph(
     Parameters
     ----------
     points, normals : (N, 3) float
+        Normals are outward unit vectors.
     areas : (N,) float
-        What each point stands for.
+        Surface area that each point stands for.
+
+    Returns
+    -------
+    FaceGraph
+        Its nodes are the points.
     """
     n_neighbors = min(_NEIGHBORS, len(points) - 1)
     nearest = nearest_points(points, normals, (points, normals), n_neighbors + 1)
@@ -37,13 +44,14 @@ def neighbor_graph(
     distances = np.linalg.norm(offsets, axis=1)
     near = distances <= _REACH * sides
     pairs, offsets, sides = pairs[near], offsets[near], sides[near]
-    # By Crofton's formula a line crosses 2 / pi edges for each unit of its length and
-    # unit of all edges' length on a unit of area: a seam gets the length of its line.
+    # By Crofton's formula, a line crosses 2 / pi edges per unit of its length, where
+    # edges of total length 1 lie on each unit of area. With the lengths below, the
+    # edges across a seam add up to the length of the seam.
     density = (distances[near] / sides).sum() / len(points)
     lengths = np.pi * sides / (2 * max(density, np.finfo(float).tiny))
     one, other = normals[pairs[:, 0]], normals[pairs[:, 1]]
     angles = np.arccos(np.clip((one * other).sum(axis=1), -1.0, 1.0))
-    # Normals that lean towards each other stand in a crease.
+    # In a crease, normals lean towards each other.
     creased = ((other - one) * offsets).sum(axis=1) < 0
     return FaceGraph(
         areas,

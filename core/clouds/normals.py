@@ -1,4 +1,4 @@
-"""Normals of point clouds: estimated where there are none, and turned outwards."""
+"""Outward normals of point clouds: estimated, or checked for their side."""
 
 from __future__ import annotations
 
@@ -11,44 +11,48 @@ from .jets import jet_normals, noise_of
 from .splats import areas_of_points, thinned_splats
 from .winding import outward_directions
 
-# Nearest points that a jet is fitted to: more average noise, fewer see thin limbs, of
-# which a cloud of few points has not many.
+# Nearest points that a jet is fitted to: the least, the most, and the most as a share
+# of the cloud. More points average out noise, fewer resolve thin limbs, which have
+# few points in a small cloud.
 _FEWEST, _MOST, _MOST_OF_ALL = 10, 54, 0.02
+# Points that a jet is fitted to, per unit of `noise_of`.
 _FOR_NOISE = 100.0
-# How wide points are for the whole shape, in their distances.
+# Least and greatest blur of the winding numbers, in distances of points.
 _LEAST_BLUR, _MOST_BLUR = 0.35, 1.2
+# Blur per unit of `noise_of`.
 _BLUR_OF_NOISE = 2.25
-# Sine of the angle that is allowed for, where lines of sight graze a noisy board; more
-# of it takes creases for flat.
+# Sine of the assumed error of normals, per unit of `noise_of`. Lines of sight that
+# graze a noisy board need it. A larger value treats creases as flat.
 _TILT_OF_NOISE = 0.15
-# A flux through the surface below this share of the greatest one is an inward one, and
-# what is added to that share for each share of the surface that is missing.
+# Normals face inwards if the inward flux through the surface exceeds this share of the
+# greatest possible flux.
 _CLEARLY_INWARDS = 0.05
+# Added to that share, times the missing share of the surface.
 _FOR_MISSING = 0.25
 
 
 def estimate_normals(
     points: NDArray[np.float64],
 ) -> Steps[tuple[NDArray[np.float64], float]]:
-    """Estimate which way is out at points, and how exact that is.
+    """Estimate the outward normals of a point cloud, and their error.
 
-    What makes a closed shape of the whole tells the two sides of walls and thin limbs
-    apart. Jets through the nearest points of one side are more exact; the more noise
-    there is, the more points they are fitted to.
+    Winding numbers of the whole shape first tell the two sides of walls and thin limbs
+    apart. Jets through the nearest points of one side then give more exact normals. The
+    more noise there is, the more points a jet is fitted to.
 
     Parameters
     ----------
     points : (N, 3) float
-        Around the origin.
+        Centered at the origin.
 
     Returns
     -------
     normals : (N, 3) float
         Outward unit vectors.
     tilt : float
-        Sine of the angle by which they may be off.
+        Sine of the angle by which the normals may be off.
     """
-    # Which way points face does not matter to how densely they lie.
+    # The density of points does not depend on normals, so any normals will do.
     kept, _, _ = thinned_splats(points, np.broadcast_to(np.eye(3)[2], points.shape))
     few = points[kept]
     noise = noise_of(few)
@@ -65,15 +69,25 @@ def estimate_normals(
 
 
 def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
-    """Return whether normals point into what the points enclose, by its volume.
+    """Return whether normals point into the volume that the points enclose.
 
-    Open surfaces enclose little for certain, the less the more is missing, and count as
-    facing outwards: a single scan may show the hollow side of a bent board.
+    The more of an open surface is missing, the less certain is the volume it encloses.
+    In doubt it counts as facing outwards, since a single scan may show the hollow side
+    of a bent board.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+        Normals are unit vectors.
+
+    Returns
+    -------
+    bool
     """
     areas = areas_of_points(points, normals)
     arms = points - np.average(points, axis=0, weights=areas)
     fluxes = np.einsum("nd,nd->n", arms, normals)
     size = areas @ np.linalg.norm(arms, axis=1)
-    # The normals of a closed surface add up to nothing.
+    # The area vectors of a closed surface sum to zero.
     missing = np.linalg.norm(areas @ normals) / areas.sum()
     return bool(areas @ fluxes < -(_CLEARLY_INWARDS + _FOR_MISSING * missing) * size)

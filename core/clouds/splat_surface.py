@@ -1,4 +1,4 @@
-"""The surface that stands for a point cloud: oriented splats (section 5)."""
+"""The surface of a point cloud, made of oriented splats (section 5)."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from .splats import nearest_points, smoothed, thinned_splats
 
 @dataclass(frozen=True, eq=False)
 class SplatSurface:
-    """The splats of a cloud, not more of them than needed.
+    """The splats of a cloud, thinned out if the cloud is large.
 
     Attributes
     ----------
     points, normals : (M, 3) float
-        The points that became splats, without noise, and their outward normals.
+        Smoothed points that became splats, and their outward unit normals.
     areas : (M,) float
-        Area that each of these points stands for.
+        Surface area that each of these points stands for.
     mesh : TriangleMesh
         Triangle i is the splat of point i.
     nodes : (N,) int
@@ -33,7 +33,7 @@ class SplatSurface:
     notes : tuple of str
         Sentences to the user on the normals.
     found_normals : (N, 3) float or None
-        Normals of all points where the cloud had none, or wrong ones.
+        Normals of all points of the cloud if it had none, or if they faced inwards.
     """
 
     points: NDArray[np.float64]
@@ -52,7 +52,19 @@ class SplatSurface:
 
 
 def splat_surface(cloud: PointCloud) -> Steps[SplatSurface]:
-    """Return the splats of a cloud around the origin."""
+    """Build the splats of a point cloud.
+
+    Normals are estimated if the cloud has none, and flipped if they face inwards.
+
+    Parameters
+    ----------
+    cloud : PointCloud
+        Centered at the origin.
+
+    Returns
+    -------
+    Steps of SplatSurface
+    """
     points, normals, tilt = cloud.points, cloud.normals, 0.0
     notes: tuple[str, ...] = ()
     if normals is None:

@@ -1,4 +1,4 @@
-"""Oriented points as splats: triangles that rays are cast at (section 5)."""
+"""Splats: triangles around oriented points, for rays to hit (section 5)."""
 
 from __future__ import annotations
 
@@ -10,24 +10,35 @@ from ..geometry.frames import frames
 from ..geometry.mesh import TriangleMesh
 from ..geometry.sampling import sample_surface
 
-# Neighbors that the density around a point is told from.
+# Neighbors that the density around a point is measured with.
 _NEIGHBORS = 8
-# Area of a splat, in the area that its point stands for.
+# Area of a splat, as a multiple of the area that its point stands for.
 _COVER = 1.5
-# Bounds of that area, in its median: points may coincide, and some are strays.
+# Bounds of a point's area, as multiples of the median. Points may coincide, and some
+# are strays.
 _LEAST_AREA, _MOST_AREA = 0.02, 25.0
-# How far apart two points of opposite normals count, in spacings of points.
+# Distance, in spacings of points, that opposite normals add.
 _NORMAL_WEIGHT = 3.0
-# Points that their spacing is measured on.
+# Points that the spacing is measured at, at most.
 _PROBES = 1000
-# Neighbors, with the point itself, that noise is averaged over.
+# Points that noise is averaged over, with the point itself.
 _AVERAGED = 12
-# Points that become splats; more are thinned out to so many.
+# Most splats of a cloud. Clouds of more points are thinned out.
 _MOST_SPLATS = 20_000
 
 
 def spacing_of(points: NDArray[np.float64]) -> float:
-    """Return the side of the square that a point stands for in the median."""
+    """Return the median side of the square that a point stands for.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+
+    Returns
+    -------
+    float
+        In the units of `points`.
+    """
     probes = points[:: -(-len(points) // _PROBES)]
     return float(np.sqrt(np.median(_areas_around(points, probes))))
 
@@ -38,17 +49,22 @@ def nearest_points(
     queries: tuple[NDArray[np.float64], NDArray[np.float64]],
     n_nearest: int,
 ) -> NDArray[np.int64]:
-    """Return the points nearest to each query by position and normal, (Q, n).
+    """Return the points nearest to each query by position and normal.
 
-    The far side of a thin wall does not count as near.
+    Points on the far side of a thin wall do not count as near.
 
     Parameters
     ----------
     points, normals : (N, 3) float
-    queries : two (Q, 3) float
+    queries : tuple of two (Q, 3) float
         Positions and normals.
     n_nearest : int
-        Not above N.
+        At most N.
+
+    Returns
+    -------
+    (Q, n_nearest) int
+        Rows of `points`, nearest first.
     """
     spacing = spacing_of(points)
     tree = cKDTree(placed(points, normals, spacing))
@@ -59,13 +75,17 @@ def nearest_points(
 def placed(
     points: NDArray[np.float64], normals: NDArray[np.float64], spacing: float
 ) -> NDArray[np.float64]:
-    """Return coordinates (N, 6) whose distances count positions and normals.
+    """Return coordinates whose distances combine positions and normals.
 
     Parameters
     ----------
     points, normals : (N, 3) float
     spacing : float
-        Of the cloud.
+        Spacing of the cloud, from `spacing_of`.
+
+    Returns
+    -------
+    (N, 6) float
     """
     return np.hstack([points, _NORMAL_WEIGHT / 2 * spacing * normals])
 
@@ -73,7 +93,16 @@ def placed(
 def areas_of_points(
     points: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the area that each point stands for, by the density around it, (N,)."""
+    """Return the surface area that each point stands for, by the density around it.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+
+    Returns
+    -------
+    (N,) float
+    """
     nearest = nearest_points(points, normals, (points, normals), _NEIGHBORS + 1)
     radii = np.linalg.norm(points[nearest] - points[:, None], axis=2).max(axis=1)
     areas = np.pi * radii**2 / _NEIGHBORS
@@ -84,10 +113,18 @@ def areas_of_points(
 def smoothed(
     points: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return points (N, 3) moved along their normals to where their neighbors agree.
+    """Return points moved along their normals to average out noise.
 
-    Noise is averaged away. The chord between two points of a circle is at right angles
-    to the sum of their normals, so that curvature alone moves nothing.
+    The height of each neighbor is measured with the mean of the two normals. A chord of
+    a circle is at right angles to that mean, so curvature alone moves no point.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+
+    Returns
+    -------
+    (N, 3) float
     """
     nearest = nearest_points(
         points, normals, (points, normals), min(_AVERAGED, len(points))
@@ -109,12 +146,12 @@ def splats(
     ----------
     points, normals : (N, 3) float
     areas : (N,) float
-        What each point stands for; its splat is half as large again.
+        Surface area that each point stands for. Its splat is half as large again.
 
     Returns
     -------
     TriangleMesh
-        Triangle and polygon i are the splat of point i.
+        Triangle i and polygon i are the splat of point i.
     """
     tangents, bitangents = frames(normals)
     radii = np.sqrt(_COVER * areas * 4 / (3 * np.sqrt(3.0)))[:, None]
@@ -134,9 +171,10 @@ def splats(
 def thinned_splats(
     points: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], TriangleMesh]:
-    """Return the points that are kept, the areas they stand for, and their splats.
+    """Thin out a cloud of many points, and return the kept points' areas and splats.
 
-    What is kept is spread evenly over the surface, however uneven the density.
+    Kept points are spread evenly over the surface, even if the density of the cloud
+    varies.
 
     Parameters
     ----------
@@ -145,9 +183,11 @@ def thinned_splats(
     Returns
     -------
     kept : (M,) int
-        Ascending; all points if there are not too many.
+        Rows of `points`, ascending; all of them if they are few enough.
     areas : (M,) float
+        Surface area that each kept point stands for.
     targets : TriangleMesh
+        Triangle i is the splat of kept point i.
     """
     kept = np.arange(len(points))
     areas = areas_of_points(points, normals)
@@ -163,7 +203,7 @@ def thinned_splats(
 def _areas_around(
     points: NDArray[np.float64], probes: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the area that a point stands for around each of the probes."""
+    """Return the area (Q,) that a point stands for around each of `probes` (Q, 3)."""
     distances, _ = cKDTree(points).query(probes, _NEIGHBORS + 1)
     areas: NDArray[np.float64] = np.pi * distances[:, -1] ** 2 / _NEIGHBORS
     return areas

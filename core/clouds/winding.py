@@ -1,10 +1,11 @@
-"""Which way is out of a closed surface that only points of it are known of.
+"""Outward directions on a closed surface that is known only by points.
 
-By the formula of Gauss the winding number around a place is a sum over the surface of
-its outward normals, each weakened by its distance: 1 inside, 0 outside, one half on the
-surface itself. Normals are right that give one half at every point, and that are the
-ways in which the number falls: winding number normal consistency (Lin, Shi and Liu
-2024). Both know the whole shape, thin limbs and both sides of a wall.
+By the formula of Gauss, the winding number of a place is a sum of outward normals over
+the surface, each weakened by its distance. It is 1 inside, 0 outside and 1/2 on the
+surface. Normals are right if they give 1/2 at every point, and if they are the
+directions in which the winding number falls: winding number normal consistency (Lin,
+Shi and Liu 2024). Both conditions depend on the whole shape, so they also settle thin
+limbs and both sides of a wall.
 """
 
 from __future__ import annotations
@@ -20,16 +21,16 @@ from scipy.spatial.distance import cdist
 from ..geometry.frames import unit
 from ..steps.progress import Progress, Steps, within
 
-# Points that have an unknown normal each; memory grows with the square.
+# Most points whose vectors are solved for. Memory grows with the square.
 _DRAWN = 4000
-# Neighbors that their distance is measured by.
+# Neighbors that the distance of points is measured with.
 _NEIGHBORS = 7
-# Times that normals are brought nearer to one half, and turned to where numbers fall,
-# of the blurred shape, and then of the shape itself.
+# Iterations at each blur: one step towards 1/2, then a turn along the negative
+# gradient.
 _ROUNDS = 12
-# What blurs it first, in distances of points.
+# Blur of the first, coarse solve, in distances of points.
 _COARSE = 2.0
-# Places that are looked at at a time.
+# Places in one block of the kernel.
 _ROWS_PER_STEP = 500
 
 Single = NDArray[np.float32]
@@ -37,14 +38,16 @@ Single = NDArray[np.float32]
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """What vectors at points do at some places.
+    """Kernel of the winding number, from points with vectors to a block of places.
 
     Attributes
     ----------
     places : (Q, 3) float32
     points : (N, 3) float32
-    cubes, fifths : (Q, N) float32
-        Inverse powers of the distances, three times that of the fifth.
+    cubes : (Q, N) float32
+        1 / d³ for each blurred distance d.
+    fifths : (Q, N) float32
+        3 / d⁵.
     """
 
     places: Single
@@ -53,16 +56,16 @@ class _Rows:
     fifths: Single
 
     def numbers(self, vectors: Single) -> Single:
-        """Return the winding numbers around the places, (Q,), by some constant."""
+        """Return the winding number of each place, (Q,), times a constant."""
         heights = (vectors * self.points).sum(axis=1)
         sums = self.cubes @ np.column_stack([vectors, heights])
         numbers: Single = sums[:, 3] - (self.places * sums[:, :3]).sum(axis=1)
         return numbers
 
     def slopes(self, missing: Single) -> Single:
-        """Return in which way vectors give more of what is missing, (Q, 3).
+        """Return the steepest change (Q, 3) of vectors to reduce `missing` (N,).
 
-        The transpose of `numbers`, where places are some of the points.
+        The transpose of `numbers`, for places that are some of the points.
         """
         moments = missing[:, None] * self.points
         sums = self.cubes @ np.column_stack([moments, missing])
@@ -70,7 +73,7 @@ class _Rows:
         return slopes
 
     def falls(self, vectors: Single) -> Single:
-        """Return the way in which the winding number falls at the places, (Q, 3)."""
+        """Return the negative gradient of the winding number at the places, (Q, 3)."""
         heights = (vectors * self.points).sum(axis=1) - self.places @ vectors.T
         heights *= self.fifths
         there = self.places * heights.sum(axis=1)[:, None]
@@ -81,15 +84,23 @@ class _Rows:
 def outward_directions(
     points: NDArray[np.float64], blur: float
 ) -> Steps[NDArray[np.float64]]:
-    """Return unit vectors out of the shape at points spread over its surface, (N, 3).
+    """Return unit vectors out of the shape at points spread over its surface.
 
     Parameters
     ----------
     points : (N, 3) float
-        Around the origin.
+        Centered at the origin.
     blur : float
-        What blurs the surface, in distances of its points: noise is not to be
-        explained.
+        Radius that the surface is blurred with, in distances of its points, so that
+        the vectors do not fit noise.
+
+    Returns
+    -------
+    Steps of (N, 3) float
+
+    References
+    ----------
+    Lin, Shi and Liu, winding number normal consistency, 2024.
     """
     places = points.astype(np.float32)
     few = places[np.random.default_rng(0).permutation(len(points))[:_DRAWN]]
@@ -97,7 +108,7 @@ def outward_directions(
     distances, _ = cKDTree(few).query(few, n_nearest)
     spacing = float(np.median(distances[:, 1:].mean(axis=1)))
     vectors = np.zeros_like(few)
-    # What is far apart comes to agree the sooner the less of the detail is seen.
+    # With little detail first, vectors that are far apart agree sooner.
     vectors = yield from within(_nearer(few, _COARSE * spacing, vectors), 0.0, 0.45)
     vectors = yield from within(_nearer(few, blur * spacing, vectors), 0.45, 0.9)
     found = []
@@ -108,7 +119,7 @@ def outward_directions(
 
 
 def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
-    """Return vectors (N, 3) that have been brought nearer to both, in some rounds."""
+    """Return vectors (N, 3) improved for both conditions, blurred by `width`."""
     rows = []
     for some, done in _rows(points, points, width):
         yield Progress("Normals", 0.1 * done)
@@ -116,12 +127,12 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
     for number in range(_ROUNDS):
         progress = Progress("Normals", 0.1 + 0.9 * number / _ROUNDS)
         yield progress
-        # Lengths do not matter, so that one half may be 1.
+        # Lengths do not matter, so 1 stands for 1/2.
         missing = np.float32(1.0) - _all(some.numbers(vectors) for some in rows)
         change = _all(some.slopes(missing) for some in rows)
         yield progress
         effect = _all(some.numbers(change) for some in rows)
-        # The step in this direction that leaves the least missing, in squares.
+        # The step length that minimizes the sum of squares of `missing`.
         fitted = vectors + np.float32((change**2).sum() / (effect @ effect)) * change
         falls = []
         for some in rows:
@@ -133,16 +144,14 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
 
 
 def _all(values: Iterable[Single]) -> Single:
+    """Return the arrays joined along their first axis."""
     return np.concatenate(list(values))
 
 
 def _rows(
     places: Single, points: Single, width: float
 ) -> Iterator[tuple[_Rows, float]]:
-    """Yield what vectors at points do at some places after the other.
-
-    With the share of the places that is done.
-    """
+    """Yield the kernel for blocks of places, with the share of places done before."""
     for start in range(0, len(places), _ROWS_PER_STEP):
         some = places[start : start + _ROWS_PER_STEP]
         squares = cdist(some, points, "sqeuclidean").astype(np.float32)

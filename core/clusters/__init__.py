@@ -1,1 +1,1 @@
-"""From lines of sight to clusters of samples: embedding, k-means, moves."""
+"""Clusters of samples from lines of sight: embedding, k-means, moves."""

@@ -1,4 +1,4 @@
-"""From the LoS matrix to the embedding of the samples (section 4 of the paper)."""
+"""Spectral embedding of the samples, from the LoS matrix (section 4 of the paper)."""
 
 from __future__ import annotations
 
@@ -11,37 +11,40 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from ..sight.pairs import Matrix
 
-# In double precision eigenvectors depend less on how sums are rounded, which libraries
-# differ in: k-means would make other clusters of them. More samples take too much
-# memory.
+# Most samples whose matrix is in double precision; more would take too much memory.
+# Libraries round sums differently. In double precision this changes the eigenvectors
+# less. Otherwise k-means would find different clusters.
 _MOST_IN_DOUBLE = 4_000
+# Largest noise that is added to the diagonal of the matrix.
 _NOISE = 1e-7
+# Relative difference below which two entries of an eigenvector count as equally large.
 _SAME = 1e-3
 
 
 def embed(
     affinity: Matrix, n_coordinates: int, stochastic: bool
 ) -> NDArray[np.float64]:
-    """Return coordinates in which samples of one weakly convex part are near.
+    """Return coordinates in which samples of one weakly convex part are close.
 
-    The coordinates are the leading eigenvectors of D^-1/2 M D^-1/2, D the diagonal of
-    the row sums of M: the trailing ones of the Laplacian I - D^-1/2 M D^-1/2. Each is
-    as long as its eigenvalue: those of eigenvalue 0, which shapes of few convex parts
-    have many of, are arbitrary and must not count.
+    The coordinates are the leading eigenvectors of D^-1/2 M D^-1/2, where the diagonal
+    matrix D holds the row sums of M. These are the trailing eigenvectors of the
+    Laplacian I - D^-1/2 M D^-1/2. Each is scaled by its eigenvalue: eigenvectors of
+    eigenvalue 0 are arbitrary and must not count. Shapes with few convex parts have
+    many of them.
 
     Parameters
     ----------
     affinity : (N, N) float32 or sparse
-        M: symmetric, not negative, with a positive diagonal.
+        LoS matrix M (eq. 3): symmetric, not negative, with a positive diagonal.
     n_coordinates : int
-        Number of eigenvectors; fewer where N is too small.
+        Number of eigenvectors. There are at most N − 1.
     stochastic : bool
-        Take the eigenvectors of the random walk D^-1 M instead.
+        Use the eigenvectors of the random walk D^-1 M instead.
 
     Returns
     -------
     embedding : (N, n) float
-        n ≤ `n_coordinates`. Signs are chosen so that runs agree.
+        n ≤ `n_coordinates`. The sign of each column is fixed, so that runs agree.
     """
     n_samples = affinity.shape[0]
     if n_samples <= _MOST_IN_DOUBLE:
@@ -62,7 +65,7 @@ def embed(
     if stochastic:
         vectors = vectors * scales[:, None] * np.sqrt(degrees.mean())
     sizes = np.abs(vectors)
-    # The first of the largest entries, which symmetric shapes have several of.
+    # The first of the largest entries: symmetric shapes have several of equal size.
     leading = (sizes >= (1 - _SAME) * sizes.max(axis=0)).argmax(axis=0)
     signs = np.sign(vectors[leading, np.arange(n_vectors)])
     embedding: NDArray[np.float64] = vectors * (signs * values * np.sqrt(n_samples))
@@ -74,15 +77,15 @@ def _shifted_walk(
     scales: NDArray[np.float64],
     noise: NDArray[np.float64],
 ) -> LinearOperator:
-    """Return I + S M S, S the diagonal of `scales`, and some noise on it.
+    """Return I + S M S + noise; S is diagonal with `scales`, the noise is diagonal too.
 
-    Shifted by I, so that the tolerance of eigenvalues near 0 is not 0. Where samples
-    are all alike, a Krylov space ends early and ARPACK goes on from random numbers of
-    its own; the noise keeps it going, the same every time.
+    Adding I keeps the tolerance of eigenvalues near 0 above 0. Where all samples are
+    alike, the Krylov space ends early and ARPACK continues from its own random numbers.
+    The noise prevents that, and it is the same every time.
     """
     times = affinity.__matmul__
     if isinstance(affinity, np.ndarray):
-        # Half of a symmetric matrix says it all: half as much to read.
+        # symv reads one half of a symmetric matrix: half as much memory to read.
         times = partial(get_blas_funcs("symv", (affinity,)), 1.0, affinity.T)
 
     def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:

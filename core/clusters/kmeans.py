@@ -1,4 +1,4 @@
-"""From the embedding to clusters: the only place that uses scikit-learn."""
+"""k-means clusters of the embedding: the only module that uses scikit-learn."""
 
 from __future__ import annotations
 
@@ -10,19 +10,35 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.cluster import KMeans
 
+# Random starts of k-means; the best result is kept.
 _STARTS = 4
+# Environment variable with the number of threads.
 _THREADS = "OMP_NUM_THREADS"
+# Decimals that the embedding is rounded to.
 _DECIMALS = 6
 
 
 def cluster(
     embedding: NDArray[np.float64], n_clusters: int, seed: int
 ) -> NDArray[np.int64]:
-    """Return the k-means cluster of each row of `embedding`, (N,) int.
+    """Return the k-means cluster of each sample.
 
-    Fewer than `n_clusters` where there are fewer distinct rows.
+    Parameters
+    ----------
+    embedding : (N, n) float
+        Coordinates of the samples.
+    n_clusters : int
+        Number of clusters. If there are fewer distinct rows, there are as many clusters
+        as distinct rows.
+    seed : int
+        Seed of the random starts.
+
+    Returns
+    -------
+    labels : (N,) int
+        Cluster of each row of `embedding`, from 0.
     """
-    # Rows that differ by rounding alone would be clusters of noise.
+    # Otherwise rows that differ only by rounding could become separate clusters.
     embedding = embedding.round(_DECIMALS)
     n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
     model = KMeans(n_clusters=n_clusters, n_init=_STARTS, random_state=seed)
@@ -33,7 +49,7 @@ def cluster(
 
 @contextmanager
 def _no_count_of_cores() -> Iterator[None]:
-    """Keep scikit-learn from starting a program that counts the physical cores."""
+    """Set OMP_NUM_THREADS, or scikit-learn runs a program that counts the cores."""
     before = os.environ.get(_THREADS)
     os.environ[_THREADS] = "1"
     try:

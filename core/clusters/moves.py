@@ -1,4 +1,4 @@
-"""Samples that change their part when psi gains by it (eq. 5)."""
+"""Moves of samples to other labels, as long as psi rises (eq. 5)."""
 
 from __future__ import annotations
 
@@ -7,22 +7,24 @@ from numpy.typing import NDArray
 
 from ..sight.pairs import Matrix, PairVisibility, members_of, sums_by_label
 
-# Sweeps over all samples at most; most shapes settle within five.
+# Most sweeps over all samples. For most shapes, no sample moves after five.
 _SWEEPS = 10
-# Samples move in turns, those of one turn far apart on the surface.
+# Turns of a sweep. All samples of a turn move at once; they are far apart on the
+# surface.
 _TURNS = 15
 
 
 class MoveGains:
-    """How much psi there is in giving samples to labels, as labels change.
+    """How much psi gains when a sample moves to each label, kept up to date.
 
     Parameters
     ----------
     pairs : PairVisibility
-        Which samples see each other, of N.
+        Which of the N samples see each other.
     labels : (N,) int
-        In 0…`n_labels` − 1.
+        Current label of each sample, in 0…`n_labels` − 1.
     n_labels : int
+        Number of labels K.
     """
 
     def __init__(
@@ -30,7 +32,7 @@ class MoveGains:
     ) -> None:
         self._pairs = pairs
         self._members = members_of(labels, n_labels)
-        # Counts are whole numbers, exact in float32 however they are added up.
+        # Counts are whole numbers: their float32 sums are exact in any order.
         self._visible = self._sums(pairs.visible, labels)
         self._own = pairs.visible.diagonal()
         self._sizes = self._members.sum(axis=0)
@@ -40,28 +42,28 @@ class MoveGains:
             self._own_known, self._total = pairs.known.diagonal(), pairs.known.sum()
 
     def _sums(self, matrix: Matrix, labels: NDArray[np.int64]) -> NDArray[np.float32]:
-        """Return the sums of the columns of each label, (N, K): those of its rows."""
+        """Return the sum of each row over the columns of each label, (N, K)."""
         sums = sums_by_label(matrix, labels, self._members.shape[1])
         return np.ascontiguousarray(sums.T)
 
     def of(self, rows: slice, alpha: float) -> NDArray[np.float64]:
-        """Return the pulls of R samples.
+        """Return the gain in psi of every label for R samples.
 
         Parameters
         ----------
         rows : slice
-            Of the samples that are asked for.
+            Selects the R samples.
         alpha : float
-            Of psi.
+            Weight of hidden pairs between parts in psi.
 
         Returns
         -------
-        pulls : (R, K) float
-            What psi would grow by for each unit of area that got the label, but for
-            what does not depend on the label.
+        gains : (R, K) float
+            Gain in psi if the sample has the label, per unit of area; the whole surface
+            has area 1. A term that is the same for all labels of a sample is left out.
         """
         mine = self._members[rows]
-        # A sample sees itself whatever its label is.
+        # Leave out the sample itself: it sees itself under any label.
         visible = self._visible[rows] - mine * self._own[rows, None]
         if self._pairs.known is None:
             known = self._sizes - mine
@@ -71,7 +73,15 @@ class MoveGains:
         return 2 * len(self._members) * gains / self._total
 
     def give(self, samples: NDArray[np.int64], labels: NDArray[np.int64]) -> None:
-        """Give samples to labels, (M,) int each."""
+        """Change the labels of some samples and update the gains.
+
+        Parameters
+        ----------
+        samples : (M,) int
+            Rows of the samples.
+        labels : (M,) int
+            New label of each.
+        """
         change = -self._members[samples]
         change[np.arange(len(samples)), labels] += 1
         self._members[samples] += change
@@ -84,25 +94,27 @@ class MoveGains:
 def raise_psi(
     pairs: PairVisibility, labels: NDArray[np.int64], n_labels: int, alpha: float
 ) -> NDArray[np.int64]:
-    """Return the labels after every move of one sample by which psi gains.
+    """Return labels of higher psi: samples move to the label that psi gains most by.
 
-    k-means knows nothing of psi. Psi is the Constant Potts Model of community detection
-    at resolution alpha / (1 + alpha), for which such local moves are standard.
+    k-means does not optimize psi. Psi is the Constant Potts Model of community
+    detection at resolution alpha / (1 + alpha), for which such local moves are
+    standard.
 
     Parameters
     ----------
     pairs : PairVisibility
-        Which samples see each other, of N.
+        Which of the N samples see each other.
     labels : (N,) int
-        In 0…`n_labels` − 1.
+        Labels to start from, in 0…`n_labels` − 1.
     n_labels : int
+        Number of labels K.
     alpha : float
-        Of psi.
+        Weight of hidden pairs between parts in psi.
 
     Returns
     -------
     labels : (N,) int
-        Those of `n_labels` that psi is better without are not used any more.
+        Some labels may be unused: all their samples have moved away.
     """
     labels = labels.copy()
     samples = np.arange(len(labels))

@@ -1,1 +1,1 @@
-"""What shapes are: meshes, points, samples, graphs of faces."""
+"""Geometry of the input: meshes, point clouds, samples and face graphs."""

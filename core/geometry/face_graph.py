@@ -1,4 +1,4 @@
-"""The polygons of a mesh as a graph: what labels move along."""
+"""The graph of a mesh's polygons: which are neighbors, and how they meet."""
 
 from __future__ import annotations
 
@@ -16,24 +16,23 @@ from .mesh import TriangleMesh
 
 @dataclass(frozen=True, eq=False)
 class FaceGraph:
-    """Polygons, and the edges that neighbors share.
+    """A graph of polygons (or points of a cloud) that share edges.
 
     Attributes
     ----------
     areas : (P,) float
     centers, normals : (P, 3) float
-        Means over each polygon's area; normals are unit vectors or 0.
+        Area-weighted means of each polygon. Normals are unit vectors, or 0.
     neighbors : (E, 2) int
-        Polygons on both sides of an edge.
+        The two polygons at each shared edge.
     lengths : (E,) float
-        Length of the edge.
+        Length of the shared edge.
     bends : (E,) float
-        Angle between the two normals in radians: positive where the surface is
-        concave (a crease seen from outside), negative where it is convex.
+        Angle between the normals in radians, positive at creases (concave).
     links : (L, 2) int
-        Polygons of different shells that touch.
+        Touching polygons of different shells.
     outline : (P,) float or None
-        Length of the outline at each polygon of a flat mesh.
+        Length of the outline along each polygon of a flat mesh.
     """
 
     areas: NDArray[np.float64]
@@ -52,33 +51,43 @@ class FaceGraph:
 
     @property
     def weights(self) -> NDArray[np.float64]:
-        """Share of the samples that each polygon can expect, (P,)."""
+        """Expected share of the samples on each polygon, (P,), sum 1."""
         sampled = self.areas if self.outline is None else self.outline
         return sampled / sampled.sum()
 
     def areas_of(self, labels: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Return the area under each label 0…K − 1, (K,)."""
+        """Return the total area of each label 0…K − 1, (K,) float.
+
+        Parameters
+        ----------
+        labels : (P,) int
+        """
         return np.bincount(labels, self.areas).astype(np.float64)
 
     def shells(self) -> NDArray[np.int64]:
-        """Return the number of the connected shell of each polygon, (P,)."""
+        """Return the shell number of each polygon, (P,) int."""
         return _components(self._graph)
 
     @cached_property
     def _graph(self) -> sparse.csr_array:
-        """Return the neighbors as a matrix: pieces are asked for over and over."""
+        """Adjacency matrix (P, P) of the polygons, without links."""
         return _graph_of(self.neighbors, self.n_polygons)
 
     @cached_property
     def _tails(self) -> NDArray[np.int64]:
-        """Return the row of each entry of the matrix."""
+        """Row number of each stored entry of the adjacency matrix."""
         return np.repeat(np.arange(self.n_polygons), np.diff(self._graph.indptr))
 
     def pieces(self, labels: NDArray[np.int64], firm_area: float) -> NDArray[np.int64]:
-        """Return connected pieces of polygons with one label, (P,) int.
+        """Return the piece of each polygon, connected and of one label, (P,) int.
 
-        Links connect whole shells and what is larger than `firm_area`, not the specks
-        that a label may have next to another shell.
+        A link joins pieces that are each a whole shell, or have at least `firm_area`.
+        Small fragments beside another shell stay separate.
+
+        Parameters
+        ----------
+        labels : (P,) int
+        firm_area : float
         """
         pieces = self._pieces_of_shells(labels)
         if len(self.links) == 0:
@@ -93,7 +102,7 @@ class FaceGraph:
         return _components(_graph_of(pieces[self.links[tied]], len(firm)))[pieces]
 
     def _pieces_of_shells(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return connected pieces of polygons with one label, without links."""
+        """Return the piece of each polygon, (P,), without regard to links."""
         graph = self._graph
         alike = labels[self._tails] == labels[graph.indices]
         starts = np.concatenate([[0], np.cumsum(alike)])[graph.indptr]
@@ -101,9 +110,15 @@ class FaceGraph:
         return _components(sparse.csr_array(rest, graph.shape))
 
     def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
-        """Return the length of the border between every two labels, (K, K)."""
+        """Return the border length between every two labels, (K, K) sparse float.
+
+        Parameters
+        ----------
+        labels : (P,) int
+        n_labels : int
+        """
         pairs = labels[np.concatenate([self.neighbors, self.links])]
-        # A link is a border where there is no other.
+        # Links have no length, but their labels still border on each other.
         lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
         crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
         one, other = pairs[crossing].T
@@ -118,14 +133,25 @@ class FaceGraph:
         return borders.tocsr()
 
     def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
-        """Return which labels border on no other, (K,)."""
+        """Return whether each label touches no other label, (K,) bool.
+
+        Parameters
+        ----------
+        labels : (P,) int
+        n_labels : int
+        """
         alone = np.ones(n_labels, dtype=bool)
         for pairs in (labels[self.neighbors], labels[self.links]):
             alone[pairs[pairs[:, 0] != pairs[:, 1]]] = False
         return alone
 
     def part(self, kept: NDArray[np.int64]) -> FaceGraph:
-        """Return the surface of some polygons, rows in ascending order."""
+        """Return the graph of some polygons, numbered in the order of `kept`.
+
+        Parameters
+        ----------
+        kept : (M,) int
+        """
         places = np.full(self.n_polygons, -1)
         places[kept] = np.arange(len(kept))
         neighbors, links = places[self.neighbors], places[self.links]
@@ -142,21 +168,30 @@ class FaceGraph:
         )
 
     def linked(self, links: NDArray[np.int64]) -> FaceGraph:
-        """Return the surface with links (L, 2) between polygons that touch."""
+        """Return the graph with other links, pairs of touching polygons.
+
+        Parameters
+        ----------
+        links : (L, 2) int
+        """
         return replace(self, links=links)
 
 
 def face_graph(mesh: TriangleMesh) -> FaceGraph:
-    """Return the graph of the polygons of `mesh`.
+    """Return the polygons of `mesh` as a FaceGraph without links and outline.
 
-    Vertices at one place count as one, since many file formats split them.
+    Vertices at the same position count as one, since many file formats split them.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
     """
     n_polygons = mesh.n_polygons
     areas = np.bincount(mesh.polygons, mesh.areas, n_polygons).astype(np.float64)
     weighted = mesh.areas[:, None] * mesh.vertices[mesh.triangles].mean(axis=1)
     centers = _sum_by(mesh.polygons, weighted, n_polygons)
     safe = np.where(areas > 0, areas, 1.0)[:, None]
-    # A polygon without area still lies somewhere.
+    # A polygon without area takes a vertex as its center.
     first = np.zeros(n_polygons, dtype=np.int64)
     first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
     centers = np.where(areas[:, None] > 0, centers / safe, mesh.vertices[first])
@@ -173,7 +208,7 @@ def _bends(
     normals: NDArray[np.float64],
     neighbors: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """Return the angle between neighbors, positive where they form a crease."""
+    """Return the signed angle (E,) between neighbors, positive at creases."""
     one, other = neighbors.T
     angles = np.arccos(np.clip((normals[one] * normals[other]).sum(axis=1), -1.0, 1.0))
     rises = ((centers[other] - centers[one]) * normals[one]).sum(axis=1)
@@ -183,7 +218,7 @@ def _bends(
 def _shared_edges(
     mesh: TriangleMesh,
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return neighbors (E, 2) by a common edge, and its two ends (E, 2, 3)."""
+    """Return polygons (E, 2) with a common edge, and its ends (E, 2, 3)."""
     keys = mesh.edge_keys
     order = np.argsort(keys, kind="stable")
     keys, owners = keys[order], mesh.polygons[order // 3]
@@ -204,12 +239,12 @@ def _sum_by(
 
 
 def _graph_of(pairs: NDArray[np.int64], n_nodes: int) -> sparse.csr_array:
-    """Return the graph of pairs of nodes, (n_nodes, n_nodes)."""
+    """Return the adjacency matrix (n_nodes, n_nodes) of pairs of nodes."""
     return sparse.csr_array(
         (np.ones(len(pairs)), tuple(pairs.T)), shape=(n_nodes, n_nodes)
     )
 
 
 def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
-    """Return the connected component of each node."""
+    """Return the connected component of each node, (n_nodes,)."""
     return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -1,9 +1,9 @@
-"""Flat meshes: shapes of two dimensions, seen by their outline as in figure 3.
+"""Flat meshes as two-dimensional shapes, sampled on their outline (figure 3).
 
-Samples of a flat shape lie on its outline, normals and lines of sight in its plane.
-All of it comes from low walls along the outline, which rays are cast at: a segment
-between two points of such walls stays between their upper and lower rims, so that it
-meets a wall exactly where it crosses the outline.
+The samples of a flat shape lie on its outline. Their normals and lines of sight lie
+in its plane. Low walls are built along the outline, and rays are cast at them. A
+segment between two points on walls stays between the upper and lower rims, so it
+hits a wall exactly where it crosses the outline.
 """
 
 from __future__ import annotations
@@ -18,31 +18,33 @@ from .face_graph import FaceGraph, face_graph
 from .frames import frames
 from .mesh import TriangleMesh
 
-# Faces are in one plane when no vertex is farther from another along its normal; those
-# lie in it that cover this share of their area there, unlike the sides of a thin plate.
+# Greatest extent of a flat mesh along its normal, in diagonals.
 _FLAT = 1e-4
+# A face lies in the plane if its projection keeps this share of its area. The sides
+# of a thin plate do not.
 _LYING = 0.5
-# Faces of less area are wound like most: rounding decides which way they seem to face.
+# Faces of less area, in squared diagonals, are wound like the majority: their own
+# normals depend on rounding.
 _TINY = 1e-8
-# Share of its hull that a convex face fills.
+# Least share of its convex hull's area that a convex face fills.
 _CONVEX = 0.999
-# Height of the walls, in diagonals: less than the distance between samples.
+# Height of the walls, in diagonals. It is less than the distance between samples.
 _HEIGHT = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
 class FlatMesh:
-    """A mesh in one plane.
+    """A mesh in one plane, with walls along its outline.
 
     Attributes
     ----------
     faces : TriangleMesh
-        The mesh, with all triangles wound alike.
+        The mesh, with all triangles wound the same way.
     walls : TriangleMesh
-        Rectangles across the plane along the outline, facing away from the faces.
-        The polygon of each is that of the face at its foot.
+        Rectangles at right angles to the plane, along the outline, facing away from
+        the faces. Each has the polygon number of the face at its foot.
     normal : (3,) float
-        Of the plane, a unit vector.
+        Unit normal of the plane.
     """
 
     faces: TriangleMesh
@@ -50,14 +52,19 @@ class FlatMesh:
     normal: NDArray[np.float64]
 
     def graph(self) -> FaceGraph:
-        """Return the graph that labels move along."""
+        """Return the graph of the faces, with the outline length of each polygon.
+
+        Returns
+        -------
+        FaceGraph
+        """
         lengths = self.walls.areas / _HEIGHT
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)
         return replace(face_graph(self.faces), outline=outline.astype(np.float64))
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the user should know."""
+        """Sentences to the user, a tuple of str."""
         if self.faces.n_polygons > 1:
             return ()
         axes = np.concatenate(frames(self.normal[None]))
@@ -71,7 +78,17 @@ class FlatMesh:
 
 
 def flat_mesh(mesh: TriangleMesh) -> FlatMesh | None:
-    """Return what a normalized mesh is in two dimensions, None if it is not flat."""
+    """Return a mesh as a flat shape, or None if it is not flat.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Normalized: its bounding box has diagonal 1.
+
+    Returns
+    -------
+    FlatMesh or None
+    """
     upright = mesh.normals @ mesh.normals[mesh.areas.argmax()]
     normal = (np.sign(upright) * mesh.areas) @ mesh.normals
     normal = normal / np.linalg.norm(normal)
@@ -99,23 +116,23 @@ def flat_mesh(mesh: TriangleMesh) -> FlatMesh | None:
 def _outline(
     faces: TriangleMesh, lying: NDArray[np.bool_]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Return the edges that have faces on one side alone.
+    """Return the edges that have faces on only one side.
 
-    This finds holes, and the outline of what is folded or lies in several layers, too.
+    This also finds holes, and the outline of folded or layered faces.
 
     Parameters
     ----------
     faces : TriangleMesh
-        Wound alike.
+        All triangles wound the same way.
     lying : (T,) bool
-        Which triangles count.
+        Whether each triangle lies in the plane; the others are ignored.
 
     Returns
     -------
     tails, heads : (E,) int
-        Rows of the vertices; the faces are on the left, seen from above.
+        Vertices at the ends of each edge; faces are on its left, seen from above.
     owners : (E,) int
-        Polygon on the left, one of them.
+        Polygon on the left, one of them where there are several.
     """
     sides = [0, 1, 1, 2, 2, 0]
     welded = faces.welded_triangles[lying][:, sides].reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""The shapes that can be decomposed: checked, read-only arrays."""
+"""Triangle meshes that can be decomposed: checked, read-only arrays."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from ..errors import DecompositionError
 
-# Faces of less area than this are a line or a point, in squared diagonals.
+# Least total area, in squared diagonals. With less, faces are lines or points.
 _LEAST_AREA = 1e-9
-# Vertices this near, in diagonals, are one: what single precision leaves of equality.
+# Cell size, in diagonals, of the grid that welds vertices. It allows for the rounding
+# of equal positions to single precision.
 _SAME_PLACE = 1e-6
-# Places along each axis: more than in two diagonals.
+# Grid cells along each axis. They span more than two diagonals.
 _CELLS = 2**21
 
 
@@ -22,7 +23,7 @@ _CELLS = 2**21
 class TriangleMesh:
     """A surface of triangles that belong to polygons.
 
-    Nothing asks for a closed, manifold or connected surface.
+    It need not be closed, manifold or connected.
 
     Parameters
     ----------
@@ -36,8 +37,8 @@ class TriangleMesh:
     Raises
     ------
     DecompositionError
-        If there are no triangles, coordinates that are not finite, or indices out
-        of range.
+        If there are no triangles, coordinates are not finite, indices are out of
+        range, or `polygons` does not give a number to each triangle.
     """
 
     vertices: NDArray[np.float64]
@@ -81,7 +82,7 @@ class TriangleMesh:
 
     @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest corner of the box around the triangles' vertices."""
+        """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
         used = self.vertices[self.triangles.ravel()]
         return used.min(axis=0), used.max(axis=0)
 
@@ -94,14 +95,23 @@ class TriangleMesh:
 
     @cached_property
     def diagonal(self) -> float:
-        """Length of the diagonal of the bounding box of the triangles' vertices."""
+        """Length of the bounding box's diagonal, in the units of the object."""
         low, high = self.bounds
         return float(np.linalg.norm(high - low))
 
     def normalized(self) -> TriangleMesh:
-        """Return the mesh centered, with a bounding box of diagonal 1.
+        """Return the mesh centered at the origin, with a bounding box of diagonal 1.
 
-        Ray casters work in single precision and tolerances in shares of the diagonal.
+        Ray casters work in single precision, and tolerances are in diagonals.
+
+        Returns
+        -------
+        TriangleMesh
+
+        Raises
+        ------
+        DecompositionError
+            If the faces have no area, or the bounding box is infinite.
         """
         if self.diagonal == 0 or not np.isfinite(self.diagonal):
             raise DecompositionError(
@@ -116,7 +126,7 @@ class TriangleMesh:
 
     @cached_property
     def welded_triangles(self) -> NDArray[np.int64]:
-        """(T, 3) numbers of the corners' places, equal where vertices coincide.
+        """(T, 3) int, position numbers of the corners, equal for coinciding vertices.
 
         Many file formats split vertices, and tools close a surface with vertices that
         differ by rounding.
@@ -124,7 +134,8 @@ class TriangleMesh:
         center = self.vertices[self.triangles.ravel()].mean(axis=0)
         grain = _SAME_PLACE * self.diagonal or 1.0
         grains = np.round((self.vertices - center) / grain).astype(np.int64)
-        # One number for three is sorted faster; vertices beyond are those of no face.
+        # One number sorts faster than three. Only vertices that no face uses lie
+        # outside the grid.
         cells = np.clip(grains + _CELLS // 2, 0, _CELLS - 1)
         places = cells @ (_CELLS**2, _CELLS, 1)
         _, place_of = np.unique(places, return_inverse=True)
@@ -133,7 +144,7 @@ class TriangleMesh:
 
     @property
     def edge_keys(self) -> NDArray[np.int64]:
-        """(3T,) numbers of the sides of the triangles, equal for those of one edge."""
+        """(3T,) int, numbers of the triangles' sides, equal for sides of one edge."""
         tails = self.welded_triangles
         heads = np.roll(tails, -1, axis=1)
         keys = np.minimum(tails, heads) * (tails.max() + 1) + np.maximum(tails, heads)
@@ -141,7 +152,7 @@ class TriangleMesh:
 
     @cached_property
     def _cross_products(self) -> NDArray[np.float64]:
-        """(T, 3) normals of the triangles, twice their areas long."""
+        """(T, 3) normals of the triangles; their length is twice the area."""
         a, b, c = np.moveaxis(self.vertices[self.triangles], 1, 0)
         return np.cross(b - a, c - a)
 
@@ -153,7 +164,7 @@ class TriangleMesh:
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:
-        """(T, 3) outward unit normals of the triangles, 0 where one is degenerate."""
+        """(T, 3) outward unit normals of the triangles, 0 for degenerate ones."""
         lengths = 2 * self.areas[:, None]
         normals: NDArray[np.float64] = np.divide(
             self._cross_products,

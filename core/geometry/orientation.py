@@ -1,4 +1,4 @@
-"""Triangles that face the right way: consistent, and out of closed shells."""
+"""Winding of triangles: consistent, and outwards on closed shells."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from .mesh import TriangleMesh
 from .shells import Shells
 
-# An open shell is solid when this share of its area closes it; an open box lacks 0.2.
+# Greatest missing area of a solid open shell, as a share of its area. A cube without
+# its lid misses 0.2.
 _MOST_MISSING = 0.25
 
 
@@ -19,30 +20,30 @@ def oriented(
 ) -> tuple[TriangleMesh, tuple[str, ...]]:
     """Return `mesh` with its solid shells wound consistently and outwards.
 
-    Solid is a shell that is closed, or nearly so: with holes through which little of
-    its area is missing. One inside another may be a cavity and keeps its sense relative
-    to it. Nothing tells the inside of other shells: they keep theirs, unless most of
-    what is solid has to be turned.
+    A shell is solid if it is closed, or if little of its area is missing in holes. A
+    solid shell inside another one may be a cavity: it keeps its winding relative to the
+    outer shell. Other shells have no known inside. They are only turned if more than
+    half of the solid area has to be turned.
 
     Parameters
     ----------
     mesh : TriangleMesh
     shells : Shells
-        Of the mesh.
+        Shells of `mesh`.
 
     Returns
     -------
     mesh : TriangleMesh
-        The same one where nothing was wrong.
+        The same object if no triangle had to be turned.
     notes : tuple of str
-        What was turned.
+        A sentence to the user if triangles were turned.
     """
     solid = _solid(mesh, shells)
     turned = np.zeros(len(solid), dtype=bool)
     turned[list(_inverted(mesh, shells, solid))] = True
     areas = np.bincount(shells.of_triangle, mesh.areas)
     if areas[turned].sum() > areas[solid].sum() / 2:
-        # The object is inside out altogether, what is open on it as well.
+        # The whole object is inside out, so its open shells are turned as well.
         turned |= ~solid
     flips = shells.against ^ turned[shells.of_triangle]
     if not flips.any():
@@ -56,10 +57,10 @@ def oriented(
 
 
 def _solid(mesh: TriangleMesh, shells: Shells) -> NDArray[np.bool_]:
-    """Return which shells are closed, or nearly, (S,).
+    """Return whether each shell is closed, or nearly so, (S,) bool.
 
-    The area vectors of a closed surface add up to nothing, those of what is missing
-    add up to at least their share of it.
+    The area vectors of a closed surface sum to zero. The length of the sum is thus a
+    lower bound of the missing area.
     """
     vectors = mesh.areas[:, None] * mesh.normals
     vectors = np.where(shells.against[:, None], -vectors, vectors)
@@ -76,7 +77,7 @@ def _inverted(
     shells: Shells,
     solid: NDArray[np.bool_],
 ) -> set[int]:
-    """Return the outermost solid shells that face inwards, and what lies in them."""
+    """Return the outermost inward-facing solid shells and all solid shells inside."""
     flips = shells.against
     corners = mesh.vertices[mesh.triangles]
     volumes = _volumes(corners, shells.of_triangle, flips)
@@ -102,7 +103,7 @@ def _inverted(
     inverted: set[int] = set()
     for shell in inward:
         if not any(encloses(outer, shell) for outer in candidates):
-            # What lies within turns along, and stays a cavity or a core.
+            # Inner shells turn along, so they stay a cavity or a core.
             inverted.add(int(shell))
             inverted |= {int(c) for c in candidates if encloses(shell, c)}
     return inverted
@@ -113,7 +114,7 @@ def _volumes(
     shells: NDArray[np.int64],
     flips: NDArray[np.bool_],
 ) -> NDArray[np.float64]:
-    """Return six times the volume of each shell (S,), seen from its middle."""
+    """Return six times the signed volume of each shell, (S,), about its middle."""
     counts = np.bincount(shells)[:, None]
     centers = corners.mean(axis=1)
     sums = [np.bincount(shells, centers[:, axis]) for axis in range(3)]
@@ -129,7 +130,7 @@ def _winding_number(
     corners: NDArray[np.float64],
     signs: NDArray[np.float64],
 ) -> float:
-    """Return how often triangles (T, 3, 3) wind around a point.
+    """Return the winding number of triangles (T, 3, 3) around a point.
 
     A sum of solid angles, by the formula of Van Oosterom and Strackee (1983).
     """

@@ -9,37 +9,38 @@ from numpy.typing import NDArray
 
 from ..errors import DecompositionError
 
-# Fewer points than this show no surface.
+# Least number of points of a cloud. Fewer do not show a surface.
 _FEWEST = 16
-# Points that extend less than this beside a line lie on it, in diagonals.
+# Points lie in a line if they spread less than this across it: a root mean square
+# distance, in diagonals.
 _LEAST_WIDTH = 1e-4
-# A vector of normals shorter than this is none.
+# Least length of a usable normal, before it is scaled to length 1.
 _LEAST_NORMAL = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class PointCloud:
-    """Points of a surface, with or without its normals there (section 5).
+    """Points on a surface, with or without normals (section 5).
 
     Parameters
     ----------
     points : (N, 3) float
         In the units of the object.
     normals : (N, 3) float or None
-        Outward, of any length but 0; None where they are to be estimated.
+        Outward vectors of any length but 0; None to have them estimated.
 
     Raises
     ------
     DecompositionError
-        If there are too few points, coordinates that are not finite, points at one
-        place or in a line, or normals of another number, not finite or zero.
+        If there are too few points, if all lie at one place or in a line, if there is
+        not one normal per point, or if values are not finite or normals zero.
     """
 
     points: NDArray[np.float64]
     normals: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        """Check the arrays and keep read-only copies, of normals as unit vectors."""
+        """Check the arrays and keep read-only copies, normals at length 1."""
         points = np.array(self.points, dtype=np.float64).reshape(-1, 3)
         _check_points(points)
         points.flags.writeable = False
@@ -64,21 +65,26 @@ class PointCloud:
 
     @property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest corner of the box around the points."""
+        """Lowest and highest corner of the bounding box, (3,) each."""
         return self.points.min(axis=0), self.points.max(axis=0)
 
     @property
     def diagonal(self) -> float:
-        """Length of the diagonal of the bounding box."""
+        """Length of the bounding box's diagonal, in the units of the object."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def normalized(self) -> PointCloud:
-        """Return the cloud centered, with a bounding box of diagonal 1."""
+        """Return the cloud centered at the origin, with a bounding box of diagonal 1.
+
+        Returns
+        -------
+        PointCloud
+        """
         return replace(self, points=(self.points - self.center) / self.diagonal)
 
 
 def _check_points(points: NDArray[np.float64]) -> None:
-    """Raise unless points can be those of a surface."""
+    """Raise DecompositionError if the points cannot be points of a surface."""
     if len(points) < _FEWEST:
         raise DecompositionError(
             f"There are no faces, and too few points for a point cloud, {len(points)};"
@@ -106,7 +112,7 @@ def _check_points(points: NDArray[np.float64]) -> None:
 def _lengths_of_normals(
     normals: NDArray[np.float64], n_points: int
 ) -> NDArray[np.float64]:
-    """Return the lengths of normals, (N, 1), or raise if they are none."""
+    """Return the lengths of normals, (N, 1), or raise if normals are unusable."""
     if len(normals) != n_points:
         raise DecompositionError(
             f"The point cloud has {n_points} points but {len(normals)} normals; give"

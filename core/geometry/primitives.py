@@ -1,4 +1,4 @@
-"""Convex shapes: hulls of some vertices, and primitives of a few numbers."""
+"""Convex collision shapes: hulls, boxes, spheres, cylinders and capsules."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ class Hull:
     planes : (F, 4) float
         Outward unit normal n and offset d of each triangle: n · x + d ≤ 0 inside.
     volume : float
+        In cubed units of `vertices`.
     """
 
     vertices: NDArray[np.float64]
@@ -31,10 +32,17 @@ class Hull:
     volume: float
 
     def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the height of points (M, 3) above the hull, negative inside, (M,).
+        """Return the height of points above their highest face plane, negative inside.
 
-        Outside, it is the distance to the farthest plane. The distance to the hull is
-        at least that.
+        Outside, it is a lower bound of the distance to the hull.
+
+        Parameters
+        ----------
+        points : (M, 3) float
+
+        Returns
+        -------
+        (M,) float
         """
         highest: NDArray[np.float64] = heights_above(self.planes, points).max(axis=1)
         return highest
@@ -46,7 +54,7 @@ class Hull:
         return corners
 
     def __repr__(self) -> str:
-        """Return the figures in a line."""
+        """Return a one-line summary."""
         return f"Hull({len(self.vertices)} vertices, volume {self.volume:.4g})"
 
 
@@ -59,14 +67,15 @@ class CollisionShape:
     kind : str
         'HULL', 'BOX', 'SPHERE', 'CYLINDER' or 'CAPSULE'.
     hull : Hull
-        The shape itself if it is a hull, else the convex hull that the primitive
-        contains.
+        The shape itself if `kind` is 'HULL', else the convex hull that the primitive
+        encloses.
     center : (3,) float
     axes : (3, 3) float
-        Its axes as rows, right-handed. Cylinders and capsules lie along the last one.
+        Axes of the shape as rows, right-handed. Cylinders and capsules lie along the
+        last one.
     sizes : (3,) float
         Box: half of each side. Others: radius, radius, half of the height. The height
-        of a capsule is without its round ends, that of a sphere is 0.
+        of a capsule excludes its round ends; that of a sphere is 0.
     """
 
     kind: str
@@ -77,7 +86,7 @@ class CollisionShape:
 
     @property
     def volume(self) -> float:
-        """Volume of the shape."""
+        """Volume of the shape, in cubed units of `sizes`."""
         a, b, half = self.sizes
         ball = 4 / 3 * np.pi * a**3
         return {
@@ -89,7 +98,19 @@ class CollisionShape:
         }[self.kind]
 
     def moved(self, scale: float, center: NDArray[np.float64]) -> CollisionShape:
-        """Return the shape scaled about the origin, which then moves to `center`."""
+        """Return the shape scaled about the origin, then moved by `center`.
+
+        Parameters
+        ----------
+        scale : float
+            Positive factor.
+        center : (3,) float
+            Where the origin moves to.
+
+        Returns
+        -------
+        CollisionShape
+        """
         normals, offsets = self.hull.planes[:, :3], self.hull.planes[:, 3]
         hull = replace(
             self.hull,
@@ -105,5 +126,5 @@ class CollisionShape:
         )
 
     def __repr__(self) -> str:
-        """Return the figures in a line."""
+        """Return a one-line summary."""
         return f"CollisionShape({self.kind}, volume {self.volume:.4g})"

@@ -1,4 +1,4 @@
-"""Samples spread evenly over the surface of a mesh."""
+"""Samples on the surface of a mesh, spread evenly or one per face."""
 
 from __future__ import annotations
 
@@ -10,23 +10,24 @@ from numpy.typing import NDArray
 from ..errors import DecompositionError
 from .mesh import TriangleMesh
 
-# Candidates per sample: each sample is one of a run of neighbors on the curve.
+# Candidates per sample: one of each run of this length along the curve is picked.
 _CANDIDATES = 16
-# Triangles that the paper calls dense, and how many it makes of fewer.
+# Least number of triangles of a mesh that the paper calls dense.
 _DENSE_FACES = 2000
+# Triangles that the paper subdivides meshes of fewer triangles to.
 _UPSAMPLED_FACES = 3000
-# Bits per axis of the space-filling curve's grid.
+# Bits per axis of the grid that the space-filling curve runs through.
 _CURVE_BITS = 16
 
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Oriented points on a surface, each standing for the same area.
+    """Points on a surface with their outward normals.
 
     Attributes
     ----------
     positions, normals : (N, 3) float
-        In the space of the mesh; normals are outward unit vectors.
+        In the space of the mesh. Normals are outward unit vectors.
     triangles : (N,) int
         Triangle that each sample lies on.
     """
@@ -55,10 +56,14 @@ def take_samples(
     rows : (R,) int
         The triangles, ascending.
     sampling : str
-        'AREA' to spread the samples evenly, 'FACES' for one on each triangle.
+        'AREA' spreads the samples evenly, 'FACES' takes one on each triangle.
     n_samples : int
-        Number of samples that are spread.
+        Number of samples for 'AREA'; ignored for 'FACES'.
     rng : numpy.random.Generator
+
+    Returns
+    -------
+    Samples
 
     Raises
     ------
@@ -83,11 +88,12 @@ def take_samples(
 def sample_surface(
     mesh: TriangleMesh, n_samples: int, rng: np.random.Generator
 ) -> Samples:
-    """Draw samples of equal area, stratified along a space-filling curve.
+    """Draw samples that each stand for the same area of the surface.
 
-    Candidates are drawn uniformly by area and sorted along a Morton curve; one is
-    taken at random from each run of neighbors. The tessellation therefore leaves no
-    trace, and every region gets its share to within a sample or two.
+    Candidates are drawn uniformly by area and sorted along a Morton curve. One is
+    picked at random from each run of consecutive candidates. The result therefore does
+    not depend on the tessellation, and every region gets its share of the samples to
+    within one or two.
 
     Parameters
     ----------
@@ -96,7 +102,6 @@ def sample_surface(
     n_samples : int
         Number of samples N.
     rng : numpy.random.Generator
-        Source of the randomness.
 
     Returns
     -------
@@ -115,17 +120,25 @@ def sample_surface(
 def points_on(
     corners: NDArray[np.float64], n_points: int, rng: np.random.Generator
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Draw points on triangles (T, 3, 3), uniformly by area.
+    """Draw points on triangles, uniformly by area.
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+        Corners of each triangle.
+    n_points : int
+        Number of points N.
+    rng : numpy.random.Generator
 
     Returns
     -------
     triangles : (N,) int
-        That each point lies on, ascending.
+        Triangle that each point lies on, ascending.
     points : (N, 3) float
     """
     a, b, c = np.moveaxis(corners, 1, 0)
     cumulative = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
-    # Systematic draws: one per equal slice of the cumulative area.
+    # Systematic sampling: one draw from each equal slice of the cumulative area.
     draws = (np.arange(n_points) + rng.random(n_points)) / n_points
     triangles = np.searchsorted(cumulative, draws * cumulative[-1], side="right")
     triangles = np.minimum(triangles, len(cumulative) - 1)
@@ -138,8 +151,8 @@ def points_on(
 def sample_faces(mesh: TriangleMesh) -> Samples:
     """Take the center of each triangle as a sample, as the paper does (section 5).
 
-    The triangles of a mesh with few of them are halved first, always the largest ones,
-    until there are enough; those without area are left out.
+    If there are too few triangles, the largest ones are halved until there are enough.
+    Triangles without area get no sample.
 
     Parameters
     ----------
@@ -149,7 +162,7 @@ def sample_faces(mesh: TriangleMesh) -> Samples:
     Returns
     -------
     Samples
-        Unlike those of `sample_surface`, not of equal area.
+        They stand for different areas, unlike those of `sample_surface`.
     """
     triangles = np.flatnonzero(mesh.areas > 0)
     corners, areas = mesh.vertices[mesh.triangles[triangles]], mesh.areas[triangles]
@@ -167,9 +180,9 @@ def sample_faces(mesh: TriangleMesh) -> Samples:
 
 
 def _halves(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return triangles (T, 3, 3) cut in two through their longest edges, (2, T, 3, 3).
+    """Return triangles (T, 3, 3) cut in two at their longest edges, (2, T, 3, 3).
 
-    The edge from corner i to i + 1 is cut; corner i + 2 lies across.
+    The edge from corner i to i + 1 is cut at its middle; corner i + 2 lies opposite.
     """
     rows = np.arange(len(corners))
     edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
@@ -180,7 +193,7 @@ def _halves(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return each point's place along a Z-order curve through its bounding cube."""
+    """Return each point's place along a Z-order curve through the bounding cube."""
     low = points.min(axis=0)
     extent = float((points.max(axis=0) - low).max()) or 1.0
     cells = ((points - low) / extent * (2**_CURVE_BITS - 1)).astype(np.int64)

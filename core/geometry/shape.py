@@ -1,4 +1,4 @@
-"""What can be decomposed: a mesh or a point cloud, told from others by content."""
+"""The two kinds of shape, mesh and point cloud, and a key of their content."""
 
 from __future__ import annotations
 
@@ -22,6 +22,11 @@ def content_key(shape: Shape) -> Hashable:
     Parameters
     ----------
     shape : TriangleMesh or PointCloud
+
+    Returns
+    -------
+    hashable
+        The shape's class and a digest of its arrays.
     """
     digest = blake2b()
     for field in fields(shape):

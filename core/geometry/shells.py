@@ -1,4 +1,4 @@
-"""Connected shells of triangles: which are closed, and which way they are wound."""
+"""Connected shells of triangles: whether they are closed, and their winding."""
 
 from __future__ import annotations
 
@@ -12,24 +12,25 @@ from scipy.sparse.csgraph import connected_components
 from .frames import unit
 from .mesh import TriangleMesh
 
-# Thickness, in diagonals, and number of the layers that shells are set apart by.
+# Shells are moved inwards by multiples of this depth, in diagonals.
 _LAYER = 1e-5
+# Number of different depths, with 0. They are used in turn, by descending area.
 _LAYERS = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Shells:
-    """The shells of a mesh, connected by edges of exactly two triangles.
+    """The shells of a mesh: triangles connected by edges of exactly two triangles.
 
     Attributes
     ----------
     of_triangle : (T,) int
         Shell of each triangle.
     against : (T,) bool
-        Triangles to turn for a consistent winding; the smaller number of the two ways,
-        none where no winding is consistent.
+        Triangles to flip for a consistent winding. There are two ways to do it; this
+        is the one that flips fewer triangles. False on shells that are not windable.
     windable : (S,) bool
-        Shells whose windings can be made to agree, unlike a Möbius strip's.
+        Shells that can be wound consistently, unlike a Möbius strip.
     closed : (S,) bool
         Windable shells that bound a volume: every edge has an even number of the
         shell's triangles.
@@ -42,7 +43,16 @@ class Shells:
 
 
 def find_shells(mesh: TriangleMesh) -> Shells:
-    """Return the shells of `mesh`."""
+    """Return the connected shells of a mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+
+    Returns
+    -------
+    Shells
+    """
     corners = mesh.welded_triangles
     n_triangles = len(corners)
     forward = (corners < np.roll(corners, -1, axis=1)).ravel()
@@ -59,7 +69,7 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     side = copies[0] > copies[1]
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)
     windable = np.bincount(shells, copies[0] == copies[1], n_shells) == 0
-    # An edge of four triangles may be where a shell touches itself.
+    # At an edge of four triangles a shell may touch itself.
     edge_of = np.repeat(np.arange(len(uses)), uses)
     others = (uses != 2)[edge_of]
     owners = shells[order[others] // 3] * len(uses) + edge_of[others]
@@ -72,11 +82,22 @@ def find_shells(mesh: TriangleMesh) -> Shells:
 
 
 def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
-    """Return `mesh` with its shells shrunk by a trifle, each by another.
+    """Return `mesh` with its shells shrunk slightly, to different depths.
 
-    Boxes are often put together flush. A ray cannot tell the order of faces at the
-    same place, nor count the shells there; a hundred thousandth of the diagonal between
-    them is enough for that, and nothing that anybody sees.
+    Boxes are often put together flush. A ray cannot order faces at the same place, nor
+    count the shells there. Gaps of 1e-5 of the diagonal are enough for that, and too
+    small to be seen.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    shells : Shells
+        Shells of `mesh`.
+
+    Returns
+    -------
+    TriangleMesh
+        The same object if there is only one shell.
     """
     areas = np.bincount(shells.of_triangle, mesh.areas)
     if len(areas) == 1:
@@ -97,10 +118,10 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
 def _wound_copies(
     neighbors: NDArray[np.int64], opposed: NDArray[np.bool_], n_triangles: int
 ) -> NDArray[np.int64]:
-    """Return the component of each triangle as it is, and of its turned copy, (2, T).
+    """Return the component of each triangle as it is, and of its flipped copy, (2, T).
 
-    An edge ties the copies that agree with each other: a shell can be wound
-    consistently if its triangles and their turned copies part.
+    An edge connects the copies whose windings agree. A shell can be wound consistently
+    if no triangle is in one component with its flipped copy.
     """
     one, other = neighbors.T
     turned = np.where(opposed, 0, n_triangles)

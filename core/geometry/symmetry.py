@@ -1,4 +1,4 @@
-"""Shapes that are their own mirror image: the plane, and labels copied across it."""
+"""Mirror symmetry: find a shape's mirror plane, and copy labels across it."""
 
 from __future__ import annotations
 
@@ -11,75 +11,103 @@ from scipy.spatial import cKDTree
 from ..steps.progress import Progress, Steps
 from .face_graph import FaceGraph
 
-# Polygons that stand for the graph, and those whose mirror images are looked for.
+# Polygons, drawn evenly by area, that mirror images are matched to.
 _POLYGONS = 30_000
+# Polygons, drawn evenly by area, that are mirrored to test a plane.
 _ASKED = 1_500
-# Distance from its mirror image, in diagonals, at which a polygon counts as symmetric,
-# and the share of the area that has to be.
+# A polygon is symmetric if its mirror image is this near to a polygon, in diagonals.
 _NEAR = 0.015
+# The shape is symmetric if more than this share of its area is.
 _ENOUGH = 0.95
-# How far apart two polygons of normals one unit apart count, in diagonals: the two
-# sides of a thin wall are not each other's mirror image.
+# Distance, in diagonals, that normals one unit apart add: the two sides of a thin wall
+# are not each other's mirror image.
 _NORMAL_WEIGHT = 0.01
-# A plane moves to where the nearest polygons want it, so many times.
+# Times that each candidate plane is tested, and fitted to its matches.
 _ROUNDS = 3
+# Share of the matches, nearest first, that a fit uses.
 _TRUSTED = 0.8
-# An image may be this far from a polygon that it gives its label to, in diagonals.
+# Greatest distance, in diagonals, at which a label is copied to a mirror image.
 _IMAGED_WITHIN = 0.03
-# Polygons whose images are looked for in a step.
+# Polygons matched in one step.
 _BLOCK = 10_000
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """The points x of normal · x = offset; `normal` (3,) float is a unit vector."""
+    """The points x with normal · x = offset; `normal` is a unit vector, (3,) float."""
 
     normal: NDArray[np.float64]
     offset: float
 
     def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the distances (N,) of points from the plane, with their signs."""
+        """Return the signed distances of points from the plane, (N,) float.
+
+        Parameters
+        ----------
+        points : (N, 3) float
+        """
         heights: NDArray[np.float64] = points @ self.normal - self.offset
         return heights
 
     def mirrored(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the mirror images of points, (N, 3)."""
+        """Return the mirror images of points, (N, 3) float.
+
+        Parameters
+        ----------
+        points : (N, 3) float
+        """
         return points - 2 * np.outer(self.heights(points), self.normal)
 
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """What lies on one side of a plane, and where its mirror image is on the other.
+    """One side of a plane: its polygons, matched to mirror images on the other side.
 
     Attributes
     ----------
     images : (M,) int
         Polygons on the other side.
     sources : (M,) int
-        The polygon that each of them is the image of.
+        Polygon on this side that matches each image.
     """
 
     images: NDArray[np.int64]
     sources: NDArray[np.int64]
 
     def copied(self, labels: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
-        """Return labels (P,) in 0…K − 1 with this side's copied to the other side.
+        """Return labels with those of this side copied to the other side, (P,) int.
 
-        A part that crosses the plane goes on on the other side; the mirror image of
-        one that does not is a part of its own: that of part p is K + p.
+        A part that crosses the plane is one part with its image. The image of any other
+        part p is a new part with label K + p.
+
+        Parameters
+        ----------
+        labels : (P,) int
+            Labels 0…K − 1.
+        graph : FaceGraph
         """
         n_parts = int(labels.max()) + 1
         labels = labels.copy()
         labels[self.images] = n_parts + labels[self.sources]
         one, other = labels[graph.neighbors].T
-        # A part and its mirror image that touch are one.
+        # A part that touches its mirror image is one part with it.
         crossing = np.unique(np.minimum(one, other)[np.abs(one - other) == n_parts])
         labels[np.isin(labels, crossing + n_parts)] -= n_parts
         return labels
 
 
 def find_sides(graph: FaceGraph) -> Steps[tuple[Side, ...]]:
-    """Return both sides of a shape's mirror plane, none if it has no such plane."""
+    """Find the two sides of a shape's mirror plane.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+
+    Returns
+    -------
+    Steps of tuple of Side
+        Empty if the shape has no mirror plane.
+    """
     plane = yield from _find_plane(graph)
     if plane is None:
         return ()
@@ -91,7 +119,20 @@ def find_sides(graph: FaceGraph) -> Steps[tuple[Side, ...]]:
 
 
 def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, float]]:
-    """Return one side of a plane, and which share of the other one is its image."""
+    """Match the polygons on one side of a plane to mirror images on the other side.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    plane : Plane
+    above : bool
+        True for the side with heights of 0 and above, False for the other one.
+
+    Returns
+    -------
+    Steps of (Side, float)
+        The side, and the share of the polygons on the other side that have a match.
+    """
     heights = plane.heights(graph.centers) * (1 if above else -1)
     sources, images = np.flatnonzero(heights >= 0), np.flatnonzero(heights < 0)
     if len(sources) == 0 or len(images) == 0:
@@ -110,8 +151,8 @@ def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, fl
 
 
 def _find_plane(graph: FaceGraph) -> Steps[Plane | None]:
-    """Return the plane that a surface is most symmetric to, if it is to any."""
-    # Evenly by area, each time the same.
+    """Return the plane of best mirror symmetry, or None if there is none."""
+    # Drawn evenly by area, without randomness.
     shares = np.cumsum(graph.areas) / graph.areas.sum()
     everywhere, asked = (
         np.searchsorted(shares, (np.arange(n) + 0.5) / n).clip(max=len(shares) - 1)
@@ -139,7 +180,12 @@ def _find_plane(graph: FaceGraph) -> Steps[Plane | None]:
 
 
 def likely_normals(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the axes of space and the principal axes of points, (6, 3)."""
+    """Return the axes of space and the principal axes of points, (6, 3) float.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+    """
     _, principal = np.linalg.eigh(np.cov(points.T))
     return np.concatenate([np.eye(3), principal.T])
 
@@ -149,7 +195,22 @@ def plane_between(
     ends: NDArray[np.float64],
     distances: NDArray[np.float64],
 ) -> Plane:
-    """Return the plane halfway between points and their images, normal to the way."""
+    """Return the plane halfway between points and their mirror images.
+
+    Only the matches with the smallest distances are used.
+
+    Parameters
+    ----------
+    starts, ends : (N, 3) float
+        Points, and the points matched to their mirror images.
+    distances : (N,) float
+        Distance from each mirror image to its match.
+
+    Returns
+    -------
+    Plane
+        Its normal is the main direction from points to images.
+    """
     trusted = distances <= np.quantile(distances, _TRUSTED)
     ways = (ends - starts)[trusted]
     normal = np.linalg.eigh(ways.T @ ways)[1][:, -1]
@@ -162,7 +223,15 @@ def nearest_images(
     normals: NDArray[np.float64],
     plane: Plane,
 ) -> NDArray[np.int64]:
-    """Return the row of a tree of `places` nearest to each mirror image, (N,)."""
+    """Return the row of a tree nearest to the mirror image of each point, (N,) int.
+
+    Parameters
+    ----------
+    tree : scipy.spatial.cKDTree
+        Built from the coordinates that `places` returns.
+    points, normals : (N, 3) float
+    plane : Plane
+    """
     upright = Plane(plane.normal, 0.0)
     images = places(plane.mirrored(points), upright.mirrored(normals))
     rows: NDArray[np.int64] = tree.query(images)[1]
@@ -172,5 +241,10 @@ def nearest_images(
 def places(
     points: NDArray[np.float64], normals: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return places in which points that face the same way are near, (N, 6)."""
+    """Return coordinates whose distances combine positions and normals, (N, 6) float.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+    """
     return np.hstack([points, _NORMAL_WEIGHT * normals])

@@ -1,4 +1,4 @@
-"""Between samples and the polygons that get their labels."""
+"""Transfer of labels from samples to polygons, and back."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from scipy.spatial import cKDTree
 from .face_graph import FaceGraph
 from .sampling import Samples
 
-# Nearest samples that speak for a polygon, and how far apart two samples of opposite
-# normals count, in mean distances of samples.
+# Nearest samples that vote for the label of a polygon.
 _NEAREST = 8
+# Distance, in mean distances of samples, that normals one unit apart add.
 _NORMAL_WEIGHT = 1.0
-# Distance at which a sample's say has halved, in mean distances of samples.
+# Distance at which a sample's weight has halved, in mean distances of samples.
 _SOFTENING = 0.3
-# Samples of different shells within this distance touch, in mean distances.
+# Shells touch where samples of both are this near, in mean distances of samples.
 _TOUCH = 1.5
 
 
@@ -29,18 +29,18 @@ class Transfer:
     polygon_of : (N,) int
         Polygon that each sample lies on.
     graph : FaceGraph
-        Of these polygons, or of the points of a cloud in their place.
+        Graph of these polygons, or of the points of a cloud.
 
     Attributes
     ----------
-    shares : (P, N) sparse
-        Say of each sample in each polygon; rows sum to one.
+    shares : (P, N) sparse float
+        Weight of each sample in the vote of each polygon; rows sum to 1.
     polygon_of : (N,) int
         Polygon that each sample lies on.
     graph : FaceGraph
-        With links between shells that touch.
+        The graph, with links between shells that touch.
     n_unsampled, n_shells : int
-        Connected pieces too small for a sample of their own, and all.
+        Number of shells without a sample, and of all shells.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class Transfer:
         numbers, first = np.unique(shells, return_index=True)
         unsampled = np.setdiff1d(numbers, shells[polygon_of])
         self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
-        # A shell too small for a sample of its own hangs on the nearest one.
+        # A shell without a sample is linked to the polygon of the nearest sample.
         small = first[unsampled]
         hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
         touching = self._touching(samples, shells, spacing)
@@ -69,7 +69,7 @@ class Transfer:
     def _shares(
         self, distances: NDArray[np.float64], nearest: NDArray[np.int64]
     ) -> sparse.csr_array:
-        """Return each sample's say: by its distance, and whole where it lies."""
+        """Return weights (P, N): by distance, plus 1 on the sample's own polygon."""
         n_polygons, n_nearest = nearest.shape
         n_samples = len(self.polygon_of)
         says = (1.0 / (1.0 + distances / _SOFTENING)).ravel()
@@ -90,7 +90,7 @@ class Transfer:
     def _touching(
         self, samples: Samples, shells: NDArray[np.int64], spacing: float
     ) -> NDArray[np.int64]:
-        """Return polygons of different shells that touch: near samples decide."""
+        """Return links (L, 2) between shells: pairs of polygons with near samples."""
         pairs = cKDTree(samples.positions).query_pairs(
             _TOUCH * spacing, output_type="ndarray"
         )
@@ -100,10 +100,31 @@ class Transfer:
     def to_polygons(
         self, labels: NDArray[np.int64], n_labels: int
     ) -> NDArray[np.int64]:
-        """Return the label that most of a polygon's samples have, (P,) int."""
+        """Return the label with the largest weight of samples on each polygon.
+
+        Parameters
+        ----------
+        labels : (N,) int
+            Labels 0…K − 1 of the samples.
+        n_labels : int
+            Number of labels K.
+
+        Returns
+        -------
+        (P,) int
+        """
         votes = self.shares @ np.eye(n_labels)[labels]
         return np.asarray(votes).argmax(axis=1)
 
     def to_samples(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the label of the polygon that each sample lies on, (N,) int."""
+        """Return the label of the polygon that each sample lies on.
+
+        Parameters
+        ----------
+        labels : (P,) int
+
+        Returns
+        -------
+        (N,) int
+        """
         return labels[self.polygon_of]

@@ -1,4 +1,4 @@
-"""Polygons cut into triangles."""
+"""Triangulation of polygons."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-# Corners of less area than this, in squared diagonals of the polygon, count as flat.
+# A triangle of less area, in squared diagonals of its polygon's bounding box, counts
+# as flat.
 _FLAT = 1e-12
 
 
@@ -16,14 +17,14 @@ def triangulate(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Cut polygons into triangles that keep their winding.
 
-    A fan around a corner serves, if it does not fold. Ears are cut off the other
-    polygons, one after the other.
+    A polygon becomes a fan around its first corner where no triangle folds over. If all
+    fans fold, its ears are clipped one by one.
 
     Parameters
     ----------
     vertices : (V, 3) float
     faces : sequence of (N,) int
-        Rows of `vertices` around each polygon, three at least.
+        Rows of `vertices` around each polygon, at least three.
 
     Returns
     -------
@@ -71,10 +72,13 @@ def _signed_areas(
     faces: NDArray[np.int64],
     triangles: NDArray[np.int64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return areas (F, T), negative if folded, 0 if flat, and normals (F, 3)."""
+    """Return the areas (F, T) of triangles, and unit normals (F, 3) of their polygons.
+
+    An area is negative if the triangle faces against its polygon, and 0 if it is flat.
+    """
     places = vertices[faces]
     places = places - places.mean(axis=1, keepdims=True)
-    # Newell's normal: twice the area of the polygon, however its corners lie.
+    # Newell's normal, twice the area of the polygon long, convex or not.
     normals = np.cross(places, np.roll(places, -1, axis=1)).sum(axis=1)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     units = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
@@ -90,8 +94,8 @@ def _cut_ears(
 ) -> NDArray[np.int64]:
     """Return the triangles (N - 2, 3) of a polygon whose fans all fold.
 
-    Ear clipping (Meisters, "Polygons have ears", 1975); a polygon that crosses itself
-    gets a triangle at whichever corner is next.
+    Ear clipping (Meisters, "Polygons have ears", 1975). Where a polygon that crosses
+    itself has no ear, its next corner is cut off.
     """
     left = list(range(len(face)))
     found = []
@@ -117,7 +121,7 @@ def _holds_any(
     corners: list[int],
     normal: NDArray[np.float64],
 ) -> bool:
-    """Return whether a triangle has another corner of its polygon inside."""
+    """Return whether another corner of the polygon lies in a triangle."""
     others = places[[corner for corner in corners if corner not in triangle]]
     starts = places[triangle]
     along = np.roll(starts, -1, axis=0) - starts

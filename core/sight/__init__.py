@@ -1,1 +1,1 @@
-"""Which samples see each other."""
+"""Prepared shapes, rays through their inside, and which samples see each other."""

@@ -1,4 +1,4 @@
-"""Sparse lines of sight: rays in a cone around the inward normal (section 5)."""
+"""Sparse lines of sight, from a cone of rays at each sample (section 5)."""
 
 from __future__ import annotations
 
@@ -15,28 +15,29 @@ from .pairs import PairVisibility, pair_counts
 from .prepared import PreparedShape
 from .ray_march import RayMarcher
 
-# Random pairs for an unbiased psi: its standard error is about 0.002.
+# Number of random pairs that psi is estimated from. The estimate is unbiased; its
+# standard error is about 0.002.
 _UNIFORM_PAIRS = 60_000
 
 
 def cone_directions(
     normals: NDArray[np.float64], n_rays: int, opening: float
 ) -> NDArray[np.float64]:
-    """Return rays spread evenly in a cone around each inward normal.
+    """Return directions spread evenly in a cone around each inward normal.
 
     Parameters
     ----------
     normals : (N, 3) float
         Outward unit vectors.
     n_rays : int
-        Rays r of each cone.
+        Directions r in each cone.
     opening : float
         Full angle of the cone in radians.
 
     Returns
     -------
     directions : (N, r, 3) float
-        Unit vectors: a spiral of equal solid angles.
+        Unit vectors, on a spiral. Each covers the same solid angle.
     """
     steps = np.arange(n_rays) + 0.5
     heights = 1.0 - steps / n_rays * (1.0 - np.cos(opening / 2))
@@ -56,23 +57,23 @@ def fan_directions(
     opening: float,
     plane: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return rays spread evenly around each inward normal in a plane.
+    """Return directions in a plane, spread evenly around each inward normal.
 
     Parameters
     ----------
     normals : (N, 3) float
         Outward unit vectors in the plane.
     n_rays : int
-        Rays r of each fan.
+        Directions r in each fan.
     opening : float
         Full angle of the fan in radians.
     plane : (3,) float
-        Normal of the plane, a unit vector.
+        Unit normal of the plane.
 
     Returns
     -------
     directions : (N, r, 3) float
-        Unit vectors.
+        Unit vectors in the plane.
     """
     angles = ((np.arange(n_rays) + 0.5) / n_rays - 0.5) * opening
     sideways = np.cross(plane, normals)
@@ -89,28 +90,30 @@ def see_cones(
     n_rays: int,
     opening: float,
 ) -> Steps[PairVisibility]:
-    """Return the pairs that cones of rays find: the sparse LoS matrices of section 5.
+    """Find visible and hidden pairs of samples with a cone of rays at each sample.
 
-    The sample nearest to where a ray leaves the inside is in line of sight with the
-    ray's own: an entry of the positive matrix. Samples at the surfaces behind it are
-    not: entries of the negative matrix. Nothing is known of other pairs.
+    These are the positive and the negative LoS matrix of section 5. A ray ends where it
+    leaves the inside. The sample nearest to that point is visible from the sample that
+    the ray starts at: an entry of the positive matrix. Samples on the surfaces behind
+    are hidden: entries of the negative matrix. Other pairs stay unknown.
 
     Parameters
     ----------
     shape : PreparedShape
-        Rays stay in the plane of a flat shape.
+        The rays of a flat shape stay in its plane.
     samples : Samples
+        N points on the surface.
     views : Viewpoints
-        Of `samples`.
+        Viewpoints of `samples`.
     n_rays : int
-        Rays r a sample.
+        Rays r of each sample.
     opening : float
         Full angle of the cone in radians.
 
     Returns
     -------
     Steps of PairVisibility
-        Sparse. A sample sees itself.
+        Sparse matrices (N, N). Every sample sees itself.
     """
     n_samples, marcher = len(samples), shape.marcher
     if shape.plane is None:
@@ -119,7 +122,8 @@ def see_cones(
         directions = fan_directions(samples.normals, n_rays, opening, shape.plane)
     directions = directions.reshape(-1, 3)
     sources = np.repeat(np.arange(n_samples), n_rays)
-    # Two sides of a thin wall are near in space, but face away from each other.
+    # Nearest by position and normal: the two sides of a thin wall are close, but their
+    # normals point away from each other.
     scale = float(np.sqrt(marcher.area / n_samples))
     tree = cKDTree(np.hstack([samples.positions, scale * samples.normals]))
     seen: list[NDArray[np.int64]] = []
@@ -150,7 +154,24 @@ def see_uniform_pairs(
     views: Viewpoints,
     rng: np.random.Generator,
 ) -> Steps[PairVisibility]:
-    """Return what is known from pairs of samples drawn uniformly at random."""
+    """Find out whether random pairs of samples see each other.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
+    views : Viewpoints
+        Viewpoints of `samples`.
+    rng : numpy.random.Generator
+        Draws the pairs uniformly, with replacement.
+
+    Returns
+    -------
+    Steps of PairVisibility
+        Sparse matrices (N, N) with the number of draws of each pair.
+    """
     n_samples = len(samples)
     first, second = rng.integers(n_samples, size=(2, _UNIFORM_PAIRS))
     visible = yield from see_pairs(marcher, samples, views, first, second)
@@ -162,7 +183,7 @@ def see_uniform_pairs(
 
 
 def _symmetric(found: list[NDArray[np.int64]], n_samples: int) -> sparse.csr_array:
-    """Return the 0-1 matrix with entries at the pairs found, and their mirrors."""
+    """Return the symmetric matrix with 1 at each pair found and 0 elsewhere."""
     rows, columns = np.concatenate([np.zeros((2, 0), dtype=np.int64), *found], axis=1)
     matrix = pair_counts(rows, columns, n_samples)
     matrix.data[:] = 1.0

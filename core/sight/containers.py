@@ -1,9 +1,9 @@
-"""Containers: what a shape encloses counts as inside, a step beyond the paper.
+"""Containers: lines of sight through enclosed space, such as the hollow of a cup.
 
-Hardly a line of sight runs along the thin wall of a cup: a limit that the paper names
-(section 6). Here the enclosed outside, such as the hollow of a cup, is found on a
-coarse grid, where rays in nearly all directions meet the shape. Samples whose segment
-stays in the inside or in there see each other, too.
+Few lines of sight run along the thin wall of a cup. The paper names this limit
+(section 6); this module goes beyond the paper. On a coarse grid, it finds the cells
+outside the shape whose rays hit the shape in nearly all directions. Two samples also
+see each other if the segment between them stays inside the shape or in such cells.
 """
 
 from __future__ import annotations
@@ -23,35 +23,38 @@ from .ray_march import PASS, RayMarcher
 
 # Cells along the longest side of the bounding box.
 _CELLS = 28
-# Directions of the rays from each cell, and every how manieth is tried first.
+# Rays from each cell, one per direction.
 _DIRECTIONS = 24
+# Try every third direction first.
 _FIRST = 3
-# A first share of rays below which a cell cannot be enclosed.
+# A cell is not enclosed if a smaller share of its first rays hits the shape.
 _HOPELESS = 0.3
-# Share of rays that meet the shape where a container begins, and up to where it goes.
+# A container has at least one cell where this share of rays hits the shape.
 _ENCLOSED = 0.75
+# It also holds the connected outside cells with at least this share.
 _OPENING = 0.6
-# Segments are looked at every so many cells; their ends, this far, do not count.
+# Distance between the points that are tested along a segment, in cells.
 _STRIDE = 0.5
+# Length at both ends of a segment that is not tested, in cells.
 _ENDS = 1.0
 # Segments between two reports of progress.
 _SEGMENTS_PER_STEP = 2**16
-# What a cell holds.
+# Kinds of cells.
 _INSIDE, _ENCLOSED_OUTSIDE, _OPEN = np.arange(3, dtype=np.uint8)
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells around a shape.
+    """A grid of cells around a shape.
 
     Attributes
     ----------
     low : (3,) float
-        Corner of the first cell.
+        Lowest corner of the first cell.
     size : float
-        Edge of a cell.
+        Length of a cell's edge.
     kinds : (X, Y, Z) uint8
-        Inside, enclosed outside or open; all cells at the border are open.
+        Kind of each cell: inside, enclosed outside or open. All border cells are open.
     """
 
     low: NDArray[np.float64]
@@ -60,27 +63,28 @@ class Grid:
 
     @property
     def encloses(self) -> bool:
-        """Whether there is any enclosed outside."""
+        """Whether any cell is enclosed outside."""
         return bool((self.kinds == _ENCLOSED_OUTSIDE).any())
 
 
 def see_through_containers(
     marcher: RayMarcher, samples: Samples, *matrices: PairVisibility
 ) -> Steps[list[PairVisibility]]:
-    """Return what samples see if what the shape encloses counts as inside.
+    """Return the pairs that see each other if enclosed space counts as inside.
 
     Parameters
     ----------
     marcher : RayMarcher
-        Of the shape.
+        Rays through the inside of the shape.
     samples : Samples
+        N points on its surface.
     *matrices : PairVisibility
-        Which samples see each other through the inside alone.
+        Pairs that see each other through the inside only.
 
     Returns
     -------
     Steps of list of PairVisibility
-        For each of the matrices. They are the same objects if nothing is enclosed.
+        One for each matrix. If nothing is enclosed, they are the matrices themselves.
     """
     grid = yield from within(find_enclosed(marcher), 0.0, 0.6)
     if not grid.encloses:
@@ -96,7 +100,18 @@ def see_through_containers(
 
 
 def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
-    """Return the cells around a shape, and which of the outside it encloses."""
+    """Find the cells of the outside that a shape encloses.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+
+    Returns
+    -------
+    Steps of Grid
+        In the space of the marcher's mesh.
+    """
     low, high = marcher.mesh.bounds
     size = float((high - low).max()) / _CELLS
     shape = np.maximum(np.ceil((high - low) / size), 1).astype(np.int64)
@@ -109,7 +124,7 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     cells = np.arange(len(centers))
     for number, direction in enumerate(directions[order]):
         if number == n_first:
-            # Most cells are settled: inside, or far out in the open.
+            # Most cells are decided by now: they are inside, or clearly open.
             doubtful = (front >= back) & (front + back >= _HOPELESS * n_first)
             cells = np.flatnonzero(doubtful)
         tried[cells] += 1
@@ -129,13 +144,14 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
 def see_through(
     grid: Grid, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> Steps[NDArray[np.bool_]]:
-    """Return which segments run through enclosed cells and through none in the open.
+    """Find the segments that run through enclosed cells but not through open ones.
 
     Parameters
     ----------
     grid : Grid
+        Cells around the shape.
     starts, ends : (M, 3) float
-        Points on the surface.
+        Ends of the segments on the surface, in the space of the grid.
 
     Returns
     -------
@@ -152,9 +168,10 @@ def see_through(
 def _run_through(
     grid: Grid, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return what `see_through` does, for one step's worth of segments."""
+    """Return the result of `see_through` for the segments of one step."""
     through = np.zeros(len(starts), dtype=bool)
-    # In cells, as columns and in single precision: this is where the time goes.
+    # Units are cells. Columns and single precision for speed: the loop below takes most
+    # of the time.
     spans = ((ends - starts) / grid.size).T.astype(np.float32)
     lengths = np.linalg.norm(spans, axis=0)
     going = np.flatnonzero(lengths > 2 * _ENDS)
@@ -170,7 +187,7 @@ def _run_through(
         )
         met = kinds[x * steps[0] + y * steps[1] + z]
         through[going] |= met == _ENCLOSED_OUTSIDE
-        # Segments leave the ranks once they meet the open; few are seen to the end.
+        # Drop segments at their first open cell; few are followed to their end.
         through[going[met == _OPEN]] = False
         on = (met != _OPEN) & (stride * _STRIDE < inner)
         going, inner = going[on], inner[on]
@@ -181,13 +198,13 @@ def _run_through(
 def _meet(
     marcher: RayMarcher, points: NDArray[np.float64], direction: NDArray[np.float64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which rays meet the shape, and of those the facing of what they meet."""
+    """Return which rays hit the shape, and normal · direction at each hit."""
     triangles, distances = marcher.caster.first_hit(
         points,
         np.broadcast_to(direction, points.shape),
         np.full(len(points), 2 * marcher.diagonal),
     )
-    # In a flat sheet, cells lie on the surface itself.
+    # Cells of a flat sheet lie on the surface itself: ignore hits at distance 0.
     met = (triangles >= 0) & (distances > PASS * marcher.diagonal)
     return met, marcher.normals[triangles[met]] @ direction
 
@@ -195,14 +212,15 @@ def _meet(
 def _enclosed(
     outside: NDArray[np.bool_], shares: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return the enclosed cells, from the shares of rays that meet the shape."""
-    # Shares of so few rays are noisy; those of neighbors outside are nearly the same.
+    """Return the enclosed cells, from each cell's share of rays that hit the shape."""
+    # Shares of so few rays are noisy: average them over neighboring outside cells,
+    # whose shares are nearly the same.
     weights = ndimage.uniform_filter(outside.astype(float), 3)
     sums = ndimage.uniform_filter(np.where(outside, shares, 0.0), 3)
     shares = np.divide(sums, weights, out=np.zeros_like(sums), where=outside)
     containers, _ = ndimage.label(outside & (shares >= _OPENING))
     found = np.unique(containers[outside & (shares >= _ENCLOSED)])
     enclosed = np.isin(containers, found[found > 0])
-    # One cell more: up to the rim, where half of the rays leave.
+    # Add one layer of cells, up to the rim, where half of the rays leave.
     dilated: NDArray[np.bool_] = ndimage.binary_dilation(enclosed) & outside
     return dilated

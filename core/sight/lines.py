@@ -15,25 +15,26 @@ from .ray_march import PASS, RayMarcher
 
 # Rays between two reports of progress, about 20 ms.
 RAYS_PER_STEP = 4096
-# Pairs whose facing is looked up at a time.
+# Pairs of the LoS matrix that are tested at a time.
 _PAIRS_PER_BLOCK = 65536
-# Samples look from this far under the surface, in diagonals of the bounding box or in
-# grains of splats, or from this share of the thickness where the shape is thinner.
+# Depth of viewpoints below the surface, in diagonals of the bounding box.
 _OFFSET = 1e-3
+# The same for splats, in sizes of a splat; the larger of the two counts.
 _OFFSET_OF_GRAIN = 0.5
+# Largest depth as a share of the thickness, for thin shapes.
 _OFFSET_OF_THICKNESS = 0.1
 
 
 @dataclass(frozen=True, eq=False)
 class Viewpoints:
-    """Where samples look from, and how they stand to the shells around them.
+    """Points just below the surface that the rays of the samples start at.
 
     Attributes
     ----------
     positions : (N, 3) float
         Samples moved inwards along their normals.
     depths : (N,) int
-        Number of closed shells around each viewpoint, its own among them.
+        Number of closed shells around each viewpoint, with the sample's own shell.
     enclosed : (N,) bool
         Whether another closed shell is around the sample.
     """
@@ -44,7 +45,20 @@ class Viewpoints:
 
 
 def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
-    """Move `samples` under the surface and count the shells around them."""
+    """Move samples below the surface and count the closed shells around them.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
+
+    Returns
+    -------
+    Viewpoints
+        One for each sample.
+    """
     nudge = PASS * marcher.diagonal
     inwards = -samples.normals
     own = marcher.closed[samples.triangles].astype(np.int64)
@@ -74,7 +88,7 @@ def _shells_around(
         marcher.shells_around(points, directions)
         for directions in _outward_directions(normals)
     ]
-    # The median: a ray that slips between triangles must not decide.
+    # The median ignores one ray that slips through between two triangles.
     return np.maximum(np.median(counts, axis=0), 0).astype(np.int64)
 
 
@@ -85,11 +99,26 @@ def faces_inside(
     first: NDArray[np.int64],
     second: NDArray[np.int64],
 ) -> NDArray[np.bool_]:
-    """Return whether segments leave `first` and reach `second` from the inside.
+    """Test which pairs of samples face each other through the inside.
 
-    A necessary condition that costs no ray: each end lies below the tangent plane of
-    the other, or above it by no more than normals may be off, unless another shell
-    encloses that end.
+    Lines of sight need this, and it costs no ray: each end of a segment lies below the
+    tangent plane of the other end. It may lie above by the error of the normals. Ends
+    that another shell encloses are not tested.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Its `tilt` is the error of the normals.
+    samples : Samples
+        Points on the surface.
+    views : Viewpoints
+        Viewpoints of `samples`.
+    first, second : (M,) int
+        Rows of `samples` of each pair.
+
+    Returns
+    -------
+    facing : (M,) bool
     """
 
     def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -111,20 +140,22 @@ def see_pairs(
     first: NDArray[np.int64],
     second: NDArray[np.int64],
 ) -> Steps[NDArray[np.bool_]]:
-    """Return whether the samples of each pair are in line of sight.
+    """Find out which of the given pairs of samples are in line of sight.
 
     Parameters
     ----------
     marcher : RayMarcher
+        Rays through the inside of the shape.
     samples : Samples
+        Points on its surface.
     views : Viewpoints
-        Of `samples`.
+        Viewpoints of `samples`.
     first, second : (M,) int
-        The pairs, as rows of `samples`.
+        Rows of `samples` of each pair.
 
     Returns
     -------
-    visible : (M,) bool
+    Steps of (M,) bool
     """
     visible = first == second
     candidates = np.flatnonzero(
@@ -140,25 +171,27 @@ def see_pairs(
 def see_all_pairs(
     marcher: RayMarcher, samples: Samples, views: Viewpoints
 ) -> Steps[PairVisibility]:
-    """Return the LoS matrix of all pairs of samples (eq. 3).
+    """Compute the LoS matrix of all pairs of samples (eq. 3).
 
     Parameters
     ----------
     marcher : RayMarcher
+        Rays through the inside of the shape.
     samples : Samples
+        N points on its surface.
     views : Viewpoints
-        Of `samples`.
+        Viewpoints of `samples`.
 
     Returns
     -------
     Steps of PairVisibility
-        Dense. A sample sees itself.
+        A dense matrix (N, N). Every sample sees itself.
     """
     n_samples = len(samples)
     los = np.eye(n_samples, dtype=bool)
     start = 0
     while start < n_samples - 1:
-        # Whole rows of the upper triangle, so that memory stays in bounds.
+        # Take a few rows of the upper triangle at a time, to bound the memory.
         stop = start + max(1, _PAIRS_PER_BLOCK // (n_samples - start))
         rows = np.arange(start, min(stop, n_samples - 1))
         first = np.repeat(rows, n_samples - 1 - rows)
@@ -180,7 +213,7 @@ def _sees(
     first: NDArray[np.int64],
     second: NDArray[np.int64],
 ) -> NDArray[np.bool_]:
-    """Return whether the inside holds the segment between each pair, (M,)."""
+    """Return whether the segment between each pair stays inside, (M,) bool."""
     segments = views.positions[second] - views.positions[first]
     lengths = np.linalg.norm(segments, axis=1)
     lengths = np.maximum(lengths, np.finfo(float).tiny)

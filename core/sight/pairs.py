@@ -1,4 +1,4 @@
-"""Convexity rank (eq. 1) and psi (eq. 5), from all pairs of samples or from some."""
+"""Convexity rank (eq. 1) and psi (eq. 5), counted from all pairs of samples or some."""
 
 from __future__ import annotations
 
@@ -13,16 +13,34 @@ Matrix: TypeAlias = NDArray[np.float32] | sparse.csr_array
 
 
 def members_of(labels: NDArray[np.int64], n_labels: int) -> NDArray[np.float32]:
-    """Return 1 where a sample has a label and 0 elsewhere, (N, `n_labels`)."""
+    """Return which of K labels each sample has: 1 for its label, 0 for others.
+
+    Parameters
+    ----------
+    labels : (N,) int in 0…K − 1
+    n_labels : int
+
+    Returns
+    -------
+    members : (N, K) float32
+    """
     return np.eye(n_labels, dtype=np.float32)[labels]
 
 
 def sums_by_label(
     matrix: Matrix | NDArray[np.float64], labels: NDArray[np.int64], n_labels: int
 ) -> NDArray[Any]:
-    """Return the sum of the rows of each label, (`n_labels`, N).
+    """Return the sum of the rows of each of K labels. Every row is read only once.
 
-    Every row is read once, however many labels there are.
+    Parameters
+    ----------
+    matrix : (N, C) float or sparse
+    labels : (N,) int in 0…K − 1
+    n_labels : int
+
+    Returns
+    -------
+    sums : (K, C) float
     """
     rows = np.arange(len(labels) + 1)
     ones = np.ones(len(labels), dtype=np.float32)
@@ -34,7 +52,18 @@ def sums_by_label(
 def pair_counts(
     first: NDArray[np.int64], second: NDArray[np.int64], n_samples: int
 ) -> sparse.csr_array:
-    """Return how often each pair was named, either way round, (N, N) float32."""
+    """Return how often each pair of N samples occurs in a list, in either order.
+
+    Parameters
+    ----------
+    first, second : (M,) int in 0…N − 1
+    n_samples : int
+
+    Returns
+    -------
+    counts : (N, N) sparse float32
+        Symmetric. A sample paired with itself counts twice.
+    """
     half = sparse.coo_array(
         (np.ones(len(first), dtype=np.float32), (first, second)),
         shape=(n_samples, n_samples),
@@ -44,14 +73,14 @@ def pair_counts(
 
 @dataclass(frozen=True, eq=False)
 class PairVisibility:
-    """What is known of which pairs of samples see each other.
+    """Which pairs of samples see each other, as far as it is known.
 
     Attributes
     ----------
     visible : (N, N) float32 or sparse
-        1 where a pair is in line of sight, 0 elsewhere; symmetric.
-    known : (N, N) sparse, optional
-        How often each pair was looked up; None when `visible` knows them all.
+        How often each pair was tested and visible; 0 or 1 if tested once. Symmetric.
+    known : (N, N) sparse or None
+        How often each pair was tested. None if every pair was tested once.
     """
 
     visible: Matrix
@@ -63,12 +92,15 @@ class PairVisibility:
         return int(self.visible.shape[0])
 
     def rank_of_all(self) -> tuple[float, float]:
-        """Return the convexity rank of all samples (eq. 1), and its standard error.
+        """Return the convexity rank of all samples (eq. 1) and its standard error.
 
-        The rank is a mean over pairs: to first order its deviation is twice that of
-        the mean visibility of a single sample (Hoeffding 1948). Samples are in the
-        order of a curve along which they are stratified, so that this deviation shows
-        between neighbors on it.
+        To first order, the deviation of a mean over pairs is twice that of the mean
+        visibility per sample (Hoeffding 1948). Samples are stratified along a curve and
+        sorted by it, so differences of neighbors on it estimate this deviation.
+
+        Returns
+        -------
+        rank, error : float
         """
         visible = np.asarray(self.visible.sum(axis=1), dtype=float).ravel()
         if self.known is None:
@@ -81,10 +113,20 @@ class PairVisibility:
         return rank, 2 * float(np.sqrt(variance / self.n_samples))
 
     def tally(self, labels: NDArray[np.int64], n_labels: int) -> PairTally:
-        """Count visible and known pairs between every two labels."""
+        """Count visible and known pairs of samples between every two of K labels.
+
+        Parameters
+        ----------
+        labels : (N,) int in 0…K − 1
+        n_labels : int
+
+        Returns
+        -------
+        PairTally
+        """
 
         def counts(matrix: Matrix) -> NDArray[np.float64]:
-            # Whole numbers: those of a row are exact in single precision.
+            # Sums of a row are whole numbers and exact in single precision.
             of_rows = sums_by_label(matrix, labels, n_labels).T
             return sums_by_label(of_rows.astype(np.float64), labels, n_labels)
 
@@ -94,7 +136,12 @@ class PairVisibility:
         return PairTally(counts(self.visible), counts(self.known))
 
     def hidden(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Return the pairs known not to see each other, each once."""
+        """Return the pairs that are known to be hidden, each once.
+
+        Returns
+        -------
+        first, second : (M,) int rows of samples
+        """
         if self.known is None:
             first, second = np.nonzero(np.triu(np.asarray(self.visible) == 0))
         else:
@@ -104,7 +151,16 @@ class PairVisibility:
     def revealed(
         self, first: NDArray[np.int64], second: NDArray[np.int64]
     ) -> PairVisibility:
-        """Return these pairs with some hidden ones in line of sight."""
+        """Return a copy in which some hidden pairs are visible.
+
+        Parameters
+        ----------
+        first, second : (M,) int rows of samples, each pair once
+
+        Returns
+        -------
+        PairVisibility
+        """
         if self.known is None:
             visible = np.array(self.visible)
             visible[first, second] = visible[second, first] = 1.0
@@ -117,45 +173,74 @@ class PairVisibility:
 
 @dataclass(frozen=True, eq=False)
 class PairTally:
-    """Ordered pairs of samples, counted by the parts they lie in.
+    """Numbers of ordered pairs of samples between every two of K parts.
 
     Attributes
     ----------
     visible, known : (K, K) float
-        Pairs in line of sight, and all pairs that were looked up.
+        Number of pairs in line of sight, and of all pairs that were tested.
     """
 
     visible: NDArray[np.float64]
     known: NDArray[np.float64]
 
     def ranks(self) -> NDArray[np.float64]:
-        """Return the convexity rank of each part (eq. 1), 1 where nothing is known."""
+        """Return the convexity rank of each part (eq. 1), 1 if no pair is known.
+
+        Returns
+        -------
+        ranks : (K,) float
+        """
         visible, known = np.diag(self.visible), np.diag(self.known)
         return np.divide(visible, known, out=np.ones(len(known)), where=known > 0)
 
     def psi(self, alpha: float) -> float:
-        """Return the quality psi of the parts (eq. 5).
+        """Return psi, the quality of the parts (eq. 5).
 
-        Visible pairs within parts, plus `alpha` times hidden pairs across parts, as
-        a share of all pairs.
+        It is the number of visible pairs within parts plus `alpha` times the number of
+        hidden pairs between parts, divided by the number of all pairs.
+
+        Parameters
+        ----------
+        alpha : float
+
+        Returns
+        -------
+        psi : float
         """
         hidden = self.known - self.visible
         across = hidden.sum() - np.trace(hidden)
         return float((np.trace(self.visible) + alpha * across) / self.known.sum())
 
     def merge_gains(self, alpha: float) -> NDArray[np.float64]:
-        """Return how much psi gains when two parts become one, (K, K).
+        """Return how much psi gains when two parts become one, −inf on the diagonal.
 
-        Every ordered pair across the two stops to count when hidden and begins to
-        when visible: psi is the Constant Potts Model of resolution
-        alpha / (1 + alpha).
+        Each visible ordered pair between the two then adds 1; hidden ones no longer add
+        `alpha`. Psi is the Constant Potts Model of resolution alpha / (1 + alpha).
+
+        Parameters
+        ----------
+        alpha : float
+
+        Returns
+        -------
+        gains : (K, K) float
         """
         gains = 2 * (self.visible - alpha * (self.known - self.visible))
         np.fill_diagonal(gains, -np.inf)
         return gains / self.known.sum()
 
     def merged(self, kept: int, gone: int) -> PairTally:
-        """Return the tally with part `gone` counted as part `kept`."""
+        """Return the tally of K − 1 parts after part `gone` is merged into part `kept`.
+
+        Parameters
+        ----------
+        kept, gone : int
+
+        Returns
+        -------
+        PairTally
+        """
         counts = []
         for matrix in (self.visible, self.known):
             rows = matrix.copy()

@@ -1,4 +1,4 @@
-"""What single points of a surface see, for people to look at (fig. 2 of the paper)."""
+"""What single points of a surface see, shown to the user (fig. 2 of the paper)."""
 
 from __future__ import annotations
 
@@ -20,14 +20,16 @@ Rows = TypeVar("Rows", Samples, Viewpoints)
 
 @dataclass(frozen=True, eq=False)
 class PointViewer:
-    """A shape with samples, ready to tell what any of its points sees.
+    """A shape with samples that can be looked at from any point of its surface.
 
     Attributes
     ----------
     shape : PreparedShape
+        The shape, normalized.
     samples : Samples
+        N points on its surface.
     views : Viewpoints
-        Of the samples.
+        Viewpoints of the samples.
     notes : tuple of str
         Sentences to the user.
     """
@@ -40,12 +42,19 @@ class PointViewer:
     def look(
         self, origin: NDArray[np.float64], direction: NDArray[np.float64]
     ) -> View | None:
-        """Return what the first point along a ray sees, None if the ray misses.
+        """Return the samples that the first surface point along a ray sees.
 
         Parameters
         ----------
-        origin, direction : (3,) float
-            In the units of the shape. `direction` may have any length.
+        origin : (3,) float
+            Start of the ray, in the space and units of the shape.
+        direction : (3,) float
+            Direction of the ray, of any length.
+
+        Returns
+        -------
+        View or None
+            In the space and units of the shape. None if the ray misses.
         """
         spot = self._first_point(
             (origin - self.shape.center) / self.shape.diagonal,
@@ -73,7 +82,7 @@ class PointViewer:
     def _first_point(
         self, origin: NDArray[np.float64], direction: NDArray[np.float64]
     ) -> Samples | None:
-        """Return the first point along a ray, as a sample."""
+        """Return the first surface point along a ray, as one sample, or None."""
         marcher = self.shape.marcher
         reach = np.linalg.norm(origin) + 1.0
         triangles, distances = marcher.caster.first_hit(
@@ -84,7 +93,8 @@ class PointViewer:
             return Samples(place[None], marcher.normals[triangles], triangles)
         if self.shape.plane is None:
             return None
-        # A flat shape is its outline, which no ray meets: take the nearest sample.
+        # Samples of a flat shape lie on its outline, which rays miss: take the sample
+        # nearest to the ray.
         offsets = self.samples.positions - origin
         across = offsets - np.outer(offsets @ direction, direction)
         nearest = [np.linalg.norm(across, axis=1).argmin()]
@@ -96,7 +106,7 @@ class PointViewer:
 
 
 def _joined(rows: Rows, more: Rows) -> Rows:
-    """Return samples, or viewpoints, with more of them behind."""
+    """Return samples or viewpoints followed by more of the same kind."""
     names = [field.name for field in fields(rows)]
     pairs = [(getattr(rows, name), getattr(more, name)) for name in names]
     return type(rows)(*map(np.concatenate, pairs))
@@ -105,13 +115,18 @@ def _joined(rows: Rows, more: Rows) -> Rows:
 def point_viewer_in_steps(
     shape: PreparedShape, parameters: Parameters
 ) -> Steps[PointViewer]:
-    """Make a shape ready to tell what its points see.
+    """Sample a shape and find the viewpoints, ready for `PointViewer.look`.
 
     Parameters
     ----------
     shape : PreparedShape
+        The shape to look through.
     parameters : Parameters
-        The number of samples and the seed count alone.
+        Only the number of samples and the seed are used.
+
+    Returns
+    -------
+    Steps of PointViewer
     """
     yield Progress("Samples", 0.0)
     rng = np.random.default_rng(parameters.seed)

@@ -1,4 +1,4 @@
-"""Shapes made ready: everything that looks through a shape takes a `PreparedShape`."""
+"""Prepared shapes: everything that casts rays through a shape takes one."""
 
 from __future__ import annotations
 
@@ -24,10 +24,11 @@ from .ray_march import MakeCaster, RayMarcher
 
 @dataclass(frozen=True, eq=False)
 class PreparedShape:
-    """A shape centered at 0, with a bounding box of diagonal 1, facing outwards.
+    """A shape that is normalized, oriented and ready for rays.
 
-    It is made once for a shape, by `prepare_in_steps`, and handed on. Meshes, flat
-    meshes and point clouds look alike from here on.
+    Its bounding box has center 0 and diagonal 1, and its faces point outwards.
+    `prepare_in_steps` makes it once for a shape, and every later stage takes it.
+    Meshes, flat meshes and point clouds all become this type.
 
     Attributes
     ----------
@@ -36,8 +37,8 @@ class PreparedShape:
     diagonal : float
         Diagonal of that box, in the units of the shape.
     targets : TriangleMesh
-        What samples lie on and rays are cast at. Its polygons are the nodes of `graph`;
-        a polygon from `n_nodes` on carries no samples.
+        The surface that carries the samples and that rays are cast at. Its polygons
+        are the nodes of `graph`; polygons from number `n_nodes` on carry no samples.
     marcher : RayMarcher
         Sends rays through the inside of all targets.
     n_nodes : int
@@ -47,7 +48,7 @@ class PreparedShape:
     make_graph : callable
         Returns `graph`.
     solid : TriangleMesh or None
-        The mesh itself, None for a point cloud.
+        The normalized mesh, None for a point cloud.
     notes : tuple of str
         Sentences to the user on what was changed for the computation.
     normals : (P, 3) float or None
@@ -70,29 +71,44 @@ class PreparedShape:
 
     @cached_property
     def graph(self) -> FaceGraph:
-        """The graph that labels move along: polygons, or points of a cloud."""
+        """Graph of neighboring polygons, or of neighboring points of a cloud."""
         return self.make_graph()
 
     @property
     def sampled(self) -> NDArray[np.int64]:
-        """Rows of the targets' triangles that carry samples."""
+        """Rows of the triangles of `targets` that carry samples, (R,) int."""
         return np.flatnonzero(self.targets.polygons < self.n_nodes)
 
     def labels_of_nodes(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the label of each node from the labels (P,) of polygons or points."""
+        """Return the label of each node.
+
+        Parameters
+        ----------
+        labels : (P,) int
+            Label of each polygon, or of each point of the cloud.
+
+        Returns
+        -------
+        labels : (`n_nodes`,) int
+        """
         found = np.zeros(int(self.nodes.max()) + 1, dtype=np.int64)
         found[self.nodes] = labels
         return found
 
     def part(self, members: NDArray[np.bool_]) -> PreparedShape:
-        """Return some polygons, or points, of the shape as a shape to be decomposed.
+        """Return some polygons, or points, as a shape of their own.
 
-        Rays still run through the whole shape, with the same ray tree. Samples, graph
-        and nodes are those of the members alone.
+        Rays still run through the whole shape and use the same ray tree. Samples,
+        graph and nodes cover only the chosen polygons or points.
 
         Parameters
         ----------
         members : (P,) bool
+            Polygons of the mesh, or points of the cloud, that belong to the part.
+
+        Returns
+        -------
+        PreparedShape
         """
         kept = np.unique(self.nodes[members])
         places = np.full(self.n_nodes + 1, len(kept))
@@ -109,14 +125,19 @@ class PreparedShape:
 
 
 def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedShape]:
-    """Make a shape ready to be looked through.
+    """Normalize and orient a shape and make it ready for rays.
 
     Parameters
     ----------
     shape : TriangleMesh or PointCloud
-        In any units. It may be open, in several pieces or not manifold.
+        In any units. It may be open, non-manifold or in several pieces.
     make_caster : callable
-        Returns a `RayCaster` for the mesh it is given. It is called at the first ray.
+        Returns a `RayCaster` for a `TriangleMesh`. It is called when the first ray is
+        cast.
+
+    Returns
+    -------
+    Steps of PreparedShape
 
     Raises
     ------
@@ -148,7 +169,7 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     mesh, notes = oriented(mesh, shells)
     yield Progress("Surface", 0.8)
     targets = set_apart(mesh, shells)
-    if targets is not mesh:  # faces that lay on each other have become shells
+    if targets is not mesh:  # faces that coincided are now separate shells
         shells = find_shells(targets)
     closed = shells.closed[shells.of_triangle]
     return PreparedShape(
@@ -164,7 +185,7 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
 
 
 def _prepare_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[PreparedShape]:
-    """Make a point cloud ready: its splats stand for a surface (section 5)."""
+    """Prepare a point cloud: its splats replace the surface (section 5)."""
     found = yield from splat_surface(cloud.normalized())
     return PreparedShape(
         cloud.center,

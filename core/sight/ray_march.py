@@ -1,10 +1,10 @@
 """Rays through the inside of a mesh.
 
-Inside a closed shape is where the count of closed shells around a point is positive: a
-ray that meets a front-facing triangle enters one more shell, at a back-facing one it
-leaves one, and it leaves the inside where the count reaches zero. Interpenetrating
-shells are thus seen through. An open shell has no inside to count: it ends the rays
-that no closed shell is around, as in the paper, and is passed by the others.
+A point is inside when at least one closed shell is around it. A ray that hits a
+front-facing triangle enters one more shell; at a back-facing triangle it leaves one. It
+leaves the inside where the count of shells falls to zero, so rays pass from one shell
+into another where the two overlap. An open shell has no inside. Outside of all closed
+shells it ends a ray, as in the paper; within a closed shell, rays pass through it.
 """
 
 from __future__ import annotations
@@ -18,18 +18,19 @@ from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
 
-# A ray goes on this far behind a triangle that it passes, in diagonals.
+# A ray continues this far behind a triangle that it passes, in diagonals.
 PASS = 1e-6
-# Shells a ray passes at most, so that no stack of faces holds it up for ever.
+# Most triangles that a ray passes, so that a stack of faces cannot hold it up forever.
 _MOST_CROSSINGS = 64
-# Surfaces behind the first one that are looked for along a ray, at most.
+# Most surfaces behind the first one that are searched for along a ray.
 _MOST_BEHIND = 8
-# What a ray meets so near its ends is the grain of the surface there, in grains.
+# Splats this close to the ends of a ray are ignored, in sizes of a splat: they are the
+# uneven surface around the ends.
 _GRAINS_AT_ENDS = 2.0
 
 
 class RayCaster(Protocol):
-    """Anything that finds the first triangle along rays."""
+    """An object that finds the first triangle along rays."""
 
     def first_hit(
         self,
@@ -37,7 +38,7 @@ class RayCaster(Protocol):
         directions: NDArray[np.float64],
         reach: NDArray[np.float64],
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Return the nearest triangle along each ray, and its distance.
+        """Return the nearest triangle along each ray and its distance.
 
         Parameters
         ----------
@@ -46,14 +47,14 @@ class RayCaster(Protocol):
         directions : (M, 3) float
             Unit vectors.
         reach : (M,) float
-            Hits farther than this are misses.
+            Triangles farther away than this are not hit.
 
         Returns
         -------
         triangles : (M,) int
             Row of the mesh's triangles, −1 for a miss.
         distances : (M,) float
-            `inf` for a miss.
+            Distance from the origin, `inf` for a miss.
         """
         ...
 
@@ -62,20 +63,27 @@ MakeCaster = Callable[[TriangleMesh], RayCaster]
 
 
 class RayMarcher:
-    """Sends rays through the inside of a mesh.
+    """Follows rays through the inside of a mesh.
 
     Parameters
     ----------
     mesh : TriangleMesh
-        Its normals point out of the inside.
+        Its normals point outwards.
     make_caster : callable
         Returns a `RayCaster` for `mesh`.
     closed : (T,) bool, optional
-        Which triangles are of closed shells. None are if left out.
+        Which triangles belong to closed shells. By default none do.
     grain : float, optional
-        Size of the splats that `mesh` consists of, 0 for a true surface.
+        Size of the splats of a point cloud, 0 for a mesh with faces.
     tilt : float, optional
-        Sine of the angle by which normals of `mesh` may be off.
+        Sine of the largest error of the normals.
+
+    Attributes
+    ----------
+    normals : (T, 3) float
+        Outward unit normals of the triangles.
+    area, diagonal : float
+        Area of `mesh` and diagonal of its bounding box.
     """
 
     def __init__(
@@ -97,7 +105,7 @@ class RayMarcher:
 
     @cached_property
     def caster(self) -> RayCaster:
-        """The ray tree, built when it is first asked for: hulls cast no rays."""
+        """The ray tree of `mesh`, built on first use because hulls cast no rays."""
         return self._make_caster(self.mesh)
 
     def march(
@@ -107,25 +115,27 @@ class RayMarcher:
         reach: NDArray[np.float64],
         depths: NDArray[np.int64],
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-        """Follow rays until they leave the inside, and tell where.
+        """Find the points where rays leave the inside for the first time.
 
         Parameters
         ----------
-        origins, directions : (M, 3) float
-            Starts inside, and unit vectors.
+        origins : (M, 3) float
+            Starts of the rays, inside.
+        directions : (M, 3) float
+            Unit vectors.
         reach : (M,) float
-            How far the rays go at most.
+            Largest distance that each ray goes.
         depths : (M,) int
             Number of closed shells around each origin.
 
         Returns
         -------
         exits : (M,) int
-            Triangle through which the ray left, −1 if it did not.
+            Triangle through which the ray leaves, −1 if it stays inside.
         distances : (M,) float
-            Of the exit, `inf` without one.
+            Distance to the exit, `inf` without one.
         depths : (M,) int
-            Number of closed shells around the end.
+            Number of closed shells around the end of the ray.
         """
         n_rays = len(origins)
         exits, distances = np.full(n_rays, -1), np.full(n_rays, np.inf)
@@ -160,23 +170,25 @@ class RayMarcher:
         directions: NDArray[np.float64],
         depths: NDArray[np.int64],
     ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]]:
-        """Follow rays out of the inside, then in and out again, to the end.
+        """Find all points where rays leave the inside, the nearest ones first.
 
         Parameters
         ----------
-        origins, directions : (M, 3) float
-            Starts inside, and unit vectors.
+        origins : (M, 3) float
+            Starts of the rays, inside.
+        directions : (M, 3) float
+            Unit vectors.
         depths : (M,) int
             Number of closed shells around each origin.
 
         Yields
         ------
         rays : (H,) int
-            Those that leave the inside once more.
+            Rays that leave the inside once more.
         points : (H, 3) float
-            Where.
+            Where each of them leaves.
         triangles : (H,) int
-            Through which.
+            Triangle that each of them leaves through.
         """
         rays, starts = np.arange(len(origins)), origins
         for _ in range(1 + _MOST_BEHIND):
@@ -196,21 +208,24 @@ class RayMarcher:
     def shells_around(
         self, origins: NDArray[np.float64], directions: NDArray[np.float64]
     ) -> NDArray[np.int64]:
-        """Count the closed shells around points by how often rays leave them.
+        """Count the closed shells around points with one ray from each.
 
         Parameters
         ----------
-        origins, directions : (M, 3) float
+        origins : (M, 3) float
+            The points.
+        directions : (M, 3) float
+            Unit vectors.
 
         Returns
         -------
         counts : (M,) int
-            Negative where a ray comes in through a hole.
+            Exits of the ray minus its entries; negative if it enters through a hole.
         """
         if not self.closed.any():
             return np.zeros(len(origins), dtype=np.int64)
         far = np.full(len(origins), 2 * self.diagonal)
-        # Started so deep that no ray ends before the last crossing.
+        # Start with so many shells that no ray ends before its last crossing.
         bottom = np.full(len(origins), _MOST_CROSSINGS + 1)
         _, _, depths = self.march(origins, directions, far, bottom)
         return bottom - depths

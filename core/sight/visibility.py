@@ -1,4 +1,4 @@
-"""Samples of a shape, and which of them see each other."""
+"""The samples of a shape, and which of them see each other."""
 
 from __future__ import annotations
 
@@ -17,19 +17,20 @@ from .lines import see_all_pairs, viewpoints
 from .pairs import Matrix, PairVisibility
 from .prepared import PreparedShape
 
-# A matrix of all pairs of more samples does not fit into memory.
+# Most samples whose matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
 
 
 @dataclass(frozen=True, eq=False)
 class LinesOfSight:
-    """What samples see of each other through the inside alone.
+    """Which samples see each other through the inside only.
 
     Attributes
     ----------
     samples : Samples
+        N points on the surface.
     affinity_pairs : PairVisibility
-        All pairs, or those that rays in cones found: the LoS matrix M (eq. 3).
+        Pairs of the LoS matrix M (eq. 3): all pairs, or those found by cones of rays.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1).
     """
@@ -41,20 +42,22 @@ class LinesOfSight:
 
 @dataclass(frozen=True, eq=False)
 class Visibility:
-    """All that parts are found from, whatever their number, balance or smoothness.
+    """What parts are computed from, for any number of parts, balance and smoothness.
 
     Attributes
     ----------
     shape : PreparedShape
+        The shape that the samples lie on.
     samples : Samples
+        N points on its surface.
     affinity : (N, N) float32 or sparse
-        The LoS matrix M (eq. 3), through containers too. The embedding comes from it.
+        LoS matrix M (eq. 3), also through containers. The embedding comes from it.
     psi_pairs : PairVisibility
-        Pairs that psi is counted from (eq. 5), through containers too.
+        Pairs that psi is counted from (eq. 5), also through containers.
     rank_pairs : PairVisibility
-        Pairs that convexity ranks are counted from (eq. 1), through the inside alone.
+        Pairs that convexity ranks are counted from (eq. 1), through the inside only.
     transfer : Transfer
-        Carries labels between the samples and the nodes of the graph.
+        Converts labels of samples to labels of nodes and back.
     """
 
     shape: PreparedShape
@@ -73,13 +76,19 @@ def find_lines_of_sight(
     Parameters
     ----------
     shape : PreparedShape
+        The shape to look through.
     parameters : Parameters
+        Only those that affect lines of sight are used.
+
+    Returns
+    -------
+    Steps of LinesOfSight
 
     Raises
     ------
     DecompositionError
-        If no surface carries samples, or if faces are the samples and their pairs do
-        not fit into memory.
+        If no surface carries samples, or if each face is a sample and the matrix of all
+        pairs does not fit into memory.
     """
     yield Progress("Samples", 0.0)
     rng = np.random.default_rng(parameters.seed)
@@ -93,7 +102,7 @@ def find_lines_of_sight(
             " many; choose Cone for Lines of Sight or By Area for Sampling."
         )
     yield Progress("Ray tree", 0.0)
-    _ = shape.marcher.caster  # half of the time of the ray tree, a step of its own
+    _ = shape.marcher.caster  # takes half of the time of this stage: a separate step
     yield Progress("Ray tree", 0.01)
     views = viewpoints(shape.marcher, samples)
     if all_pairs:
@@ -113,9 +122,24 @@ def find_lines_of_sight(
 
 
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
-    """Find what parts are found from: the expensive half of a decomposition.
+    """Compute the visibility of a shape: the expensive half of a decomposition.
 
-    Parameters and errors are those of `find_lines_of_sight`.
+    Parameters
+    ----------
+    shape : PreparedShape
+        The shape to look through.
+    parameters : Parameters
+        Only those that affect lines of sight are used.
+
+    Returns
+    -------
+    Steps of Visibility
+
+    Raises
+    ------
+    DecompositionError
+        If no surface carries samples, or if each face is a sample and the matrix of all
+        pairs does not fit into memory.
     """
     sight = yield from within(find_lines_of_sight(shape, parameters), 0.0, 0.8)
     affinity, psi = sight.affinity_pairs, sight.rank_pairs

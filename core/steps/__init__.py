@@ -1,1 +1,1 @@
-"""How long computations run: in steps, in slices of time, remembered."""
+"""Long computations: in steps, in slices of time, on one thread, with a memo."""

@@ -1,4 +1,4 @@
-"""A computation advanced in slices of time, so that a window stays alive."""
+"""Computations advanced in slices of time, so that a window stays responsive."""
 
 from __future__ import annotations
 
@@ -12,14 +12,21 @@ T = TypeVar("T")
 
 
 class Job(Generic[T]):
-    """Advances `Steps` within a budget of time, and cancels them.
+    """Runs `Steps` in slices of time, and can cancel them.
 
     Parameters
     ----------
     steps : Steps
         The computation.
     clock : callable, optional
-        Returns seconds; tests pass their own.
+        Returns the time in seconds. Tests pass their own.
+
+    Attributes
+    ----------
+    progress : Progress
+        The latest report of the computation.
+    done : bool
+        Whether the computation has returned its value.
     """
 
     def __init__(
@@ -33,12 +40,22 @@ class Job(Generic[T]):
         self._value: T | None = None
 
     def advance(self, budget: float) -> bool:
-        """Work for about `budget` seconds; return whether the job is done.
+        """Run the computation for about `budget` seconds.
+
+        Parameters
+        ----------
+        budget : float
+            Time in seconds. At least one step is run.
+
+        Returns
+        -------
+        done : bool
+            Whether the computation is finished.
 
         Raises
         ------
         RuntimeError
-            If the job was cancelled, or has failed before.
+            If the job was cancelled, or an earlier call failed.
         """
         deadline = self._clock() + budget
         while not self.done:
@@ -56,12 +73,23 @@ class Job(Generic[T]):
         return self.done
 
     def result(self) -> T:
-        """Return the value of a job that is done."""
+        """Return the value of the finished computation.
+
+        Returns
+        -------
+        value
+            The return value of the steps.
+
+        Raises
+        ------
+        RuntimeError
+            If the job is not done.
+        """
         if not self.done:
             raise RuntimeError("the job is not done")
         return self._value  # type: ignore[return-value]  # set with `done`
 
     def cancel(self) -> None:
-        """Stop the computation; its `finally` clauses run."""
+        """Stop the computation and run its `finally` clauses."""
         self._ended = True
         self._steps.close()

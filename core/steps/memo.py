@@ -1,4 +1,4 @@
-"""Values that are found once and kept for the next time."""
+"""Values that are computed once and kept."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ Value = TypeVar("Value")
 
 
 class Memo(Generic[Key, Value]):
-    """Keeps the values of some keys.
+    """Stores computed values by key.
 
     Parameters
     ----------
     most : int, optional
-        Number of keys that are kept. The key used longest ago is forgotten first. All
-        are kept if left out.
+        Most keys that are kept; the least recently used key is dropped first. Without
+        `most`, all keys are kept.
     """
 
     def __init__(self, most: int | None = None) -> None:
@@ -26,7 +26,18 @@ class Memo(Generic[Key, Value]):
         self._values: dict[Key, Value] = {}
 
     def recall(self, key: Key, make: Callable[[], Value]) -> Value:
-        """Return the value of a key. The first time, `make` finds it."""
+        """Return the value of a key, and compute it if it is not stored.
+
+        Parameters
+        ----------
+        key : hashable
+        make : callable
+            Returns the value. It is called only if the key is not stored.
+
+        Returns
+        -------
+        value
+        """
         value = self._values.pop(key) if key in self._values else make()
         self._values[key] = value
         if self._most is not None and len(self._values) > self._most:
@@ -34,6 +45,18 @@ class Memo(Generic[Key, Value]):
         return value
 
     def recall_steps(self, key: Key, make: Callable[[], Steps[Value]]) -> Steps[Value]:
-        """Return the value of a key. The first time, the steps of `make` find it."""
+        """Return the value of a key, and compute it in steps if it is not stored.
+
+        Parameters
+        ----------
+        key : hashable
+        make : callable
+            Returns the steps that compute the value. It is called only if the key is
+            not stored.
+
+        Returns
+        -------
+        Steps of the value
+        """
         value = self._values[key] if key in self._values else (yield from make())
         return self.recall(key, lambda: value)

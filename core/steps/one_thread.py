@@ -1,4 +1,4 @@
-"""One thread for linear algebra: the same sums everywhere, and nobody waits."""
+"""Linear algebra on one thread: results do not depend on the number of cores."""
 
 from __future__ import annotations
 
@@ -8,15 +8,21 @@ from .progress import Steps, T
 
 
 def on_one_thread(steps: Steps[T]) -> Steps[T]:
-    """Run `steps` with one thread for each product of matrices.
+    """Run `steps` with linear algebra limited to one thread.
 
-    Otherwise the rounding of sums would depend on the number of cores. Where other
-    programs keep the cores busy, threads would wait for each other most of the time.
+    With more threads, the rounding of sums would depend on the number of cores. Where
+    other programs keep the cores busy, threads would wait for each other most of the
+    time.
 
     Parameters
     ----------
     steps : Steps
         The computation.
+
+    Returns
+    -------
+    Steps
+        The same reports and the same value.
     """
     controller = ThreadpoolController()
     try:

@@ -1,4 +1,4 @@
-"""Long computations as generators that report where they are."""
+"""Long computations as generators that report their progress."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Progress:
-    """Where a computation stands.
+    """One progress report of a computation.
 
     Attributes
     ----------
     stage : str
-        What is being done, in the user's words.
+        The current stage, in words for the user.
     fraction : float
-        Share of the whole computation that is done, in 0…1.
+        Finished share of the whole computation, in 0…1.
     """
 
     stage: str
@@ -31,7 +31,18 @@ Steps = Generator[Progress, None, T]
 
 
 def run(steps: Steps[T]) -> T:
-    """Exhaust `steps` without a pause and return their value."""
+    """Run `steps` to the end without a pause and return their value.
+
+    Parameters
+    ----------
+    steps : Steps
+        The computation.
+
+    Returns
+    -------
+    value
+        The return value of the steps.
+    """
     while True:
         try:
             next(steps)
@@ -41,7 +52,20 @@ def run(steps: Steps[T]) -> T:
 
 
 def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
-    """Run `steps` with `change` applied to each progress that they report."""
+    """Run `steps` and change each of their progress reports.
+
+    Parameters
+    ----------
+    steps : Steps
+        The computation.
+    change : callable
+        Takes the `Progress` that the computation reports, returns the one to report.
+
+    Returns
+    -------
+    Steps
+        With the same value.
+    """
     try:
         while True:
             try:
@@ -55,31 +79,59 @@ def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
 
 
 def within(steps: Steps[T], low: float, high: float) -> Steps[T]:
-    """Run `steps` as the part from `low` to `high` of a longer computation."""
+    """Run `steps` as the section from `low` to `high` of a longer computation.
+
+    Parameters
+    ----------
+    steps : Steps
+        The computation. It reports fractions from 0 to 1.
+    low, high : float
+        Fractions of the longer computation where the section begins and ends.
+
+    Returns
+    -------
+    Steps
+        With the same value.
+    """
     return mapped(steps, lambda p: Progress(p.stage, low + (high - low) * p.fraction))
 
 
 def within_turn(steps: Steps[T], turn: int, n_turns: int) -> Steps[T]:
-    """Run `steps` as one of `n_turns` equal turns of a longer computation."""
+    """Run `steps` as one of `n_turns` equal sections of a longer computation.
+
+    Parameters
+    ----------
+    steps : Steps
+        The computation. It reports fractions from 0 to 1.
+    turn : int
+        Number of the section, from 0.
+    n_turns : int
+        Number of sections.
+
+    Returns
+    -------
+    Steps
+        With the same value.
+    """
     return within(steps, turn / n_turns, (turn + 1) / n_turns)
 
 
 def in_turn(
     works: Sequence[Steps[T] | DecompositionError], names: Sequence[str]
 ) -> Steps[list[T | DecompositionError]]:
-    """Run several computations one after the other; an error ends its own alone.
+    """Run several computations one after the other, even if some of them fail.
 
     Parameters
     ----------
-    works : sequence of Steps
-        Or errors: of computations that could not even begin.
+    works : sequence of Steps or DecompositionError
+        An error stands for a computation that could not begin.
     names : sequence of str
-        Come before the stages that are reported, where there are several.
+        Name of each computation. Reports begin with it if there are several.
 
     Returns
     -------
     Steps of list
-        The values, and the errors in the places of those that failed.
+        For each computation its value, or the `DecompositionError` that ended it.
     """
     outcomes: list[T | DecompositionError] = []
     for number, (work, name) in enumerate(zip(works, names, strict=True)):
@@ -95,5 +147,5 @@ def in_turn(
 
 
 def _titled(steps: Steps[T], title: str) -> Steps[T]:
-    """Run `steps` with a title before their stages."""
+    """Run `steps` and put a title before each stage that they report."""
     return mapped(steps, lambda p: Progress(f"{title}: {p.stage}", p.fraction))

@@ -26,7 +26,7 @@ def test_columns_are_eigenvectors_of_the_normalized_affinity(stochastic):
     largest = np.sort(np.linalg.eigvals(matrix).real)[::-1][:5]
     for column, value in zip(embedding.T, largest, strict=True):
         assert matrix @ column == pytest.approx(value * column, abs=1e-3)
-    assert np.linalg.norm(embedding[:, 0]) > 0
+    assert np.linalg.norm(embedding, axis=0).min() > 0.1
 
 
 def test_each_column_is_as_long_as_its_eigenvalue():
@@ -76,8 +76,7 @@ def test_isolated_samples_make_no_gaps(kind):
 
 def test_more_eigenvectors_than_samples_are_as_many_as_can_be():
     embedding = embed(random_affinity(16), 64, False)
-    assert embedding.shape[0] == 16
-    assert 1 <= embedding.shape[1] <= 16
+    assert embedding.shape == (16, 15)
     assert np.isfinite(embedding).all()
 
 

@@ -23,6 +23,11 @@ def test_separate_clouds_are_found(n_clouds):
 def test_the_seed_decides():
     points = np.random.default_rng(1).normal(size=(200, 4))
     assert (cluster(points, 6, 3) == cluster(points, 6, 3)).all()
+    partitions = [
+        {frozenset(np.flatnonzero(labels == k).tolist()) for k in range(6)}
+        for labels in (cluster(points, 6, seed) for seed in (3, 4))
+    ]
+    assert partitions[0] != partitions[1]
 
 
 def test_fewer_places_than_clusters_pass_without_a_warning():

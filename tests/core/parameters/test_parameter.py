@@ -3,6 +3,7 @@ from dataclasses import dataclass, fields
 
 import pytest
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.parameters.parameter import (
     Choice,
     ParameterInfo,
@@ -58,8 +59,9 @@ def test_check_says_what_is_wrong_and_what_to_do(field, value, text):
 
 
 def test_every_parameter_has_a_label_a_help_and_a_good_default():
-    assert len(fields(Parameters)) > 10
-    for field in fields(Parameters):
+    every = [*fields(Parameters), *fields(HullParameters)]
+    assert len(every) > 20
+    for field in every:
         info = info_of(field)
         assert info.label[:1].isupper(), field.name
         assert info.help[:1].isupper(), field.name

@@ -1,0 +1,55 @@
+"""What hulls cost, and the bounds that save looking at most of them."""
+
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.hulls.cost import (
+    cost_of_joint,
+    cost_of_sides,
+    least_cost,
+    least_cost_of_sides,
+)
+from weak_convex_decomposition.core.hulls.piece import cut, join, whole
+from weak_convex_decomposition.core.hulls.solid import solid_of
+from weak_convex_decomposition.core.steps.progress import run
+
+PLANES = [np.array([*np.eye(3)[axis], -place]) for axis in (0, 1) for place in (0.4, 1)]
+
+
+@pytest.fixture(scope="module", params=[shapes.u_shape, shapes.comb, shapes.table])
+def sides(request):
+    """Return both sides of some cuts of a shape, and the shape's volume."""
+    solid = run(solid_of(shapes.moved(request.param(), scale=0.25), 0))
+    piece = whole(solid)
+    return [cut(solid, piece, plane) for plane in PLANES], piece.volume
+
+
+def test_bounds_are_below_what_they_bound(sides):
+    pairs, volume = sides
+    for one, other in pairs:
+        joint = cost_of_joint(join(one, other), volume)
+        assert 0 <= least_cost(one, other, volume) <= joint
+        both = cost_of_sides(one, other, volume)
+        assert 0 <= least_cost_of_sides(one, other, volume) <= both
+
+
+def test_what_hulls_add_costs_its_share_of_the_solid(sides):
+    """A solid of half the volume makes the same addition twice as dear."""
+    pairs, volume = sides
+    for one, other in pairs:
+        joint = join(one, other)
+        assert joint.added_volume > 0
+        dearer = cost_of_joint(joint, volume / 2) - cost_of_joint(joint, volume)
+        assert dearer == pytest.approx(joint.added_volume / volume, abs=1e-5)
+        added = max(one.added_volume, 0) + max(other.added_volume, 0)
+        dearer = cost_of_sides(one, other, volume / 2) - cost_of_sides(
+            one, other, volume
+        )
+        assert dearer == pytest.approx(added / volume, abs=1e-5)
+
+
+def test_nothing_is_dear_where_the_solid_has_no_volume(sides):
+    (one, other), *_ = sides[0]
+    assert cost_of_sides(one, other, 0.0) == pytest.approx(
+        np.hypot(one.error, other.error), abs=1e-6
+    )
