@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import cos, pi, radians, sin
+from math import cos, radians, sin
 
 import bmesh
 import bpy
@@ -67,7 +67,7 @@ def bear() -> bpy.types.Object:
     for center, radius in _BEAR:
         element = ball.elements.new()
         element.co, element.radius = center, radius
-    _added(ball)
+    added(ball)
     bpy.ops.object.convert(target="MESH")
     return bpy.context.object
 
@@ -85,7 +85,7 @@ def dog() -> bpy.types.Object:
     mesh = bpy.data.meshes.new("Dog")
     edges = [(names.index(a), names.index(b)) for a, b in bones]
     mesh.from_pydata([joints[name][0] for name in names], edges, [])
-    obj = _added(mesh)
+    obj = added(mesh)
     obj.modifiers.new("Skin", "SKIN").use_smooth_shade = False
     for vertex, name in zip(mesh.skin_vertices[0].data, names, strict=True):
         vertex.radius = (joints[name][1],) * 2
@@ -110,21 +110,28 @@ def boxes(of: list[tuple], cuts: int = 11) -> bpy.types.Object:
 
 
 def turned(profile: list[tuple[float, float]], segments: int = 64) -> bpy.types.Object:
-    """Return the solid of a profile of (radius, height) turned around Z."""
-    build = bmesh.new()
-    corners = [build.verts.new((radius, 0, height)) for radius, height in profile]
-    edges = [build.edges.new(pair) for pair in pairwise(corners)]
-    bmesh.ops.spin(
-        build,
-        geom=[*corners, *edges],
-        axis=(0, 0, 1),
-        cent=(0, 0, 0),
-        angle=2 * pi,
-        steps=segments,
-    )
-    bmesh.ops.remove_doubles(build, verts=build.verts, dist=1e-4)
-    bmesh.ops.recalc_face_normals(build, faces=build.faces)
-    return _built(build, "Turned")
+    """Return the solid of a profile of (radius, height) turned around Z.
+
+    The profile runs counter-clockwise as seen with the axis at its left, and begins and
+    ends on the axis.
+    """
+    angles = np.linspace(0, 2 * np.pi, segments, endpoint=False)
+    vertices, rings = [], []
+    for radius, height in profile:
+        on_axis = radius < 1e-6
+        first = len(vertices)
+        around = angles[:1] if on_axis else angles
+        vertices += [(radius * cos(a), radius * sin(a), height) for a in around]
+        rings.append([first] * segments if on_axis else range(first, len(vertices)))
+    faces = []
+    for low, high in pairwise(rings):
+        for i in range(segments):
+            j = (i + 1) % segments
+            corners = (low[i], low[j], high[j], high[i])
+            faces.append(tuple(dict.fromkeys(corners)))  # triangles at the axis
+    mesh = bpy.data.meshes.new("Turned")
+    mesh.from_pydata(vertices, [], faces)
+    return added(mesh)
 
 
 def fused(of: list[list[tuple]], voxel: float) -> bpy.types.Object:
@@ -186,38 +193,7 @@ def figure() -> bpy.types.Object:
     return fused(pieces, voxel=0.035)
 
 
-def cloud(obj: bpy.types.Object, n_points: int, keep=None) -> bpy.types.Object:
-    """Return points with normals, spread evenly over a mesh by its area.
-
-    Parameters
-    ----------
-    keep : callable, optional
-        From places and normals, (N, 3), to which points stay, (N,) bool.
-    """
-    obj.data.calc_loop_triangles()
-    corners = np.array([v.co for v in obj.data.vertices])
-    corners = corners[[t.vertices[:] for t in obj.data.loop_triangles]]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    doubled = np.linalg.norm(across, axis=1)
-    rng = np.random.default_rng(0)
-    chosen = np.searchsorted(
-        doubled.cumsum() / doubled.sum(),
-        (np.arange(n_points) + rng.random(n_points)) / n_points,
-    )
-    weights = rng.dirichlet(np.ones(3), n_points)[:, :, None]
-    places = (corners[chosen] * weights).sum(axis=1)
-    normals = across[chosen] / doubled[chosen, None]
-    if keep is not None:
-        kept = keep(places, normals)
-        places, normals = places[kept], normals[kept]
-    mesh = bpy.data.meshes.new("Cloud")
-    mesh.from_pydata(places, [], [])
-    layer = mesh.attributes.new("normal", "FLOAT_VECTOR", "POINT")
-    layer.data.foreach_set("vector", normals.astype(np.float32).ravel())
-    return _added(mesh)
-
-
-def _added(data: bpy.types.ID) -> bpy.types.Object:
+def added(data: bpy.types.ID) -> bpy.types.Object:
     """Return a new active object for some data."""
     obj = bpy.data.objects.new(data.name, data)
     bpy.context.collection.objects.link(obj)
@@ -231,7 +207,7 @@ def _built(build: bmesh.types.BMesh, name: str) -> bpy.types.Object:
     mesh = bpy.data.meshes.new(name)
     build.to_mesh(mesh)
     build.free()
-    return _added(mesh)
+    return added(mesh)
 
 
 def _subdivided(obj: bpy.types.Object, levels: int) -> bpy.types.Object:

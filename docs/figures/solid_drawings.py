@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import bmesh
 import bpy
 import extension
@@ -11,6 +9,7 @@ import numpy as np
 import shapes
 from image import below, beside, resized
 from panels import BLUE, GREEN, RED, paint, parts
+from points import sampled, seen_by_scanner
 from render import caption, panel
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
@@ -80,12 +79,12 @@ def matrices() -> np.ndarray:
 def clouds() -> np.ndarray:
     """Draw a cloud, its splats, and a scan from one side (figs. 1, 8 and 9)."""
     solid = shapes.dog()
-    whole = shapes.cloud(solid, 6000)
+    whole = sampled(solid, 6000)
     extension.decompose(whole, parts=7)
     splats = _splat_object(whole)
     towards = np.array((0.57, -0.82, 0.37))  # where the scanner stands
-    seen = _seen_by_scanner(solid, towards)
-    scan = shapes.cloud(solid, 12000, keep=seen)
+    seen = seen_by_scanner(solid, towards)
+    scan = sampled(solid, 12000, keep=seen)
     extension.decompose(scan, parts=7)
     partial = _splat_object(scan)
     close = panel([splats], size=1500)[360:740, 60:440]
@@ -196,19 +195,6 @@ def _ball(place: np.ndarray, radius: float) -> bpy.types.Object:
 
 def _splat_object(cloud: bpy.types.Object) -> bpy.types.Object:
     return bpy.data.objects.new("Splats", extension.splats(cloud))
-
-
-def _seen_by_scanner(obj: bpy.types.Object, towards: np.ndarray) -> Callable:
-    """Return what tells which places a scanner far away sees."""
-
-    def keep(places: np.ndarray, normals: np.ndarray) -> np.ndarray:
-        facing = normals @ towards > 0.15
-        for i in np.flatnonzero(facing):
-            start = places[i] + normals[i] * 1e-3
-            facing[i] = not obj.ray_cast(start, towards)[0]
-        return facing
-
-    return keep
 
 
 def _separated(obj: bpy.types.Object) -> list[bpy.types.Object]:
