@@ -1,8 +1,8 @@
-"""Split meshes into weakly convex parts by lines of sight.
+"""Split meshes and point clouds into weakly convex parts by lines of sight.
 
-`decompose`, `measure` and `build_hulls` are for scripts; `register` makes an add-on of
-the package in Blender. Nothing is imported here before it is used: enabling the add-on
-stays quick, and scripts do without Blender.
+Scripts call `decompose`, `measure` and `build_hulls`. In Blender, `register` adds the
+extension's panels and operators. Names are imported when they are first used, so that
+enabling the extension is quick and scripts run without Blender.
 """
 
 from importlib import import_module
@@ -45,7 +45,7 @@ __all__ = [
     "unregister",
 ]
 
-# The module of each public name.
+# Module that defines each public name.
 _HOMES = {
     "Decomposition": "core.results",
     "DecompositionError": "core.errors",
@@ -77,7 +77,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """Return the public names, whether imported yet or not."""
+    """Return the public names, including those that are not imported yet."""
     return sorted({*globals(), *__all__})
 
 
@@ -90,7 +90,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register`, last thing first."""
+    """Undo `register`, in reverse order."""
     from . import operators, ui
 
     ui.unregister()

@@ -1,7 +1,7 @@
-"""The command line without Blender's window, started in one of three ways.
+"""Run the command line without Blender's window, in one of three ways.
 
-`wcd INPUT …` once installed by pip, `python -m weak_convex_decomposition INPUT …`, and
-`python . INPUT …` in a bare checkout. Each needs the bpy module.
+After installation with pip, `wcd INPUT …` or `python -m weak_convex_decomposition
+INPUT …`; in the folder of a checkout, `python . INPUT …`. All need the module bpy.
 """
 
 import os
@@ -17,9 +17,20 @@ _PACKAGE = "weak_convex_decomposition"
 
 
 def main(program: str) -> int:
-    """Run the command line; `program` is what its help calls it."""
+    """Run the command line with the arguments of this process.
+
+    Parameters
+    ----------
+    program : str
+        Name of the command in the help.
+
+    Returns
+    -------
+    int
+        Exit status; 2 if the module bpy is missing.
+    """
     try:
-        import_module("bpy")  # before anything that needs mathutils
+        import_module("bpy")  # first, because it provides mathutils
     except ModuleNotFoundError:
         print(
             f"error: {sys.executable} has no module bpy; install it with the extra bpy"
@@ -37,7 +48,7 @@ def main(program: str) -> int:
 
 
 def _checkout() -> ModuleType:
-    """Load this folder as a package, whatever its name."""
+    """Load this folder as the package, whatever the folder's name."""
     root = Path(__file__).resolve().parent
     spec = spec_from_file_location(
         _PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]
@@ -49,21 +60,26 @@ def _checkout() -> ModuleType:
 
 
 def leave(status: int) -> NoReturn:
-    """End the process with `status`, whatever becomes of Blender meanwhile.
+    """End the process with `status`, without shutting down the interpreter.
 
-    The wheel of Blender 4.2 crashes at the interpreter's end, after a glTF export for
-    one, which would replace the status.
+    The bpy wheel of Blender 4.2 may crash when the interpreter shuts down, for example
+    after a glTF export. The crash would replace the exit status.
+
+    Parameters
+    ----------
+    status : int
+        Exit status.
     """
     bpy = sys.modules.get("bpy")
     if bpy is not None:
-        shutil.rmtree(bpy.app.tempdir, ignore_errors=True)  # Blender's own clean-up
+        shutil.rmtree(bpy.app.tempdir, ignore_errors=True)  # Blender removes it at exit
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)
 
 
 def wcd() -> NoReturn:
-    """Run the command `wcd` that pip installs."""
+    """Run the command `wcd`, which pip installs, and end the process."""
     leave(main("wcd"))
 
 

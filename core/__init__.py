@@ -1,7 +1,7 @@
-"""The decomposition itself: NumPy, SciPy and scikit-learn, nothing of Blender.
+"""The algorithm, without Blender: it needs NumPy, SciPy and scikit-learn.
 
-The names below load their modules when they are first used: SciPy and scikit-learn take
-a second, which enabling the add-on must not.
+Each name below imports its module when it is first used. SciPy and scikit-learn take a
+second to import, and enabling the add-on must not wait for them.
 """
 
 from importlib import import_module
@@ -50,7 +50,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    """Load the module of a name, and return what it stands for."""
+    """Import the module that defines `name`, and return the object of that name."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(import_module(f".{_HOMES[name]}", __name__), name)

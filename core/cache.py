@@ -1,4 +1,4 @@
-"""What is kept of the latest shape, so that new parts of it take a moment."""
+"""A cache of the latest shape: with other parameters, its parts are found quickly."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from .steps.progress import Steps
 
 
 class ShapeCache:
-    """The latest shape made ready, its visibility, and what was found from it.
+    """Keeps the latest prepared shape, its visibility, and the parts found from it.
 
-    Whoever computes owns one. Shapes are told apart by content, so that no change of a
-    mesh goes unnoticed. Results never depend on what is kept.
+    The caller owns the cache. Shapes are compared by content, so a changed mesh is
+    always prepared again. Results do not depend on what is in the cache.
 
     Parameters
     ----------
     make_caster : callable
-        Returns a `RayCaster` for the mesh it is given.
+        Takes a `TriangleMesh` and returns a `RayCaster` for it.
     """
 
     def __init__(self, make_caster: MakeCaster) -> None:
@@ -32,12 +32,28 @@ class ShapeCache:
         self.forget()
 
     def forget(self) -> None:
-        """Free the memory."""
+        """Empty the cache, and so free its memory."""
         self._shape: tuple[Hashable, PreparedShape] | None = None
         self._seen: tuple[Hashable, PartMemo] | None = None
 
     def prepare(self, shape: Shape) -> Steps[PreparedShape]:
-        """Return a shape made ready: the latest one if it is the same."""
+        """Return the shape made ready for rays; the cached one if its content is equal.
+
+        Parameters
+        ----------
+        shape : TriangleMesh or PointCloud
+            In any units.
+
+        Returns
+        -------
+        Steps of PreparedShape
+            The steps yield `Progress`; `run` returns the prepared shape.
+
+        Raises
+        ------
+        DecompositionError
+            If the surface has no area.
+        """
         key = content_key(shape)
         if self._shape is None or self._shape[0] != key:
             prepared = yield from prepare_in_steps(shape, self._make_caster)
@@ -45,9 +61,26 @@ class ShapeCache:
         return self._shape[1]
 
     def see(self, shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:
-        """Return the visibility of a prepared shape, and what was found from it.
+        """Return the visibility of a prepared shape, with the parts found from it.
 
-        The visibility of a part of the latest shape is computed, but not kept.
+        Only the visibility of the latest whole shape is kept, not that of its parts.
+
+        Parameters
+        ----------
+        shape : PreparedShape
+        parameters : Parameters
+            Settings that affect neither samples nor lines of sight are not used.
+
+        Returns
+        -------
+        Steps of PartMemo
+            The steps yield `Progress`; `run` returns the memo.
+
+        Raises
+        ------
+        DecompositionError
+            If no sample can be placed, or if faces are the samples and there are too
+            many.
         """
         key = _sight_key(parameters)
         latest = self._shape is not None and self._shape[1] is shape
@@ -59,7 +92,18 @@ class ShapeCache:
         return memo
 
     def has_seen(self, shape: Shape, parameters: Parameters) -> bool:
-        """Return whether the visibility of a shape is there already."""
+        """Return whether the cache holds the visibility of a shape.
+
+        Parameters
+        ----------
+        shape : TriangleMesh or PointCloud
+        parameters : Parameters
+            Settings that affect neither samples nor lines of sight are not used.
+
+        Returns
+        -------
+        bool
+        """
         if self._shape is None or self._seen is None:
             return False
         known = self._shape[0], self._seen[0]
@@ -67,7 +111,7 @@ class ShapeCache:
 
 
 def _sight_key(parameters: Parameters) -> Hashable:
-    """Return the values of the parameters that lines of sight depend on."""
+    """Return the values of the parameters that samples or lines of sight depend on."""
     return tuple(
         getattr(parameters, field.name)
         for field in fields(parameters)

@@ -14,9 +14,9 @@ from .sight.prepared import PreparedShape
 from .sight.visibility import find_lines_of_sight
 from .steps.progress import Steps, within
 
-# Faces of less area, in squared diagonals, are lines or points.
+# Smallest area to measure, in squared diagonals. Smaller faces are lines or points.
 _LEAST_AREA = 1e-9
-# Samples on some faces, at most: all pairs of them are looked up.
+# Largest number of samples on chosen faces: rays are cast between all pairs of them.
 _MOST_SAMPLES = 2000
 
 
@@ -26,28 +26,33 @@ def measure_in_steps(
     cache: ShapeCache,
     faces: NDArray[np.bool_] | None = None,
 ) -> Steps[Measurement]:
-    """Estimate the share of pairs of surface points that see each other (eq. 1).
+    """Estimate the convexity rank of a shape, or of some of its faces (eq. 1).
+
+    The rank is the share of pairs of surface points that see each other.
 
     Parameters
     ----------
     shape : TriangleMesh or PointCloud
+        In any units.
     parameters : Parameters
-        Those of samples and lines of sight count. With `faces`, the number of samples
-        and the seed count alone: all pairs are looked up.
+        Only the settings of samples and lines of sight are used. With `faces`, only
+        `samples` and `seed` are: all pairs of samples are tested.
     cache : ShapeCache
+        Keeps the prepared shape for the next call.
     faces : (P,) bool, optional
-        Measure these polygons alone. Lines of sight run through the whole shape.
+        Polygons to measure, or points of a cloud; all if left out. Lines of sight run
+        through the whole shape.
 
     Returns
     -------
     Steps of Measurement
-        It yields `Progress`; `run` returns its value.
+        The steps yield `Progress`; `run` returns the measurement.
 
     Raises
     ------
     DecompositionError
-        If the shape or the faces have no area, or if none of the faces of a flat mesh
-        is at its outline.
+        If the shape or the faces have no area, or if the shape is a flat mesh and none
+        of the faces lies at its outline.
     """
     prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
     if faces is not None:
@@ -61,7 +66,7 @@ def measure_in_steps(
 
 
 def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> PreparedShape:
-    """Return some faces of a shape, or raise if nothing of them can be sampled."""
+    """Return the chosen faces as a shape; raise if no sample can lie on them."""
     area = shape.graph.areas[shape.nodes[faces]].sum()
     members = shape.part(faces)
     if area <= _LEAST_AREA or len(members.sampled) == 0:

@@ -1,4 +1,4 @@
-"""Pictures of what parts come from: matrices sorted by part, and the embedding."""
+"""Diagrams of a decomposition: matrices sorted by part, and the embedding (fig. 7)."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ from .results import Picture
 
 Pixels: TypeAlias = NDArray[np.float64]
 
-# Rows and columns of a matrix that are drawn, at most.
+# Largest number of rows and columns of a matrix that are drawn.
 _MOST_ROWS = 1500
-# Width of the margins in the colors of the parts, and pixels of a row if there are few.
+# Width in rows of the margins that show the colors of the parts.
 _MARGIN = 12
+# Rows of a small matrix are repeated until it has this many pixels along a side.
 _LEAST_SIZE = 600
-# Of a scatter: pixels along a side, and of a dot's radius.
+# Pixels along a side of the scatter plot, and radius of a dot in pixels.
 _SIZE = 900
 _DOT = 4
-# Percentiles of coordinates between which a scatter is drawn to scale.
+# Percentiles of coordinates that the scatter plot spans; dots beyond lie on its border.
 _INNER = (3.0, 97.0)
 
 
@@ -34,7 +35,7 @@ def draw_picture(
     parameters: Parameters,
     colors: NDArray[np.float64],
 ) -> Picture:
-    """Draw one of `parameters.choices.PICTURES`.
+    """Draw one of the pictures that `parameters.choices.PICTURES` lists.
 
     Parameters
     ----------
@@ -43,11 +44,15 @@ def draw_picture(
     memo : PartMemo
         The visibility that the parts were found from.
     labels : (P,) int
-        Part of each polygon, or point of a cloud.
+        Part of each polygon, or of each point of a cloud, in 0…K − 1.
     parameters : Parameters
-        That parts were found with.
+        The parameters that the parts were found with.
     colors : (K, 3) float
-        sRGB of each part.
+        sRGB of each part, from 0 to 1.
+
+    Returns
+    -------
+    Picture
     """
     visibility = memo.visibility
     nodes = visibility.shape.labels_of_nodes(labels)
@@ -62,7 +67,7 @@ def _sight(
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
-    """Return the LoS matrix sorted by part: black where samples see each other."""
+    """Return the LoS matrix sorted by part: visible pairs are black."""
     rows = _by_part(labels)
     affinity = sparse.csr_array(memo.visibility.affinity)
     visible = affinity[rows][:, rows].toarray() > 0
@@ -75,14 +80,14 @@ def _distances(
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
-    """Return the distances in the embedding sorted by part: black where none."""
+    """Return distances of samples in the embedding, sorted by part: 0 is black."""
     rows = _by_part(labels)
     places = _places(memo, parameters, labels)[rows]
     squares = (places**2).sum(axis=1)
     distances = squares[:, None] + squares - 2 * places @ places.T
     distances = np.sqrt(np.maximum(distances, 0.0))
     apart = labels[rows][:, None] != labels[rows]
-    # A few samples are far from all others, and would leave the rest black.
+    # White is the median, not the maximum: a few far samples would turn the rest black.
     white = np.median(distances[apart if apart.any() else ~apart])
     grays = np.minimum(distances / max(white, np.finfo(float).tiny), 1.0)
     return _matrix(grays, colors[labels[rows]])
@@ -94,7 +99,10 @@ def _scatter(
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
-    """Return the samples in a plane of the embedding in which parts are apart."""
+    """Return a plot of the samples in the plane of the embedding that spreads parts.
+
+    The plane is spanned by the principal axes of the parts' centers.
+    """
     places = _places(memo, parameters, labels)
     sizes = np.bincount(labels)
     totals = np.stack([np.bincount(labels, axis) for axis in places.T], axis=1)
@@ -102,7 +110,7 @@ def _scatter(
     _, _, axes = np.linalg.svd(middles - middles.mean(axis=0))
     flat = np.zeros((len(places), 2))
     flat[:, : len(axes)] = (places - middles.mean(axis=0)) @ axes[:2].T
-    # A few samples are far from all others: they are put on the border.
+    # A few samples are far from all others: draw them on the border.
     low, high = np.percentile(flat, _INNER, axis=0)
     extent = max(float((high - low).max()), np.finfo(float).tiny)
     shares = np.clip((flat - (low + high) / 2) / extent, -0.5, 0.5)
@@ -118,20 +126,20 @@ def _scatter(
 def _places(
     memo: PartMemo, parameters: Parameters, labels: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Return the coordinates of samples that told this number of parts apart."""
+    """Return the embedding of the samples in K parts, (N, K); (N, 2) for one part."""
     n_coordinates = max(2, int(labels.max()) + 1)
     return memo.embedding(n_coordinates, parameters)[:, :n_coordinates]
 
 
 def _by_part(labels: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the samples sorted by part, not more of them than can be drawn."""
+    """Return samples sorted by part, evenly thinned to at most `_MOST_ROWS`."""
     order = np.argsort(labels, kind="stable")
     n_rows = min(len(order), _MOST_ROWS)
     return order[np.arange(n_rows) * len(order) // n_rows]
 
 
 def _matrix(grays: NDArray[np.float64], colors: NDArray[np.float64]) -> Pixels:
-    """Return the picture of a matrix, with its rows' colors at its sides."""
+    """Return the pixels of a matrix, with part colors on the left and top margins."""
     n_rows = len(grays)
     pixels = np.ones((n_rows + _MARGIN, n_rows + _MARGIN, 3))
     pixels[_MARGIN:, _MARGIN:] = grays[:, :, None]

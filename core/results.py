@@ -1,4 +1,4 @@
-"""What the computations return: plain values of NumPy arrays, each with its units."""
+"""Types of all results: frozen dataclasses of NumPy arrays, with their units."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class Decomposition:
     Attributes
     ----------
     labels : (P,) int
-        Part of each polygon, or of each point of a cloud, counted from 0. Part 0 has
-        the largest area.
+        Number of the part of each polygon, or of each point of a cloud. Part 0 has the
+        largest area.
     areas : (K,) float
-        Area of each part, in the units of the shape squared.
+        Area of each part, in squared units of the shape.
     face_counts : (K,) int
         Number of polygons, or of points, of each part.
     ranks : (K,) float
@@ -28,7 +28,8 @@ class Decomposition:
     psi_before : float
         Psi of the whole shape as one part.
     psi : float
-        Quality psi of the parts (eq. 5).
+        Quality of the parts: visible pairs of samples within parts, plus alpha times
+        hidden pairs between parts, as a share of all pairs (eq. 5).
     psi_by_k : dict of int to float
         Psi for every number of parts k that was tried, before seams were cut.
     best_k : int
@@ -36,7 +37,7 @@ class Decomposition:
     notes : tuple of str
         Sentences to the user.
     normals : (P, 3) float or None
-        Outward unit normals of the points of a cloud that had none, or wrong ones.
+        Outward unit normals of a point cloud, if they had to be found or corrected.
     """
 
     labels: NDArray[np.int64]
@@ -56,7 +57,7 @@ class Decomposition:
         return len(self.areas)
 
     def __repr__(self) -> str:
-        """Return the figures in a line."""
+        """Return the number of parts and psi in one line."""
         parts = "1 part" if self.n_parts == 1 else f"{self.n_parts} parts"
         return f"Decomposition({parts}, psi {self.psi_before:.2f} -> {self.psi:.2f})"
 
@@ -83,27 +84,28 @@ class Measurement:
     notes: tuple[str, ...]
 
     def __repr__(self) -> str:
-        """Return the figures in a line."""
+        """Return the rank, its error and the number of samples in one line."""
         error = f" ± {self.standard_error:.3f}" if self.standard_error else ""
         return f"Measurement(rank {self.rank:.3f}{error}, {self.n_samples} samples)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HullDecomposition:
-    """Collision shapes that together stand for a shape, in its units.
+    """Convex collision shapes that together approximate a shape, in its units.
 
     Attributes
     ----------
     shapes : tuple of CollisionShape
-        The largest first.
+        Sorted, the largest first.
     errors : (K,) float
-        CoACD's concavity of the convex hull of each piece. Half of the longest side of
-        the shape is 1.
+        Concavity of each piece as CoACD defines it, where 1 is half of the longest side
+        of the shape.
     parts : (K,) int
-        Part that each shape belongs to, −1 where no parts were given.
+        Number of the part that each collision shape belongs to, −1 if no parts were
+        given.
     volume_ratio : float
-        Sum of the volumes of the shapes over the volume of the solid, `inf` for a
-        shape without an inside.
+        Sum of the volumes of the collision shapes, divided by the volume of the solid;
+        `inf` for a shape without an inside.
     notes : tuple of str
         Sentences to the user.
     """
@@ -116,33 +118,34 @@ class HullDecomposition:
 
     @property
     def n_hulls(self) -> int:
-        """Number of shapes K."""
+        """Number of collision shapes K."""
         return len(self.shapes)
 
     @property
     def has_parts(self) -> bool:
-        """Whether each shape belongs to a part that was given."""
+        """Whether parts were given, so that each collision shape belongs to one."""
         return bool(self.parts.min() >= 0)
 
     def __repr__(self) -> str:
-        """Return the figures in a line."""
+        """Return the number of hulls and the largest error in one line."""
         hulls = "1 hull" if self.n_hulls == 1 else f"{self.n_hulls} hulls"
         return f"HullDecomposition({hulls}, largest error {self.errors.max():.3f})"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class View:
-    """What a point of a surface sees, in the units of the shape.
+    """The samples of a surface that one of its points sees, in units of the shape.
 
     Attributes
     ----------
     point : (3,) float
+        The point that looks.
     places : (N, 3) float
-        Samples of the surface.
+        Positions of the samples.
     normals : (N, 3) float
-        Outward unit vectors at the samples.
+        Outward unit normals at the samples.
     visible : (N,) bool
-        Which samples are in line of sight of the point.
+        Whether each sample is in line of sight of the point.
     """
 
     point: NDArray[np.float64]
@@ -151,18 +154,18 @@ class View:
     visible: NDArray[np.bool_]
 
     def __repr__(self) -> str:
-        """Return the figures in a line."""
+        """Return the share of visible samples in one line."""
         return f"View({self.visible.mean():.0%} of {len(self.visible)} samples visible)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Picture:
-    """A picture of what the parts come from.
+    """A diagram of a decomposition, such as its LoS matrix sorted by part.
 
     Attributes
     ----------
     pixels : (H, W, 3) float
-        sRGB from 0 to 1. The first row is the upper one.
+        sRGB from 0 to 1. The first row is the top one.
     notes : tuple of str
         Sentences to the user.
     """
@@ -171,6 +174,6 @@ class Picture:
     notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        """Return the size."""
+        """Return the width and height in one line."""
         height, width, _ = self.pixels.shape
         return f"Picture({width} x {height} pixels)"

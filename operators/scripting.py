@@ -1,4 +1,4 @@
-"""The public functions: a shape and settings in, the finished result out."""
+"""The public functions of the package: `decompose`, `measure` and `build_hulls`."""
 
 from __future__ import annotations
 
@@ -33,47 +33,37 @@ def decompose(
 
     Parameters
     ----------
-    shape : object
-        Vertices, (V, 3) float, in any unit; a `TriangleMesh`; a `PointCloud`; a
-        Blender object, read without its modifiers; or anything with `vertices` and
-        `faces`, such as a `trimesh.Trimesh`.
+    shape : (V, 3) float, TriangleMesh, PointCloud, bpy.types.Object or trimesh.Trimesh
+        Or any object with `vertices` and `faces`. Modifiers of an object are ignored.
     faces : (F, 3) int or sequence of sequences of int, optional
-        Rows of the vertices around each triangle, or polygon of any number of
-        corners, counter-clockwise from outside. Vertices without faces are points.
-    parameters : Parameters, optional
-        The settings; all at their defaults if None.
+        Vertex rows of each face, counter-clockwise from outside; None for points.
+    parameters : Parameters, default ``Parameters()``
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` now and then; fraction rises to 1.
-    **changes
-        Fields of `Parameters` with another value than in `parameters`.
+        Called as ``progress(stage, fraction)`` while the fraction rises to 1.
+    **changes : values of fields of `Parameters`, such as ``parts=5``
 
     Returns
     -------
     Decomposition
-        Its `labels`, (F,) int, are the part of each row of `faces`, or of each point.
+        Its `labels`, (F,) int, are the parts of the faces or points. Uses eq. 3 and 5.
 
     Raises
     ------
     TypeError
-        If an argument is of another type, or a keyword names no parameter.
+        If an argument has a wrong type, or a keyword is no field of `Parameters`.
     DecompositionError
-        If the shape or a parameter makes no sense, or no ray caster is installed.
+        If a value makes no sense, or no ray caster is installed.
 
     References
     ----------
-    Asafi, Goren, Cohen-Or, "Weak Convex Decomposition by Lines-of-sight", 2013:
-    samples are embedded by eq. 3, parts are compared by psi, eq. 5.
+    Asafi, Goren, Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight".
 
     Examples
     --------
-    An L in one hexagon below, one above and six walls:
-
     >>> from weak_convex_decomposition import decompose
-    >>> outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
-    >>> vertices = [(x, y, z) for z in (0, 1) for x, y in outline]
-    >>> walls = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
-    >>> faces = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *walls]
-    >>> decompose(vertices, faces, samples=400).n_parts
+    >>> vertices = [(*p, z) for z in (0, 1) for p in [(0, 0), (5, 0), (1, 1), (0, 5)]]
+    >>> walls = [(i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4) for i in range(4)]
+    >>> decompose(vertices, [(3, 2, 1, 0), (4, 5, 6, 7), *walls], samples=400).n_parts
     2
     """
     settings = _settings("decompose", parameters, Parameters, changes)
@@ -90,45 +80,37 @@ def measure(
     progress: ShowProgress | None = None,
     **changes: Any,
 ) -> Measurement:
-    """Estimate the convexity rank of a shape: how far it sees itself.
+    """Estimate the convexity rank of a shape: the share of pairs that see each other.
 
     Parameters
     ----------
-    shape : object
-        Vertices, (V, 3) float, in any unit; a `TriangleMesh`; a `PointCloud`; a
-        Blender object, read without its modifiers; or anything with `vertices` and
-        `faces`, such as a `trimesh.Trimesh`.
+    shape : (V, 3) float, TriangleMesh, PointCloud, bpy.types.Object or trimesh.Trimesh
+        Or any object with `vertices` and `faces`. Modifiers of an object are ignored.
     faces : (F, 3) int or sequence of sequences of int, optional
-        Rows of the vertices around each triangle, or polygon of any number of
-        corners, counter-clockwise from outside. Vertices without faces are points.
-    parameters : Parameters, optional
-        The settings; only those of samples and lines of sight matter.
+        Vertex rows of each face, counter-clockwise from outside; None for points.
+    parameters : Parameters, default ``Parameters()``
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` now and then; fraction rises to 1.
-    **changes
-        Fields of `Parameters` with another value than in `parameters`.
+        Called as ``progress(stage, fraction)`` while the fraction rises to 1.
+    **changes : values of fields of `Parameters`, such as ``samples=800``
 
     Returns
     -------
     Measurement
-        Its `rank` is the share of pairs of points of the surface that see each other
-        through the inside: 1 for a convex shape, less for others.
+        Its `rank` is 1 for a convex shape, and less for others.
 
     Raises
     ------
     TypeError
-        If an argument is of another type, or a keyword names no parameter.
+        If an argument has a wrong type, or a keyword is no field of `Parameters`.
     DecompositionError
-        If the shape or a parameter makes no sense, or no ray caster is installed.
+        If a value makes no sense, or no ray caster is installed.
 
     References
     ----------
-    Asafi, Goren, Cohen-Or, "Weak Convex Decomposition by Lines-of-sight", 2013: eq. 1.
+    Asafi, Goren, Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight", eq. 1.
 
     Examples
     --------
-    A tetrahedron is convex:
-
     >>> from weak_convex_decomposition import measure
     >>> vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
     >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
@@ -155,22 +137,13 @@ def build_hulls(
 
     Parameters
     ----------
-    mesh : object
-        Vertices, (V, 3) float, in any unit; a `TriangleMesh`; a Blender object with a
-        mesh, read without its modifiers; or anything with `vertices` and `faces`,
-        such as a `trimesh.Trimesh`.
-    faces : (F, 3) int or sequence of sequences of int, optional
-        Rows of the vertices around each triangle, or polygon of any number of
-        corners, counter-clockwise from outside.
+    mesh : (V, 3) float, TriangleMesh, bpy.types.Object, or with `vertices` and `faces`
+    faces : (F, 3) int or lists of vertex rows, counter-clockwise from outside, optional
     labels : (F,) int, optional
-        Part of each row of `faces`, from 0, as `decompose` finds them. Tells the part
-        that each hull is of; ``pieces="PARTS"`` needs it.
-    parameters : HullParameters, optional
-        The settings; all at their defaults if None.
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` now and then; fraction rises to 1.
-    **changes
-        Fields of `HullParameters` with another value than in `parameters`.
+        Part of each face, from 0; ``pieces="PARTS"`` needs it.
+    parameters : HullParameters, default ``HullParameters()``
+    progress : callable, called as ``progress(stage, fraction)``, optional
+    **changes : values of fields of `HullParameters`, such as ``shape="BOX"``
 
     Returns
     -------
@@ -179,27 +152,19 @@ def build_hulls(
 
     Raises
     ------
-    TypeError
-        If an argument is of another type, or a keyword names no parameter.
-    DecompositionError
-        If the mesh, the labels or a parameter make no sense.
+    TypeError, DecompositionError
+        If an argument has a wrong type, or a value that makes no sense.
 
     References
     ----------
-    Wei, Liu, Ling, Su, "Approximate Convex Decomposition for 3D Meshes with
-    Collision-Aware Concavity and Tree Search", 2022: `errors`.
+    Wei, Liu, Ling, Su 2022, CoACD, section 4: the `errors` of the hulls.
 
     Examples
     --------
-    An L in two boxes:
-
     >>> from weak_convex_decomposition import build_hulls
-    >>> outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
-    >>> vertices = [(x, y, z) for z in (0, 1) for x, y in outline]
-    >>> walls = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
-    >>> faces = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *walls]
-    >>> build_hulls(vertices, faces, shape="BOX").n_hulls
-    2
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> build_hulls([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], faces).n_hulls
+    1
     """
     settings = _settings("build_hulls", parameters, HullParameters, changes)
     solid = mesh_of(mesh, faces)
@@ -215,7 +180,7 @@ def _settings(
     kind: type[Settings],
     changes: dict[str, Any],
 ) -> Settings:
-    """Return the settings with some of them changed, or raise if they are none."""
+    """Return `parameters` with the fields in `changes` replaced; TypeError if wrong."""
     if parameters is not None and not isinstance(parameters, kind):
         raise TypeError(
             f"`parameters` must be {kind.__name__}, not {type(parameters).__name__}."
@@ -230,7 +195,7 @@ def _settings(
 
 
 def _finish(steps: Steps[T], progress: ShowProgress | None) -> T:
-    """Run `steps` to their end and tell `progress` how far they are."""
+    """Run `steps` to their end and report their progress to the callable `progress`."""
     if progress is None:
         return run(steps)
 

@@ -1,1 +1,1 @@
-"""Collision hulls: a solid cut into pieces, and convex shapes around them."""
+"""Collision hulls: cut a solid into pieces and put a convex shape around each."""

@@ -1,4 +1,4 @@
-"""Where to cut a piece so that the hulls of both sides stray least."""
+"""Find the plane that cuts a piece into two sides with the cheapest hulls."""
 
 from __future__ import annotations
 
@@ -13,22 +13,33 @@ from .cut_planes import ranked_planes
 from .piece import Cell, cut
 from .solid import Solid
 
-# Cuts that are made to see which is best; those alike count as one.
+# Number of planes that are cut with, to compare the exact costs of both sides.
 _TRIES = 8
+# Two planes count as the same above this cosine between their normals and below this
+# difference of their offsets; the longest side of the shape is 2.
 _ALIKE = 0.95
 _NEAR = 0.05
 
 
 def best_cut(solid: Solid, cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
-    """Return the two sides of the plane after which hulls stray least.
+    """Cut a piece by the plane whose two sides have the lowest cost.
 
-    Planes are compared by the volume that the hulls of both sides add, and the best
-    few by the sum of both errors.
+    All planes are ranked by the volume that the hulls of both sides add. Only the
+    first few different ones are cut with, and compared by `cost_of_sides`: the errors
+    of both hulls and the volume that they add.
+
+    Parameters
+    ----------
+    solid : Solid
+        The uncut solid.
+    cell : Cell
+        The piece of it to cut.
 
     Returns
     -------
     Steps of tuple of two Cells or None
-        None if no plane has some of the surface on both sides.
+        The pieces below and above the plane. None if no plane has some of the surface
+        on both sides.
     """
     best, least = None, np.inf
     solid_volume = float(solid.volumes.sum())
@@ -47,7 +58,7 @@ def best_cut(solid: Solid, cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
 
 
 def _distinct(planes: NDArray[np.float64]) -> Iterator[NDArray[np.float64]]:
-    """Yield the first few planes that are not nearly the same."""
+    """Yield the first planes (4,) that differ from those before, `_TRIES` at most."""
     taken = np.zeros((0, 4))
     for plane in planes:
         along = taken[:, :3] @ plane[:3]

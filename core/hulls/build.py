@@ -1,4 +1,4 @@
-"""A shape in convex hulls: cut until they are close, joined where they may be."""
+"""Build collision shapes: cut a solid into pieces, join some, fit a shape to each."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from .joining import join_pieces
 from .piece import Cell, Piece, piece_of_part, whole
 from .solid import Solid, solid_of
 
-# Pieces are cut until there are this many times as many as hulls asked for: joining
-# them makes up for cuts that looked best one by one.
+# Number of pieces to cut, as a multiple of the number of hulls allowed. Each cut is
+# the best one only at its turn; joining the surplus pieces corrects that.
 _SURPLUS = 2.0
 
 
@@ -32,24 +32,26 @@ def build_hulls_in_steps(
     labels: NDArray[np.int64] | None = None,
     seed: int = 0,
 ) -> Steps[HullDecomposition]:
-    """Put convex shapes around a mesh.
+    """Put convex collision shapes around a mesh.
+
+    The error of a hull is CoACD's concavity (Wei et al. 2022); see `Piece.error`.
 
     Parameters
     ----------
     shape : TriangleMesh
     parameters : HullParameters
     cache : ShapeCache
-        Keeps the mesh made ready.
+        Prepares the mesh and keeps it for the next call.
     labels : (P,) int, optional
-        Part of each polygon, counted from 0. They are needed for one shape a part, and
-        tell which part a hull belongs to.
+        Part of each polygon, counted from 0. Tells the part that each hull belongs to.
+        With ``pieces="PARTS"``, each part is one piece.
     seed : int
-        Of the samples.
+        Seed of the random surface samples.
 
     Returns
     -------
     Steps of HullDecomposition
-        It yields `Progress`; `run` returns its value.
+        Shapes in the units of the mesh, the largest first.
 
     Raises
     ------
@@ -62,10 +64,10 @@ def build_hulls_in_steps(
         )
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
     mesh = prepared.solid
-    assert mesh is not None  # a mesh has one
+    assert mesh is not None  # None for point clouds only
     low, high = shape.bounds
     size = float((high - low).max()) / 2
-    # From a diagonal of 1 to CoACD's units: the longest side is 2.
+    # The prepared mesh has diagonal 1; in CoACD's units, the longest side is 2.
     vertices = mesh.vertices * (shape.diagonal / size)
     yield Progress("Solid", 0.0)
     steps = solid_of(replace(mesh, vertices=vertices), seed)
@@ -76,7 +78,7 @@ def build_hulls_in_steps(
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
     else:
         pieces = yield from _within_error(solid, parameters)
-    # Rounded: those of one size stay in the order in which they were cut.
+    # Rounded, so that pieces of equal size stay in the order they were cut in.
     pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
     center = (high + low) / 2
     shapes, main_parts = [], []
@@ -99,14 +101,14 @@ def build_hulls_in_steps(
 def _parts_of_triangles(
     mesh: TriangleMesh, labels: NDArray[np.int64] | None
 ) -> NDArray[np.int64]:
-    """Return the part of each triangle, (T,); one for all without labels."""
+    """Return the part of each triangle, (T,); 0 for all without labels."""
     if labels is None:
         return np.zeros(len(mesh.triangles), dtype=np.int64)
     return labels[mesh.polygons]
 
 
 def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]]:
-    """Return pieces within the largest error, as far as so many may be."""
+    """Cut and join pieces until errors are allowed, with `max_hulls` pieces at most."""
     most = parameters.max_hulls
     cells = yield from within(
         _cut(solid, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
@@ -115,7 +117,7 @@ def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]
 
 
 def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
-    """Cut the piece that strays farthest, again and again."""
+    """Cut the piece of largest error repeatedly, into `most` pieces at most."""
     cells = [whole(solid)]
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
@@ -133,7 +135,7 @@ def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
 
 
 def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
-    """Return the part that most of the surface in a piece's hull is of."""
+    """Return the part that most of the surface samples in a piece's hull belong to."""
     low, high = piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0)
     near = ((low <= solid.samples) & (solid.samples <= high)).all(axis=1)
     near[near] = piece.hull.heights(solid.samples[near]) <= 0
@@ -141,7 +143,7 @@ def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
 
 
 def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str, ...]:
-    """Say why the error is larger than asked for, if so."""
+    """Return a note if the largest error is above `max_error`, else nothing."""
     if parameters.pieces == "PARTS" or errors.max() <= parameters.max_error:
         return ()
     return (

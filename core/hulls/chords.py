@@ -1,29 +1,38 @@
-"""Lines through a shape, as far as they run through its inside."""
+"""Chords: segments of axis-parallel lines that run through the inside of a shape.
+
+Each chord stands for the volume of the prism around it.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-# Lines across the longest side.
+# Number of lines along the longest side of the bounding box.
 _LINES = 40
 
 
 def chords_along(
     corners: NDArray[np.float64], axis: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return pieces of lines along an axis through the inside of triangles.
+    """Return the chords along an axis, split into short ones.
+
+    Lines form a square grid. A line is inside where it has entered more triangles
+    than it has left. No chord is longer than the distance between two lines.
 
     Parameters
     ----------
     corners : (T, 3, 3) float
+        Corners of the triangles, counter-clockwise seen from outside.
     axis : int
+        0, 1 or 2: the lines are parallel to X, Y or Z.
 
     Returns
     -------
     centers : (C, 3) float
+        Middle of each chord.
     volumes : (C,) float
-        Of the prism around each piece; in all, the volume as these lines see it.
+        Volume of the prism around each chord. Their sum estimates the volume inside.
     """
     sides = [(axis + 1) % 3, (axis + 2) % 3]
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
@@ -52,16 +61,17 @@ def chords_along(
 def _crossings(
     corners: NDArray[np.float64], axis: int, lines: list[NDArray[np.float64]]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-    """Return where lines along an axis cross triangles.
+    """Return the crossings of a grid of lines along an axis with triangles.
 
     Returns
     -------
     line : (M,) int
-        Of the lines in row-major order.
+        Number of the line, in row-major order of the grid.
     heights : (M,) float
-        Coordinate along the axis.
+        Coordinate of the crossing along the axis.
     turns : (M,) int
-        1 where a line going up comes in, −1 where it goes out.
+        1 where a line in the direction of the axis enters the inside, −1 where it
+        leaves it.
     """
     sides = [(axis + 1) % 3, (axis + 2) % 3]
     flat = corners[:, :, sides]
@@ -81,7 +91,7 @@ def _crossings(
     spots = np.stack([lines[0][column], lines[1][row]], axis=1)
     a, b, c = np.moveaxis(flat[triangle], 1, 0)
     double_area = _cross(b - a, c - a)
-    facing = double_area != 0  # others are seen edge on
+    facing = double_area != 0  # the others are parallel to the lines
     shares = np.zeros((len(triangle), 3))
     np.divide(_cross(spots - a, c - a), double_area, out=shares[:, 1], where=facing)
     np.divide(_cross(b - a, spots - a), double_area, out=shares[:, 2], where=facing)
@@ -93,6 +103,6 @@ def _crossings(
 
 
 def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the cross products of vectors in the plane, (M,)."""
+    """Return the cross products of 2D vectors (M, 2), (M,)."""
     product: NDArray[np.float64] = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
     return product

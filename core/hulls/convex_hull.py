@@ -1,4 +1,4 @@
-"""Convex hulls: of any points, outwards, of few vertices."""
+"""Compute convex hulls, simplify them to few vertices and offset their faces."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 from ..geometry.frames import heights_above, principal_axes
 from ..geometry.primitives import Hull
 
-# Vertices that a simplified hull gets in each round, at least.
+# Least number of vertices added to a simplified hull in each round.
 _VERTICES_A_ROUND = 6
 
 
@@ -19,9 +19,14 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
     Parameters
     ----------
     points : (N, 3) float
-        One or more; any may coincide or lie in a line or a plane.
+        One point or more. They may coincide, or lie on a line or in a plane.
     thin : float
-        Thickness that the hull gets where the points have none.
+        Thickness of the hull of flat points, in the unit of the points.
+
+    Returns
+    -------
+    Hull
+        Triangles face outwards.
     """
     try:
         return _hull(points)
@@ -30,7 +35,17 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
 
 
 def hull_volume(points: NDArray[np.float64]) -> float:
-    """Return the volume of the convex hull of points (N, 3), 0 if they are flat."""
+    """Return the volume of the convex hull of points.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+
+    Returns
+    -------
+    float
+        In the cubed unit of the points; 0 if they are flat.
+    """
     try:
         return float(ConvexHull(points).volume)
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
@@ -38,18 +53,24 @@ def hull_volume(points: NDArray[np.float64]) -> float:
 
 
 def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
-    """Return the hull of some of the vertices of a hull.
+    """Return a simpler hull, made of some of the vertices of a hull.
 
-    Vertices are taken where they are farthest out of those taken before.
+    Starts with a tetrahedron. Each round adds the vertices that are farthest outside
+    the facets of the hull so far.
 
     Parameters
     ----------
     hull : Hull
     max_vertices : int
-        4 or more.
+        Largest number of vertices, 4 or more.
     tolerance : float
-        Vertices that are less far out are left out, however many there may be: single
-        precision makes creases of what is nearly flat.
+        Vertices that are less than this far outside are left out, even where more
+        are allowed: single precision turns nearly flat faces into creases.
+
+    Returns
+    -------
+    Hull
+        It lies within `hull`.
     """
     chosen = _tetrahedron(hull.vertices)
     coarse = _hull(hull.vertices[chosen])
@@ -68,9 +89,18 @@ def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
 
 
 def offset(hull: Hull, margin: float) -> Hull:
-    """Return the hull with its planes moved outwards, or inwards, by `margin`.
+    """Return a hull with the planes of its faces moved outwards.
 
-    One that would vanish stays as it is.
+    Parameters
+    ----------
+    hull : Hull
+    margin : float
+        Distance, in the unit of the hull; moves planes inwards if negative.
+
+    Returns
+    -------
+    Hull
+        The hull as it was if it would vanish.
     """
     if margin == 0:
         return hull
@@ -85,7 +115,17 @@ def offset(hull: Hull, margin: float) -> Hull:
 
 
 def directions(count: int) -> NDArray[np.float64]:
-    """Return unit vectors spread evenly over the sphere, (count, 3)."""
+    """Return unit vectors spread evenly over the sphere.
+
+    Parameters
+    ----------
+    count : int
+
+    Returns
+    -------
+    (count, 3) float
+        Points of a Fibonacci spiral, from the top down.
+    """
     heights = 1 - (2 * np.arange(count) + 1) / count
     turns = np.pi * (1 + np.sqrt(5)) * np.arange(count)
     radii = np.sqrt(1 - heights**2)
@@ -93,7 +133,7 @@ def directions(count: int) -> NDArray[np.float64]:
 
 
 def _hull(points: NDArray[np.float64]) -> Hull:
-    """Return the hull of points that are not flat; raises what Qhull raises."""
+    """Return the hull of points; raise QhullError or ValueError if they are flat."""
     found = ConvexHull(points)
     rows = np.full(len(points), -1)
     rows[found.vertices] = np.arange(len(found.vertices))
@@ -111,7 +151,7 @@ def _hull(points: NDArray[np.float64]) -> Hull:
 
 
 def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
-    """Return points with copies on both sides wherever they are thinner than `thin`."""
+    """Return points made at least `thin` thick along each of their principal axes."""
     center = points.mean(axis=0)
     for axis in principal_axes(points):
         heights = (points - center) @ axis
@@ -122,7 +162,7 @@ def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
 
 
 def _tetrahedron(points: NDArray[np.float64]) -> list[int]:
-    """Return four rows of points that span a volume: each far from those before."""
+    """Return the rows of four points far apart, the corners of a tetrahedron."""
     rows = [int(np.linalg.norm(points - points.mean(axis=0), axis=1).argmax())]
     offsets = points - points[rows[0]]
     for _ in range(3):

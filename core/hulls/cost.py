@@ -1,6 +1,6 @@
-"""What hulls cost: their errors, and the volume that they add.
+"""Costs by which cuts and joints are compared: errors of hulls and added volume.
 
-Errors alone cannot tell a snug hull from one that fills what is thin.
+Errors alone cannot tell a tight hull from one that fills a thin gap.
 """
 
 from __future__ import annotations
@@ -12,39 +12,87 @@ import numpy as np
 from .convex_hull import hull_volume
 from .piece import Piece, volume_error
 
-# Error that adding the whole volume of the solid is worth.
+# Cost of hulls that add as much volume as the whole solid has, in units of error.
 _PRICE = 1.0
-# Errors of joints cost by this power, 1 at the large one: the largest of all hulls'
-# errors is what counts, and small ones hardly matter.
+# The error of a joint costs (error / _LARGE) ** _POWER. The largest error of all hulls
+# is the one that counts, so small errors cost almost nothing.
 _LARGE = 0.07
 _POWER = 4
 
 
 def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return what the hulls of both sides of a cut cost."""
+    """Return the cost of the hulls of both sides of a cut.
+
+    Parameters
+    ----------
+    one, other : Piece
+        The two sides.
+    solid_volume : float
+        Volume of the whole solid.
+
+    Returns
+    -------
+    float
+        Root of the sum of both squared errors, plus the price of the added volume.
+    """
     errors = np.hypot(one.error, other.error)
     return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 
 def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return what both sides of a cut cost at least: as far as their volumes tell.
+    """Return a lower bound of `cost_of_sides`, found from volumes alone.
 
-    The other term of their errors takes as long as all the rest.
+    The other term of the errors, the Hausdorff distance, takes as long to compute as
+    everything else together.
+
+    Parameters
+    ----------
+    one, other : Piece
+        The two sides.
+    solid_volume : float
+        Volume of the whole solid.
+
+    Returns
+    -------
+    float
     """
     errors = np.hypot(one.volume_error, other.volume_error)
     return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 
 def cost_of_joint(joint: Piece, solid_volume: float) -> float:
-    """Return what the hull of two pieces as one costs."""
+    """Return the cost of the hull of two joined pieces.
+
+    Parameters
+    ----------
+    joint : Piece
+        The two pieces as one.
+    solid_volume : float
+        Volume of the whole solid.
+
+    Returns
+    -------
+    float
+    """
     price = _price(joint.added_volume, solid_volume)
     return _rounded((joint.error / _LARGE) ** _POWER + price)
 
 
 def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return what two pieces as one cost at least: as far as their volume tells.
+    """Return a lower bound of `cost_of_joint`, found from volumes alone.
 
-    The other term of their error takes far longer.
+    The other term of the error, the Hausdorff distance, takes far longer to compute.
+
+    Parameters
+    ----------
+    one, other : Piece
+        Pieces that are not joined yet.
+    solid_volume : float
+        Volume of the whole solid.
+
+    Returns
+    -------
+    float
     """
     points = np.concatenate([one.hull.vertices, other.hull.vertices])
     added = hull_volume(points) - one.volume - other.volume
@@ -53,16 +101,16 @@ def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
 
 
 def _price_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return what the volume added on both sides of a cut costs."""
+    """Return the price of the volume that the hulls of both sides of a cut add."""
     added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
     return _price(added, solid_volume)
 
 
 def _price(added: float, solid_volume: float) -> float:
-    """Return what an added volume costs; nothing where the solid has none."""
+    """Return the price of an added volume; 0 if the solid has no volume."""
     return _PRICE * max(added, 0.0) / solid_volume if solid_volume > 0 else 0.0
 
 
 def _rounded(cost: float | np.floating[Any]) -> float:
-    """Return a cost without the noise that would choose between what is alike."""
+    """Return a rounded cost, so that noise does not decide between equal costs."""
     return round(float(cost), 6)

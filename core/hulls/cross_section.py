@@ -1,4 +1,4 @@
-"""Planes through a shape: contours and cross-sections."""
+"""Cut a shape by a plane: find the contour and sample the cross-section inside it."""
 
 from __future__ import annotations
 
@@ -10,28 +10,33 @@ from numpy.typing import NDArray
 from ..geometry.frames import frames, heights_above
 from .solid import Solid
 
-# Distance of points in a cross-section; the longest side of a shape is 2.
+# Distance between the sample points of a cross-section; the longest side is 2.
 _GRAIN = 0.04
 
 
 def contour(
     corners: NDArray[np.float64], plane: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return where a plane meets triangles: segments (S, 2, 3).
-
-    The inside is on the left, as seen along the normal.
+    """Return the segments in which a plane meets triangles.
 
     Parameters
     ----------
     corners : (T, 3, 3) float
+        Corners of the triangles, counter-clockwise seen from outside.
     plane : (4,) float
-        n · x + d = 0 on it.
+        Unit normal n and offset d: n · x + d = 0 on the plane.
+
+    Returns
+    -------
+    (S, 2, 3) float
+        Start and end of each segment. The inside of the shape is on its left, seen
+        from the side that n points to.
     """
     heights = corners @ plane[:3] + plane[3]
     under = heights <= 0
     n_under = under.sum(axis=1)
     met = np.flatnonzero((n_under > 0) & (n_under < 3))
-    # Each is turned so that the corner alone on its side comes first.
+    # Rotate the corners of each triangle: the one alone on its side comes first.
     lone_under = n_under[met] == 1
     alone = np.where(lone_under[:, None], under[met], ~under[met])
     turn = (alone.argmax(axis=1)[:, None] + np.arange(3)) % 3
@@ -45,17 +50,18 @@ def contour(
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """Where a plane cuts the inside of a shape.
+    """The cross-section of a shape in a plane.
 
     Attributes
     ----------
     plane : (4,) float
+        Unit normal n and offset d: n · x + d = 0 on the plane.
     axes : (2, 3) float
-        Of the plane.
+        Orthogonal unit vectors in the plane.
     rim : (S, 2, 3) float
         Segments of the contour.
     segments : (S, 2, 2) float
-        The same along `axes`.
+        The same segments in 2D, as coordinates along `axes`.
     """
 
     plane: NDArray[np.float64]
@@ -64,7 +70,18 @@ class Section:
     segments: NDArray[np.float64]
 
     def rim_within(self, planes: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the ends of what of the rim is below all planes (P, 4), (M, 3)."""
+        """Clip the contour to the space below planes.
+
+        Parameters
+        ----------
+        planes : (P, 4) float
+            n · x + d ≤ 0 below each.
+
+        Returns
+        -------
+        (M, 3) float
+            Both ends of each clipped segment.
+        """
         starts, ends = (heights_above(planes, self.rim[:, end]).T for end in (0, 1))
         fall = np.where(starts == ends, 1.0, starts - ends)
         crossed = starts / fall
@@ -78,7 +95,17 @@ class Section:
         return points.reshape(-1, 3)
 
     def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return points spread evenly in the box around points (P, 3), (M, 3)."""
+        """Return the points of a square grid that are inside the cross-section.
+
+        Parameters
+        ----------
+        within : (P, 3) float
+            The grid covers the 2D bounding box of these points.
+
+        Returns
+        -------
+        (M, 3) float
+        """
         flat = within @ self.axes.T
         steps = [
             np.arange(low + 0.39 * _GRAIN, high, _GRAIN)
@@ -89,7 +116,17 @@ class Section:
         return spots @ self.axes - self.plane[3] * self.plane[:3]
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return which points (M, 3) of the plane are inside, (M,)."""
+        """Return which points of the plane are inside the cross-section.
+
+        Parameters
+        ----------
+        points : (M, 3) float
+
+        Returns
+        -------
+        (M,) bool
+            False where the contour is open on the point's line along the first axis.
+        """
         across, up = (points @ self.axes.T).T[..., None]
         (x0, y0), (x1, y1) = self.segments.transpose(1, 2, 0)
         turns = (y1 > up).astype(np.int64) - (y0 > up)
@@ -101,7 +138,18 @@ class Section:
 
 
 def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
-    """Return where a plane (4,) cuts the inside of a solid."""
+    """Return the cross-section of a solid in a plane.
+
+    Parameters
+    ----------
+    solid : Solid
+    plane : (4,) float
+        Unit normal n and offset d: n · x + d = 0 on the plane.
+
+    Returns
+    -------
+    Section
+    """
     axes = np.concatenate(frames(plane[None, :3]))
     rim = contour(solid.corners, plane)
     return Section(plane, axes, rim, rim @ axes.T)
@@ -110,7 +158,7 @@ def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
 def _is_inside(
     segments: NDArray[np.float64], across: NDArray[np.float64], up: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return which points of a grid are in a contour of segments (S, 2, 2), (U, A)."""
+    """Return which points of a grid are inside a 2D contour (S, 2, 2), (U, A)."""
     (x0, y0), (x1, y1) = segments.transpose(1, 2, 0)
     turns = (y1 > up[:, None]).astype(np.int64) - (y0 > up[:, None])
     rows, crossed = np.nonzero(turns)
@@ -119,5 +167,6 @@ def _is_inside(
     windings = np.zeros((len(up), len(across) + 1), dtype=np.int64)
     np.add.at(windings, (rows, columns), turns[rows, crossed])
     windings = np.cumsum(windings, axis=1)
-    # A row across an open contour does not come back to 0: nothing tells its inside.
+    # A row whose winding number does not return to 0 crosses an open contour; its
+    # inside is not defined.
     return (windings[:, :-1] != 0) & (windings[:, -1:] == 0)

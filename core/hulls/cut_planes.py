@@ -1,4 +1,4 @@
-"""Planes through a piece, ranked by the volume that the hulls of both sides add."""
+"""Rank planes through a piece by the volume that the hulls of both sides would add."""
 
 from __future__ import annotations
 
@@ -12,30 +12,45 @@ from ..steps.progress import Progress, Steps
 from .extremes import reaches_of, volumes_beside
 from .piece import Cell
 
-# Planes along each direction, and around the best one of these in a second look.
+# Number of evenly spaced planes along each direction.
 _PLANES = 7
+# Offsets of further planes around the best of these, in units of their spacing.
 _BETWEEN = np.array([-2, -1, 1, 2]) / 3
-# Digits to which added volumes are compared.
+# Decimal digits to which added volumes are compared.
 _DIGITS = 7
-# Directions closer than this cosine are one.
+# Two directions count as the same above this cosine between them.
 _SAME = 0.995
-# Points that make a level, digits to which they agree, and levels near one plane.
+# A level is a height that at least this many points share, such as that of a flat face.
 _POINTS_IN_LEVEL = 4
+# Decimal digits to which the heights of one level agree.
 _LEVEL_DIGITS = 5
+# Largest number of levels tried around one plane.
 _MOST_LEVELS = 6
-# A plane passes a level so far on either side: faces in it then belong to one side.
+# Distance of planes above and below a level, so that its faces are all on one side.
 _SKIM = 1e-5
-# Points of a piece that are looked at, at most, and those that make a side.
+# Largest number of boundary points that planes are compared by.
 _MOST_POINTS = 2000
+# Least number of points on either side of a plane.
 _FEWEST_POINTS = 4
-# Width of a piece below which it counts as flat.
+# Least standard deviation of points along an axis, to divide by; the longest side is 2.
 _FLAT = 1e-6
 
 
 def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
-    """Return planes through a piece (P, 4), those first whose hulls add least volume.
+    """Return planes through a piece, ranked by the volume that both hulls add.
 
-    Yields Progress; `run` gets the value.
+    First, evenly spaced planes are tried along each direction. Then further planes are
+    tried around the best one of each direction, among them planes next to flat faces.
+
+    Parameters
+    ----------
+    cell : Cell
+
+    Returns
+    -------
+    Steps of (P, 4) float
+        Unit normal n and offset d of each plane, n · x + d = 0. Planes whose hulls add
+        least volume come first.
     """
     sketch = _sketch_of(cell)
     planes, added = [], []
@@ -45,8 +60,8 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         offsets = np.linspace(heights.min(), heights.max(), _PLANES + 2)[1:-1]
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += sketch.added_volumes(direction, offsets)
-    # Rounded, so that noise does not choose between planes that are alike. A step of
-    # what is built may lie between planes along any direction.
+    # Rounded, so that noise does not decide between equal planes. Flat faces may lie
+    # between the evenly spaced planes, so their levels are tried too.
     best = np.round(added, _DIGITS).reshape(-1, _PLANES).argmin(axis=1)
     for row in best + _PLANES * np.arange(len(best)):
         direction, offset = planes[row][:3], -planes[row][3]
@@ -64,18 +79,19 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
 
 @dataclass(frozen=True, eq=False)
 class _Sketch:
-    """A piece as some of its points, to compare many planes by.
+    """Some points of a piece, by which many planes are compared quickly.
 
     Attributes
     ----------
     cell : Cell
     points : (N, 3) float
     rounded : (N, 3) float
-        The same, as wide in every direction: extreme points tell nothing of a needle.
+        The points scaled to standard deviation 1 along each principal axis. Extreme
+        points in fixed directions describe a thin needle badly.
     reaches : (E, N) float
-        How far these are along the directions of extreme points.
+        Coordinates of `rounded` along the directions of `extremes`.
     scale : float
-        Volume of the piece over that of the rounded one.
+        Factor from volumes of `rounded` to volumes of the piece.
     """
 
     cell: Cell
@@ -87,14 +103,19 @@ class _Sketch:
     def added_volumes(
         self, direction: NDArray[np.float64], offsets: NDArray[np.float64]
     ) -> list[float]:
-        """Return the volume that hulls on both sides of parallel planes add, (K,).
+        """Return the volumes that the hulls of both sides of parallel planes add.
 
         Parameters
         ----------
         direction : (3,) float
-            The planes' normal.
+            Unit normal of the planes.
         offsets : (K,) float
-            How far they are along it, rising.
+            Coordinate of each plane along `direction`, ascending.
+
+        Returns
+        -------
+        list of float, K
+            `inf` for planes with too few points on one side.
         """
         heights = self.points @ direction
         order = np.argsort(heights)
@@ -111,7 +132,7 @@ class _Sketch:
 
 
 def _sketch_of(cell: Cell) -> _Sketch:
-    """Return a piece as some of its points."""
+    """Choose the points of a piece, and scale them to equal widths."""
     points = np.concatenate([cell.boundary, cell.points])
     points = points[:: -(-len(points) // _MOST_POINTS)]
     points = np.concatenate([points, cell.hull.vertices])
@@ -123,13 +144,13 @@ def _sketch_of(cell: Cell) -> _Sketch:
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return heights that several points share, as in a step of what is built."""
+    """Return the heights that several points share, such as those of flat faces."""
     levels, counts = np.unique(np.round(heights, _LEVEL_DIGITS), return_counts=True)
     return levels[counts >= _POINTS_IN_LEVEL]
 
 
 def _directions(cell: Cell) -> NDArray[np.float64]:
-    """Return the normals of planes worth a try: axes of space and piece, (D, 3).
+    """Return the normals of planes to try: coordinate and principal axes, (D, 3).
 
     Planes along the seams of weakly convex parts measured worse as first cuts.
     """

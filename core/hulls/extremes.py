@@ -1,6 +1,7 @@
-"""Points of a shape that are farthest in fixed directions, and the volume about them.
+"""Estimate hull volumes from the points that are farthest along fixed directions.
 
-The hull of these points would be as good, and takes a hundred times as long.
+The extreme points are joined by the triangles that join their directions. The convex
+hull of these points is no better an estimate and takes a hundred times as long.
 """
 
 from __future__ import annotations
@@ -13,12 +14,12 @@ from scipy.spatial import ConvexHull
 
 from .convex_hull import directions
 
-# E directions; with their opposites they are those of extreme points.
+# E unit vectors; extreme points are found along these and their opposites.
 _DIRECTIONS = directions(96)[:48]
 
 
 def _triangles() -> NDArray[np.int64]:
-    """Return triangles of neighboring directions, counter-clockwise from outside."""
+    """Return triangles of neighboring directions, (F, 3), counter-clockwise outside."""
     both = np.concatenate([_DIRECTIONS, -_DIRECTIONS])
     triangles = ConvexHull(both).simplices.astype(np.int64)
     inwards = np.linalg.det(both[triangles]) < 0
@@ -30,7 +31,16 @@ _TRIANGLES = _triangles()
 
 
 def reaches_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far points (N, 3) are along the directions, (E, N)."""
+    """Return the coordinates of points along all E directions.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+
+    Returns
+    -------
+    (E, N) float
+    """
     reaches: NDArray[np.float64] = _DIRECTIONS @ points.T
     return reaches
 
@@ -40,19 +50,21 @@ def volumes_beside(
     reaches: NDArray[np.float64],
     ends: NDArray[np.int64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the volumes about the first points and about the others.
+    """Estimate the hull volumes of the first points and of the rest, for K splits.
 
     Parameters
     ----------
     points : (N, 3) float
+        Sorted along the normal of the planes that split them.
     reaches : (E, N) float
-        Of these points.
+        Their coordinates along the directions, as `reaches_of` returns them.
     ends : (K,) int
-        How many points come first, rising.
+        Number of points before each split, ascending.
 
     Returns
     -------
     first, others : (K,) float
+        Volumes of the points before and after each split.
     """
     rows = np.zeros((len(ends) + 1, 2, len(reaches)), dtype=np.int64)
     farthest = np.full(rows.shape, -np.inf)
@@ -73,7 +85,7 @@ def volumes_beside(
 def _running(
     rows: NDArray[np.int64], farthest: NDArray[np.float64]
 ) -> NDArray[np.int64]:
-    """Return the row of what is farthest in one layer, in two and on, (K, 2 E)."""
+    """Return the rows of the extreme points of the first 1 to K layers, (K, 2 E)."""
     leads = farthest == np.maximum.accumulate(farthest, axis=0)
     layers = np.where(leads, np.arange(len(rows))[:, None, None], 0)
     layers = np.maximum.accumulate(layers, axis=0)
@@ -82,7 +94,7 @@ def _running(
 
 
 def _volumes_about(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the volume within extreme points (K, 2 E, 3), (K,)."""
+    """Return the volumes enclosed by extreme points (K, 2 E, 3), (K,)."""
     a, b, c = np.moveaxis(points[:, _TRIANGLES], 2, 0)
     volumes: NDArray[np.float64] = np.einsum("kfd,kfd->k", np.cross(b, c), a) / 6
     return volumes

@@ -1,4 +1,4 @@
-"""Boxes, spheres, cylinders and capsules around convex hulls."""
+"""Fit boxes, spheres, cylinders and capsules around convex hulls."""
 
 from __future__ import annotations
 
@@ -14,25 +14,32 @@ from ..parameters.hulls import HullParameters
 from .convex_hull import convex_hull, directions, offset, simplified
 from .piece import THIN
 
-# Rounds in which the center of the smallest ball is found, to a thousandth.
+# Rounds of the search for the smallest ball; its radius is then exact to a thousandth.
 _ROUNDS = 1000
-# Vertices around a cylinder, and of a sphere.
+# Number of vertices around a cylinder when it is shown as a polyhedron.
 _AROUND = 24
+# Number of vertices on a sphere, or on both round ends of a capsule.
 _ON_SPHERE = 162
 
 
 def fit_shape(hull: Hull, parameters: HullParameters, unit: float) -> CollisionShape:
-    """Return the shape that `parameters` ask for around a hull.
+    """Fit the kind of shape that `parameters` ask for around a hull.
 
-    Boxes, spheres, cylinders and capsules contain the hull. So do hulls, to a ten
-    thousandth of the longest side, unless they may have too few vertices.
+    Boxes, spheres, cylinders and capsules contain the hull. Simplified hulls contain
+    it to a ten thousandth of the longest side, if `max_vertices` allows for it.
 
     Parameters
     ----------
     hull : Hull
+        The longest side of the whole shape is 2.
     parameters : HullParameters
     unit : float
-        What 1 stands for in the units of the mesh, which the margin is in.
+        Length of 1 in the units of the mesh, which the margin is given in.
+
+    Returns
+    -------
+    CollisionShape
+        In the space of `hull`.
     """
     margin = parameters.margin / unit
     if parameters.shape == "HULL":
@@ -44,10 +51,18 @@ def fit_shape(hull: Hull, parameters: HullParameters, unit: float) -> CollisionS
 
 
 def box_around(hull: Hull) -> CollisionShape:
-    """Return the smallest box that has a face of the hull in one of its own.
+    """Return the smallest box that has one side flush with a face of a hull.
 
-    The smallest of all has two adjacent faces with edges of the hull (O'Rourke 1985);
-    those flush with a face are nearly as small and far fewer.
+    The smallest box of all has two adjacent sides that each contain an edge of the hull
+    (O'Rourke 1985). Boxes flush with a face are nearly as small and far fewer.
+
+    Parameters
+    ----------
+    hull : Hull
+
+    Returns
+    -------
+    CollisionShape
     """
     best: CollisionShape | None = None
     for normal in _normals(hull):
@@ -64,19 +79,48 @@ def box_around(hull: Hull) -> CollisionShape:
 
 
 def sphere_around(hull: Hull) -> CollisionShape:
-    """Return the smallest sphere around a hull, to a thousandth of its radius."""
+    """Return the smallest sphere around a hull, to a thousandth of its radius.
+
+    Parameters
+    ----------
+    hull : Hull
+
+    Returns
+    -------
+    CollisionShape
+    """
     center, radius = _smallest_ball(hull.vertices)
     sizes = np.array([radius, radius, 0.0])
     return CollisionShape("SPHERE", hull, center, np.eye(3), sizes)
 
 
 def cylinder_around(hull: Hull) -> CollisionShape:
-    """Return the smallest cylinder along an axis of the box or an inertial axis."""
+    """Return the smallest of six cylinders around a hull.
+
+    Parameters
+    ----------
+    hull : Hull
+        The axes tried are those of its box and the principal axes of its vertices.
+
+    Returns
+    -------
+    CollisionShape
+    """
     return min((_cylinder(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
 
 
 def capsule_around(hull: Hull) -> CollisionShape:
-    """Return the smallest capsule along an axis of the box or an inertial axis."""
+    """Return the smallest of six capsules around a hull.
+
+    Parameters
+    ----------
+    hull : Hull
+        The axes tried are those of its box and the principal axes of its vertices.
+
+    Returns
+    -------
+    CollisionShape
+    """
     return min((_capsule(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
 
 
@@ -100,12 +144,12 @@ def _cylinder(hull: Hull, axis: NDArray[np.float64]) -> CollisionShape:
 
 
 def _capsule(hull: Hull, axis: NDArray[np.float64]) -> CollisionShape:
-    """Return the shortest capsule along an axis that is as narrow as can be."""
+    """Return the shortest of the capsules with the least radius along an axis."""
     frame = _frame(axis)
     local = hull.vertices @ frame.T
     center, radius = _smallest_ball(local[:, :2])
     around = np.linalg.norm(local[:, :2] - center, axis=1)
-    # A round end reaches so far beyond the height at which it begins.
+    # Height of the round end above its base, at the distance of each vertex.
     room = np.sqrt(np.maximum(radius**2 - around**2, 0.0))
     low, high = (local[:, 2] + room).min(), (local[:, 2] - room).max()
     middle = np.r_[center, (low + high) / 2] @ frame
@@ -114,12 +158,12 @@ def _capsule(hull: Hull, axis: NDArray[np.float64]) -> CollisionShape:
 
 
 def _axes(hull: Hull) -> NDArray[np.float64]:
-    """Return the axes that are tried, (6, 3)."""
+    """Return the axes to try: those of the box and the principal axes, (6, 3)."""
     return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
 
 
 def _normals(hull: Hull) -> NDArray[np.float64]:
-    """Return the normals of the hull's faces, those that are alike once."""
+    """Return the normals of a hull's faces, equal and opposite ones once, (N, 3)."""
     rounded = np.round(hull.planes[:, :3], 4)
     rounded *= np.sign(
         rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
@@ -131,7 +175,7 @@ def _normals(hull: Hull) -> NDArray[np.float64]:
 def _rectangle_axes(
     points: NDArray[np.float64], normal: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the axes of the box along a normal whose base is smallest, (3, 3)."""
+    """Return the axes of the box of least base area, the last one `normal`, (3, 3)."""
     frame = _frame(normal)
     flat = points @ frame[:2].T
     try:
@@ -148,15 +192,15 @@ def _rectangle_axes(
 
 
 def _frame(axis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return right-handed axes of which the last one is `axis`, (3, 3)."""
+    """Return right-handed axes whose last row is `axis`, (3, 3)."""
     return np.concatenate([*frames(axis[None]), axis[None]])
 
 
 def _smallest_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """Return center and radius of a ball around points (N, 2 or 3).
+    """Return center and radius of nearly the smallest ball around points (N, 2 or 3).
 
-    Bădoiu and Clarkson 2003, "Smaller core-sets for balls": the center goes ever
-    shorter ways towards the point that is farthest away.
+    Bădoiu and Clarkson 2003, "Smaller core-sets for balls": the center moves towards
+    the farthest point, by a smaller share of the way in each round.
     """
     center = points.mean(axis=0)
     for step in range(1, _ROUNDS + 1):
@@ -167,7 +211,18 @@ def _smallest_ball(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], fl
 
 
 def outline_of(shape: CollisionShape) -> Hull:
-    """Return a shape as a polyhedron. The vertices of round shapes lie on them."""
+    """Return a collision shape as a polyhedron.
+
+    Parameters
+    ----------
+    shape : CollisionShape
+
+    Returns
+    -------
+    Hull
+        Vertices of spheres, cylinders and capsules lie on the round surface, so the
+        polyhedron is a little smaller than the shape.
+    """
     if shape.kind == "HULL":
         return shape.hull
     ends = np.array([[0.0, 0.0, shape.sizes[2]], [0.0, 0.0, -shape.sizes[2]]])

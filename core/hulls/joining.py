@@ -1,4 +1,4 @@
-"""Pieces joined where one hull does for two."""
+"""Join neighboring pieces where one hull can replace two."""
 
 from __future__ import annotations
 
@@ -10,27 +10,29 @@ from ..steps.progress import Progress, Steps, within
 from .cost import cost_of_joint, least_cost
 from .piece import Piece, join
 
-# Pieces whose bounding boxes are this near may touch; the longest side is 2.
+# Pieces count as neighbors if their bounding boxes are at most this far apart along
+# each axis; the longest side is 2.
 _NEAR = 0.03
 
-# Cost, numbers of two pieces, and the two as one once the cost is exact.
+# Cost, numbers of two pieces, and the joined piece; None while the cost is a bound.
 _Joint = tuple[float, int, int, Piece | None]
 
 
 def join_pieces(
     pieces: Sequence[Piece], max_error: float, max_pieces: int
 ) -> Steps[list[Piece]]:
-    """Join neighbors within `max_error`, and more where there are too many pieces.
+    """Join neighbors whose common error is small, and more if there are too many.
 
-    Those come first that cost least together. Pieces that touch nothing are joined only
-    where there is no other way.
+    The pair of lowest cost is joined first. Pieces that are no neighbors are joined
+    only if there are still more than `max_pieces`.
 
     Parameters
     ----------
     pieces : sequence of Piece
     max_error : float
-        Of two pieces as one.
+        Largest error of a joined piece; exceeded while there are too many pieces.
     max_pieces : int
+        Largest number of pieces to return.
 
     Returns
     -------
@@ -48,7 +50,7 @@ def _join(
     max_pieces: int,
     may: Callable[[Piece, Piece], bool],
 ) -> Steps[list[Piece]]:
-    """Join pieces of which `may` is true; otherwise as `join_pieces`."""
+    """Join the pairs of pieces that `may` allows, the cheapest first."""
     alive: dict[int, Piece] = {}
     queue: list[_Joint] = []
     solid_volume = sum(piece.volume for piece in pieces)
@@ -74,7 +76,7 @@ def _add(
     may: Callable[[Piece, Piece], bool],
     solid_volume: float,
 ) -> None:
-    """Add a piece under a number of its own, and its joints with the others."""
+    """Add a piece under a new number, and queue its joints with the others."""
     for other, neighbor in alive.items():
         if may(neighbor, piece):
             cost = least_cost(neighbor, piece, solid_volume)
@@ -89,7 +91,11 @@ def _next_joint(
     max_pieces: int,
     solid_volume: float,
 ) -> Steps[tuple[int, int, Piece] | None]:
-    """Return the two pieces to be joined next, and what they are as one."""
+    """Return the numbers of the two pieces to join next, and the joined piece.
+
+    A joint comes off the queue twice: first with a lower bound of its cost, then with
+    the exact cost.
+    """
     while queue:
         _, one, other, joint = heapq.heappop(queue)
         if one not in alive or other not in alive:
@@ -105,7 +111,7 @@ def _next_joint(
 
 
 def _touch(one: Piece, other: Piece) -> bool:
-    """Return whether the bounding boxes of two pieces meet, or nearly."""
+    """Return whether the bounding boxes of two pieces meet or nearly meet."""
     (low, high), (other_low, other_high) = (
         (piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0))
         for piece in (one, other)

@@ -1,4 +1,4 @@
-"""Pieces of a solid: their hulls, how far these stray, cuts and joints."""
+"""Pieces of a solid: cut them, join them, and measure the errors of their hulls."""
 
 from __future__ import annotations
 
@@ -18,32 +18,37 @@ from .solid import Solid
 
 # Weight k of the volume term in CoACD's concavity.
 _VOLUME_WEIGHT = 0.3
-# Samples times faces of the hull that they are looked up to be behind, at most.
+# Largest number of samples times planes of a hull for which heights are computed.
 _MOST_HEIGHTS = 500_000
-# Samples on a hull's surface.
+# Number of samples on the surface of a hull.
 _HULL_SAMPLES = 400
-# Thickness of the hulls of flat pieces; the longest side of a shape is 2.
+# Thickness of the hulls of flat pieces; the longest side of the shape is 2.
 THIN = 2e-3
-# Share of the distance between samples that a surface may seem off by.
+# Subtracted from the distance between a point and the nearest sample, as a share of
+# the spacing: even points on the surface lie between samples.
 _SLACK = 0.4
-# Determinant of normals below which planes have no corner, and what counts as on one.
+# Three planes meet in a point only if the determinant of their normals is above this.
 _PARALLEL = 1e-4
+# Height up to which a point counts as on a plane.
 _ON_PLANE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Part of a solid.
+    """One of the pieces that a solid is divided into; each gets a hull.
+
+    The longest side of the solid is 2.
 
     Attributes
     ----------
     points : (C, 3) float
-        Points whose convex hull is that of the piece.
+        Points with the same convex hull as the piece.
     boundary : (N, 3) float
-        Samples on the surface within the piece and on the faces cut.
+        Samples of the surface in the piece, and of the faces that cuts made.
     volume : float
+        Volume of the solid in the piece.
     spacing : float
-        Distance between neighboring samples.
+        Distance between neighboring surface samples.
     """
 
     points: NDArray[np.float64]
@@ -53,26 +58,27 @@ class Piece:
 
     @cached_property
     def hull(self) -> Hull:
-        """The convex hull."""
+        """Convex hull of the piece."""
         return convex_hull(self.points, THIN)
 
     @property
     def added_volume(self) -> float:
-        """Volume that the hull adds; negative for what samples miss."""
+        """Volume of the hull minus that of the piece; sampling may make it negative."""
         return self.hull.volume - self.volume
 
     @property
     def volume_error(self) -> float:
-        """Radius of a ball as large as what the hull adds, times k (CoACD's R_v)."""
+        """Radius of a ball of the added volume, times k (R_v of CoACD)."""
         return volume_error(self.added_volume)
 
     @cached_property
     def error(self) -> float:
         """CoACD's concavity: the larger of R_v and the Hausdorff distance H_b.
 
-        Wei, Liu, Ling and Su 2022, "Approximate Convex Decomposition for 3D Meshes with
-        Collision-Aware Concavity and Tree Search", section 4; H_b is the distance
-        between the surfaces of the piece and of its hull, from samples on both.
+        H_b is the largest distance between the surfaces of the piece and of its hull,
+        from samples on both. Wei, Liu, Ling and Su 2022, "Approximate Convex
+        Decomposition for 3D Meshes with Collision-Aware Concavity and Tree Search",
+        section 4.
         """
         if len(self.boundary) == 0:
             return self.volume_error
@@ -88,18 +94,18 @@ class Piece:
 
 @dataclass(frozen=True, eq=False)
 class Cell(Piece):
-    """A piece on one side of each of some planes, which can be cut further.
+    """A piece bounded by planes, which can be cut again.
 
     Attributes
     ----------
     on_surface : (N,) bool
-        Which samples of `boundary` are on no cut face.
+        Which samples of `boundary` are on the surface, not on a face that a cut made.
     chords : (C, 3) float
-        Pieces of lines through the inside.
+        Centers of the chords in the piece.
     volumes : (C,) float
-        Volume that each stands for.
+        Volume around each chord.
     planes : (P, 4) float
-        n · x + d ≤ 0 within.
+        Unit normal n and offset d of each plane: n · x + d ≤ 0 in the piece.
     """
 
     on_surface: NDArray[np.bool_]
@@ -109,7 +115,12 @@ class Cell(Piece):
 
 
 def whole(solid: Solid) -> Cell:
-    """Return a solid uncut."""
+    """Return the whole solid as one piece.
+
+    Parameters
+    ----------
+    solid : Solid
+    """
     return Cell(
         solid.vertices,
         solid.samples,
@@ -123,9 +134,17 @@ def whole(solid: Solid) -> Cell:
 
 
 def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
-    """Return a piece of the triangles `chosen` (T,) and the inside next to them.
+    """Return a part of the surface as a piece, with the inside that is nearest to it.
 
-    Lines through the inside belong to the part whose surface is nearest.
+    Parameters
+    ----------
+    solid : Solid
+    chosen : (T,) bool
+        Which triangles belong to the part.
+
+    Returns
+    -------
+    Piece
     """
     samples = chosen[solid.triangles]
     nearest = cKDTree(solid.samples).query(solid.chords)[1]
@@ -138,7 +157,22 @@ def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
 
 
 def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
-    """Return what lies below and above a plane (4,); either may be empty."""
+    """Cut a piece in two by a plane.
+
+    Parameters
+    ----------
+    solid : Solid
+        The uncut solid.
+    cell : Cell
+        The piece of it to cut.
+    plane : (4,) float
+        Unit normal n and offset d: n · x + d = 0 on the plane.
+
+    Returns
+    -------
+    below, above : Cell
+        Either may be empty.
+    """
     section = cross_section(solid, plane)
     face = section.spread(cell.points)
     face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
@@ -148,7 +182,12 @@ def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cel
 
 
 def join(one: Piece, other: Piece) -> Piece:
-    """Return two pieces as one; a face between them, cut before, is gone."""
+    """Join two pieces; the samples of the cut face between them are removed.
+
+    Parameters
+    ----------
+    one, other : Piece
+    """
     boundary, counts = np.unique(
         np.concatenate([one.boundary, other.boundary]), axis=0, return_counts=True
     )
@@ -166,7 +205,7 @@ def _side(
     rim: NDArray[np.float64],
     face: NDArray[np.float64],
 ) -> Cell:
-    """Return what of a cell lies below a plane, given its face there."""
+    """Return the side of a cell below a plane; `rim` and `face` lie in the plane."""
     points, boundary, chords = (
         heights_above(plane[None], places)[:, 0] <= 0
         for places in (cell.points, cell.boundary, cell.chords)
@@ -184,16 +223,21 @@ def _side(
 
 
 def volume_error(volume: float) -> float:
-    """Return the volume error (R_v times k) that an added volume makes."""
+    """Return the error R_v of CoACD, weight k included, of an added volume.
+
+    Parameters
+    ----------
+    volume : float
+    """
     return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))
 
 
 def _meeting_points(
     planes: NDArray[np.float64], plane: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return where a plane meets two others (P, 4) at a corner of their cell, (M, 3).
+    """Return the corners of a cell where a plane meets two others, (M, 3).
 
-    Such corners may lie within the solid, where no triangle has a vertex.
+    Such corners may lie inside the solid, where no triangle has a vertex.
     """
     one, other = np.triu_indices(len(planes), 1)
     triples = np.stack([planes[one], planes[other], plane + 0 * planes[one]], axis=1)

@@ -1,4 +1,4 @@
-"""A shape as hulls are looked for in it: samples of its surface and of its inside."""
+"""Sample the surface and the inside of a mesh, to cut it and put hulls around it."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ from ..geometry.sampling import sample_surface
 from ..steps.progress import Progress, Steps
 from .chords import chords_along
 
-# Samples on the surface.
+# Number of samples on the surface.
 _SAMPLES = 6000
-# Volume below which there is none, but noise, as of sheets with two sides; the longest
-# side is 2.
+# A volume below this is noise, such as that of a two-sided sheet, and counts as 0; the
+# longest side is 2.
 _NO_VOLUME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A shape as hulls are looked for in it.
+    """A mesh with samples of its surface and chords through its inside.
 
     Attributes
     ----------
     corners : (T, 3, 3) float
-        Of its triangles.
+        Corners of the triangles.
     vertices : (V, 3) float
-        Distinct.
+        Distinct corners.
     samples : (N, 3) float
-        Spread evenly over the surface.
+        Points spread evenly over the surface.
     triangles : (N,) int
         Triangle that each sample lies on.
     chords : (C, 3) float
-        Centers of pieces of lines through the inside.
+        Centers of short chords along each axis.
     volumes : (C,) float
-        Volume that each stands for.
+        Volume around each chord.
     spacing : float
         Distance between neighboring samples.
     """
@@ -51,22 +51,22 @@ class Solid:
 
 
 def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
-    """Return the inside of `mesh`.
+    """Sample the surface and the inside of a mesh.
 
-    The volume is measured along lines parallel to each axis, which unlike cells of a
-    grid miss no thin wall across them. Where a shape is open, lines find as much of an
-    inside as they enter and leave.
+    The volume is measured along lines parallel to each axis. Unlike the cells of a
+    grid, such lines miss no thin wall across them. In an open mesh, a line counts as
+    inside between a front face that it enters and a back face that it leaves.
 
     Parameters
     ----------
     mesh : TriangleMesh
-        Oriented.
+        Oriented: normals point outwards. The longest side is 2.
     seed : int
+        Seed of the random surface samples.
 
     Returns
     -------
     Steps of Solid
-        Yields Progress; `run` gets the value.
     """
     samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]

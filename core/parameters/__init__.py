@@ -1,1 +1,1 @@
-"""Every setting: default, bounds, label and help, once. Loads no SciPy."""
+"""Defines each setting once: default, bounds, label and help. Imports no SciPy."""

@@ -1,4 +1,4 @@
-"""The choices of parameters that are not numbers, and of pictures."""
+"""Lists the choices of parameters that are not numbers, and the pictures."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ SIGHT = (
     Choice(
         "ALL_PAIRS",
         "All Pairs",
-        "Between every two samples: the definition itself",
+        "Test every pair of samples, as convexity is defined",
     ),
     Choice(
         "CONE",
         "Cone",
-        "Rays in a cone around the inward normal, as in the paper:"
-        " sparse, for many samples",
+        "Cast rays in a cone into the shape from each sample, as in the paper: fewer"
+        " lines per sample, for many samples",
     ),
 )
 
@@ -22,12 +22,13 @@ SAMPLING = (
     Choice(
         "AREA",
         "By Area",
-        "Spread evenly over the surface, as many as Samples says",
+        "Spread samples evenly over the surface; Samples sets their number",
     ),
     Choice(
         "FACES",
         "By Faces",
-        "One on each triangle, small meshes being subdivided to 3000, as in the paper",
+        "Place one sample on each triangle, as in the paper; meshes of fewer than 2000"
+        " triangles are subdivided to 3000 first",
     ),
 )
 
@@ -35,13 +36,13 @@ PSI_PAIRS = (
     Choice(
         "UNIFORM",
         "Uniform Pairs",
-        "Pairs drawn at random: an estimate without bias",
+        "Pairs drawn at random: an unbiased estimate",
     ),
     Choice(
         "RAYS",
         "Ray Hits",
-        "Pairs that the cone's rays found, as in the paper: biased"
-        " towards near and visible pairs",
+        "Pairs that the rays in cones found, as in the paper: a biased estimate, with"
+        " too many near and visible pairs",
     ),
 )
 
@@ -49,52 +50,58 @@ CONTAINERS = (
     Choice(
         "FILLED",
         "Filled",
-        "The enclosed outside counts as inside, so that thin walls around"
-        " it stay whole; shapes that enclose nothing are not affected",
+        "Lines of sight may cross the hollow, so that the thin walls around it stay in"
+        " one part; shapes without a hollow do not change",
     ),
     Choice(
         "HOLLOW",
         "Hollow",
-        "Lines of sight run through the inside alone, as in the paper",
+        "Lines of sight stay inside the material, as in the paper",
     ),
 )
 
 NORMALIZATION = (
-    Choice("LAPLACIAN", "Laplacian", "Symmetric, by both degrees"),
-    Choice("STOCHASTIC", "Stochastic", "Each row sums to one"),
+    Choice(
+        "LAPLACIAN",
+        "Laplacian",
+        "Divide by the square roots of the sums of its row and its column",
+    ),
+    Choice("STOCHASTIC", "Stochastic", "Divide each row by its sum"),
 )
 
 REFINEMENT = (
     Choice(
         "PSI",
         "Psi",
-        "Samples change their part, and seams move, where psi gains by it",
+        "Move samples to other parts, and move seams, where this raises psi, the score"
+        " of the parts",
     ),
     Choice(
         "EMBEDDING",
         "Embedding",
-        "Clusters stay as they are and seams keep to them, as in the paper",
+        "Keep the clusters as they are, with seams close to their borders, as in the"
+        " paper",
     ),
 )
 
-# Pictures of what parts come from.
+# Pictures that `pictures.draw_picture` draws.
 PICTURES = (
     Choice(
         "SIGHT",
         "Lines of Sight",
-        "The matrix of samples, sorted by part: black where two see each other. Parts"
-        " that are convex are black squares",
+        "A matrix of all pairs of samples, sorted by part: black where two samples see"
+        " each other. A convex part is a black square",
     ),
     Choice(
         "DISTANCES",
         "Distances",
-        "Distances of samples in the embedding, sorted by part: black where there is"
-        " none. Parts that are well apart are dark squares on light ground",
+        "A matrix of the distances between samples in the embedding, sorted by part:"
+        " black is distance 0. Distinct parts are dark squares on a light ground",
     ),
     Choice(
         "SCATTER",
         "Embedding",
-        "The samples in the embedding, seen where it extends most, in the colors of"
-        " their parts",
+        "The samples as dots in the embedding, seen from where the parts are farthest"
+        " apart, in the colors of their parts",
     ),
 )

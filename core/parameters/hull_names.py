@@ -1,4 +1,4 @@
-"""Names of hulls, as game engines expect them."""
+"""Names hulls as game engines expect it."""
 
 from __future__ import annotations
 
@@ -7,13 +7,21 @@ from dataclasses import dataclass
 
 from ..errors import DecompositionError
 
-# Unreal tells collision shapes by these; it has no cylinders.
+# Prefixes by which Unreal recognizes collision shapes. It has none for cylinders.
 _UNREAL = {"HULL": "UCX", "BOX": "UBX", "SPHERE": "USP", "CAPSULE": "UCP"}
 
 
 @dataclass(frozen=True)
 class Naming:
-    """A way to name hulls; `template` is empty where the user gives it."""
+    """A way to name hulls.
+
+    Attributes
+    ----------
+    identifier, label, help : str
+        As for a `Choice`.
+    template : str
+        Pattern of the names in the syntax of `str.format`; empty if the user gives it.
+    """
 
     identifier: str
     label: str
@@ -22,26 +30,27 @@ class Naming:
 
 
 NAMINGS = (
-    Naming("PLAIN", "Plain", "Like Name hull 01", "{name} hull {n:02d}"),
+    Naming("PLAIN", "Plain", "For example Name hull 01", "{name} hull {n:02d}"),
     Naming(
         "UNREAL",
         "Unreal",
-        "Like UCX_Name_01, with UBX for boxes, USP for spheres and UCP for capsules",
+        "For example UCX_Name_01; names of boxes begin with UBX, of spheres with USP,"
+        " of capsules with UCP",
         "{prefix}_{name}_{n:02d}",
     ),
     Naming(
         "UNITY",
         "Unity",
-        "Like Name_collider_01; Unity has no names of its own for colliders",
+        "For example Name_collider_01; Unity prescribes no names for colliders",
         "{name}_collider_{n:02d}",
     ),
     Naming(
         "GODOT",
         "Godot",
-        "Like Name_01-convcolonly, which Godot's importer makes a convex shape of",
+        "For example Name_01-convcolonly; Godot imports it as a convex collision shape",
         "{name}_{n:02d}-convcolonly",
     ),
-    Naming("TEMPLATE", "By Template", "As Template says", ""),
+    Naming("TEMPLATE", "By Template", "The pattern in Template", ""),
 )
 
 
@@ -55,16 +64,21 @@ def hull_names(
     naming : str
         Identifier of one of `NAMINGS`.
     template : str
-        For 'TEMPLATE', in the syntax of `str.format`.
+        Pattern in the syntax of `str.format`, used if `naming` is 'TEMPLATE'.
     name : str
-        Of the object.
+        Name of the object.
     kinds : sequence of str
-        Shape of each hull.
+        Kind of each hull: 'HULL', 'BOX', 'SPHERE', 'CYLINDER' or 'CAPSULE'.
+
+    Returns
+    -------
+    list of str
+        One name for each hull, all different.
 
     Raises
     ------
     DecompositionError
-        If the template cannot be filled in, or gives hulls the same name.
+        If the template cannot be filled in, or gives two hulls the same name.
     """
     chosen = next(n.template for n in NAMINGS if n.identifier == naming) or template
     try:

@@ -1,4 +1,4 @@
-"""Every info of collision hulls: default, bounds, label and help, once."""
+"""Defines the parameters of collision hulls, with default, bounds, label and help."""
 
 from __future__ import annotations
 
@@ -10,22 +10,26 @@ from .parameter import Choice, ParameterInfo, parameter, settle
 
 @dataclass(frozen=True)
 class HullParameters:
-    """The settings of collision hulls; see each field's help.
+    """The settings of collision hulls.
+
+    The label, meaning and bounds of each field are in its `ParameterInfo`, which
+    `info_of` returns. Tooltips, command line and manual take them from there.
 
     Raises
     ------
     DecompositionError
-        If a value is out of its bounds or not one of its choices.
+        If a value is out of its bounds or not one of its choices, or if the template
+        cannot be filled in.
     """
 
     shape: str = parameter(
         "HULL",
         ParameterInfo(
             "Shape",
-            "What is put around each piece",
+            "Kind of collision shape that is put around each piece",
             choices=(
                 Choice("HULL", "Convex Hull", "The smallest convex shape around it"),
-                Choice("BOX", "Box", "A box of small volume, turned any way"),
+                Choice("BOX", "Box", "A box of small volume, in any orientation"),
                 Choice("CAPSULE", "Capsule", "A cylinder with round ends"),
                 Choice("SPHERE", "Sphere", "The smallest sphere around it"),
                 Choice("CYLINDER", "Cylinder", "A cylinder of small volume"),
@@ -37,19 +41,19 @@ class HullParameters:
         "BY_ERROR",
         ParameterInfo(
             "Pieces",
-            "What the shapes are put around",
+            "Pieces of the model that get a collision shape each",
             choices=(
                 Choice(
                     "BY_ERROR",
                     "By Error",
-                    "The solid, cut by planes until every hull is within Largest"
-                    " Error; needs no parts",
+                    "Cut the solid by planes until every hull is within Largest Error;"
+                    " needs no parts",
                 ),
                 Choice(
                     "PARTS",
                     "Parts",
-                    "The parts as they are, one shape each; joined, those that add"
-                    " least volume first, where there are more than Most Hulls",
+                    "Use the parts as they are, one shape for each. If there are more"
+                    " than Most Hulls, parts are joined where this adds least volume",
                 ),
             ),
             advanced=False,
@@ -59,9 +63,9 @@ class HullParameters:
         0.05,
         ParameterInfo(
             "Largest Error",
-            "How far a hull may stray from the shape, where half of the shape's longest"
-            " side is 1: CoACD's concavity. Hulls that exceed it are split further,"
-            " neighbors within it are joined",
+            "How far a hull may be from the surface: higher values give fewer hulls,"
+            " which fit less closely. 1 is half of the shape's longest side, as in"
+            " CoACD's concavity. Neighbors whose common hull is within it are joined",
             low=0.001,
             high=1.0,
             advanced=False,
@@ -71,8 +75,8 @@ class HullParameters:
         32,
         ParameterInfo(
             "Most Hulls",
-            "Number of hulls at most; where it is too small for Largest Error, those"
-            " are joined that stray least",
+            "Largest number of hulls. If more are needed to stay within Largest Error,"
+            " pieces are joined where this causes the least error",
             low=1,
             high=256,
             advanced=False,
@@ -82,7 +86,8 @@ class HullParameters:
         64,
         ParameterInfo(
             "Most Vertices",
-            "Vertices of a hull at most; fewer lie within the exact hull",
+            "Largest number of vertices of a hull: higher values fit more closely; a"
+            " hull with fewer vertices lies within the exact hull",
             low=4,
             high=1024,
         ),
@@ -91,8 +96,8 @@ class HullParameters:
         0.0,
         ParameterInfo(
             "Margin",
-            "Distance by which the faces of shapes are moved outwards, inwards if"
-            " negative, in the units of the mesh",
+            "Distance by which the faces of collision shapes move outwards, in units of"
+            " the mesh: higher values make the shapes larger, negative values smaller",
             low=-1000.0,
             high=1000.0,
         ),
@@ -102,7 +107,7 @@ class HullParameters:
         "PLAIN",
         ParameterInfo(
             "Naming",
-            "How hulls are named",
+            "How the objects of hulls are named",
             choices=tuple(
                 Choice(naming.identifier, naming.label, naming.help)
                 for naming in NAMINGS
@@ -114,13 +119,13 @@ class HullParameters:
         "{name}_{n:02d}",
         ParameterInfo(
             "Template",
-            "Names of hulls with Naming by Template: {name} stands for the object, {n}"
-            " for the number of the hull, {kind} for its shape, {prefix} for Unreal's"
+            "Pattern of names, used if Naming is By Template: {name} is the name of the"
+            " object, {n} the number of the hull, {kind} its shape, {prefix} Unreal's"
             " prefix",
         ),
     )
 
     def __post_init__(self) -> None:
-        """Check every field, and that the template tells hulls apart."""
+        """Check every field, and that the template gives each hull another name."""
         settle(self)
         hull_names(self.naming, self.template, "name", ("HULL", "HULL"))

@@ -1,4 +1,4 @@
-"""What is known of a parameter besides its value."""
+"""Metadata of parameters, and the checks of their values."""
 
 from __future__ import annotations
 
@@ -9,13 +9,24 @@ from typing import Any
 
 from ..errors import DecompositionError
 
-# Blender keeps properties in single precision: a bound may come back this far off.
+# Blender stores properties in single precision: a value may exceed its bound by this
+# share of itself.
 _FLOAT32_SLACK = 1e-6
 
 
 @dataclass(frozen=True)
 class Choice:
-    """One value of an enumerated parameter."""
+    """One value of an enumerated parameter.
+
+    Attributes
+    ----------
+    identifier : str
+        The value, in capital letters.
+    label : str
+        Title Case name in the interface.
+    help : str
+        Tooltip: a sentence without a final full stop.
+    """
 
     identifier: str
     label: str
@@ -24,22 +35,22 @@ class Choice:
 
 @dataclass(frozen=True)
 class ParameterInfo:
-    """What the interface, the command line and the checks need of a parameter.
+    """Metadata of a parameter for the interface, the command line and the checks.
 
     Attributes
     ----------
     label, help : str
-        Title Case name, and a sentence without a final full stop.
+        Title Case name, and tooltip: a sentence without a final full stop.
     low, high : float, optional
         Inclusive bounds of a number.
     usual : float, optional
-        How far sliders go; more can be typed.
+        Upper end of the slider; values up to `high` can be typed.
     choices : tuple of Choice
-        Values of an enumeration; empty for numbers.
+        Values of an enumeration; empty for numbers and texts.
     subtype : str
-        'ANGLE' (radians), 'FACTOR' or 'NONE', in Blender's vocabulary.
+        Blender's subtype of the property: 'ANGLE' (radians), 'FACTOR' or 'NONE'.
     advanced : bool
-        Whether it belongs with the settings few users touch.
+        Whether the sidebar shows it among the advanced settings.
     affects_sight : bool
         Whether samples or lines of sight depend on it. If not, a new value needs no new
         rays.
@@ -57,20 +68,49 @@ class ParameterInfo:
 
 
 def parameter(default: Any, info: ParameterInfo) -> Any:
-    """Return a dataclass field that carries its `ParameterInfo` as metadata."""
+    """Return a dataclass field that carries its `ParameterInfo` as metadata.
+
+    Parameters
+    ----------
+    default : int, float or str
+        Its type is the type of the parameter. Angles are in radians.
+    info : ParameterInfo
+
+    Returns
+    -------
+    dataclasses.Field
+    """
     return field(default=default, metadata={"info": info})
 
 
 def info_of(parameter_field: Field[Any]) -> ParameterInfo:
-    """Return the `ParameterInfo` of one of `dataclasses.fields(Parameters)`."""
+    """Return the `ParameterInfo` of a field.
+
+    Parameters
+    ----------
+    parameter_field : dataclasses.Field
+        One of the fields of `Parameters` or `HullParameters`.
+
+    Returns
+    -------
+    ParameterInfo
+    """
     info: ParameterInfo = parameter_field.metadata["info"]
     return info
 
 
 def settle(parameters: Any) -> None:
-    """Check every field of a frozen dataclass of parameters, and make it plain.
+    """Check every field of a dataclass, and convert NumPy's numbers to Python's.
 
-    Scripts may pass NumPy's numbers; kept are Python's.
+    Parameters
+    ----------
+    parameters : Parameters or HullParameters
+        Changed in place, although it is frozen.
+
+    Raises
+    ------
+    DecompositionError
+        If a value is out of its bounds or not one of its choices.
     """
     for parameter_field in fields(parameters):
         value = getattr(parameters, parameter_field.name)
@@ -80,7 +120,20 @@ def settle(parameters: Any) -> None:
 
 
 def check(parameter_field: Field[Any], value: Any) -> None:
-    """Raise if `value` is not one that the field's info allows."""
+    """Raise an error if a value is not allowed for a field.
+
+    Parameters
+    ----------
+    parameter_field : dataclasses.Field
+        One of the fields of `Parameters` or `HullParameters`.
+    value : object
+        The value to check.
+
+    Raises
+    ------
+    DecompositionError
+        If the value has the wrong type, is out of bounds or not one of the choices.
+    """
     info = info_of(parameter_field)
     if info.choices:
         allowed = [choice.identifier for choice in info.choices]

@@ -1,4 +1,4 @@
-"""Every info of the decomposition: its default, bounds, label and help, once."""
+"""Defines the parameters of a decomposition, with default, bounds, label and help."""
 
 from __future__ import annotations
 
@@ -19,19 +19,24 @@ from .parameter import ParameterInfo, parameter, settle
 
 @dataclass(frozen=True)
 class Parameters:
-    """The settings of a decomposition; see each field's help.
+    """The settings of a decomposition.
+
+    The label, meaning and bounds of each field are in its `ParameterInfo`, which
+    `info_of` returns. Tooltips, command line and manual take them from there.
 
     Raises
     ------
     DecompositionError
-        If a value is out of its bounds or not one of its choices.
+        If a value is out of its bounds or not one of its choices, if `min_parts` is
+        above `max_parts`, or if there are more `parts` than `samples`.
     """
 
     parts: int = parameter(
         0,
         ParameterInfo(
             "Parts",
-            "Number of parts k; 0 searches for the k of largest psi",
+            "Number of parts; 0 chooses it by psi, a score that counts pairs of points"
+            " that see each other within parts or are hidden between parts",
             low=0,
             high=256,
             usual=24,
@@ -43,8 +48,8 @@ class Parameters:
         30,
         ParameterInfo(
             "Rays",
-            "Rays r that each sample casts into the shape; used by cone sight,"
-            " while all pairs casts at every other sample",
+            "Number of rays from each sample into the shape: more rays find more lines"
+            " of sight and take longer; only used if Lines of Sight is Cone",
             low=1,
             high=1000,
             advanced=False,
@@ -54,8 +59,9 @@ class Parameters:
         2.0,
         ParameterInfo(
             "Balance",
-            "Weight alpha of pairs hidden between parts against pairs visible within"
-            " parts: more splits the shape further; the paper uses 1",
+            "Higher values split the shape into more parts. Weight alpha in psi of"
+            " hidden pairs between parts, relative to visible pairs within parts; the"
+            " paper uses 1",
             low=0.0,
             high=10.0,
             advanced=False,
@@ -66,7 +72,8 @@ class Parameters:
         "ALL_PAIRS",
         ParameterInfo(
             "Lines of Sight",
-            "Which lines of sight are looked up",
+            "Which pairs of samples are tested for a line of sight, a straight line"
+            " between them inside the shape",
             choices=SIGHT,
             advanced=False,
         ),
@@ -75,7 +82,7 @@ class Parameters:
         "AREA",
         ParameterInfo(
             "Sampling",
-            "Where the samples are, between which lines of sight run",
+            "Where samples are placed, the points between which lines of sight run",
             choices=SAMPLING,
         ),
     )
@@ -83,7 +90,8 @@ class Parameters:
         1200,
         ParameterInfo(
             "Samples",
-            "Points spread evenly over the surface",
+            "Number of points spread evenly over the surface: more show smaller details"
+            " and take longer; not used if Sampling is By Faces",
             low=16,
             high=10000,
         ),
@@ -92,7 +100,8 @@ class Parameters:
         math.radians(120.0),
         ParameterInfo(
             "Cone Angle",
-            "Full opening of the cone of rays; the paper uses 60 degrees",
+            "Full opening angle of the cone of rays: higher values spread rays wider;"
+            " only used if Lines of Sight is Cone; the paper uses 60 degrees",
             low=math.radians(1.0),
             high=math.pi,
             subtype="ANGLE",
@@ -102,8 +111,8 @@ class Parameters:
         "UNIFORM",
         ParameterInfo(
             "Psi From",
-            "Pairs of samples from which cone sight estimates psi; all pairs"
-            " counts every pair",
+            "Pairs of samples that psi, the score of the parts, is estimated from; only"
+            " used if Lines of Sight is Cone, since All Pairs counts every pair",
             choices=PSI_PAIRS,
         ),
     )
@@ -111,8 +120,8 @@ class Parameters:
         "FILLED",
         ParameterInfo(
             "Containers",
-            "Whether what the shape encloses, such as the hollow of a cup, is seen"
-            " through",
+            "Whether lines of sight may cross the hollow that a shape encloses, such as"
+            " that of a cup",
             choices=CONTAINERS,
         ),
     )
@@ -120,7 +129,7 @@ class Parameters:
         "LAPLACIAN",
         ParameterInfo(
             "Normalization",
-            "How the matrix of lines of sight is normalized",
+            "How the matrix of lines of sight is scaled before samples are clustered",
             choices=NORMALIZATION,
             affects_sight=False,
         ),
@@ -129,7 +138,7 @@ class Parameters:
         2,
         ParameterInfo(
             "Fewest Parts",
-            "Where the search for k begins",
+            "Smallest number of parts that the search tries",
             low=2,
             high=256,
             usual=24,
@@ -140,7 +149,7 @@ class Parameters:
         13,
         ParameterInfo(
             "Most Parts",
-            "Where the search for k ends",
+            "Largest number of parts that the search tries: higher values take longer",
             low=2,
             high=256,
             usual=24,
@@ -151,7 +160,7 @@ class Parameters:
         "PSI",
         ParameterInfo(
             "Refinement",
-            "What k-means' clusters and their seams are refined by",
+            "How parts and their seams are improved after samples are clustered",
             choices=REFINEMENT,
             affects_sight=False,
         ),
@@ -160,7 +169,8 @@ class Parameters:
         2.0,
         ParameterInfo(
             "Smoothness",
-            "Weight lambda of short seams in concave creases; 0 leaves seams ragged",
+            "Higher values give shorter seams that follow concave creases; 0 leaves"
+            " seams ragged. Weight lambda of the length of seams",
             low=0.0,
             high=100.0,
             usual=10.0,
@@ -171,7 +181,8 @@ class Parameters:
         0.005,
         ParameterInfo(
             "Smallest Part",
-            "Share of the area below which a connected piece joins its neighbor",
+            "Pieces with a smaller share of the surface area join a neighbor: higher"
+            " values leave fewer small parts",
             low=0.0,
             high=0.5,
             subtype="FACTOR",
@@ -182,9 +193,9 @@ class Parameters:
         1,
         ParameterInfo(
             "Levels",
-            "How often parts are decomposed in their turn, with all samples on each, so"
-            " that small ones come apart, such as fingers, at several times the time;"
-            " Parts is the number on the first level",
+            "Each level after the first splits the parts again, with all samples on one"
+            " part at a time: more levels find small parts, such as fingers, and take"
+            " several times as long. Parts is the number of parts on the first level",
             low=1,
             high=4,
             affects_sight=False,
@@ -192,11 +203,16 @@ class Parameters:
     )
     seed: int = parameter(
         0,
-        ParameterInfo("Seed", "Start of the random numbers", low=0, high=2**31 - 1),
+        ParameterInfo(
+            "Seed",
+            "Start of the random numbers: other values place samples elsewhere",
+            low=0,
+            high=2**31 - 1,
+        ),
     )
 
     def __post_init__(self) -> None:
-        """Check every field, and what fields ask of each other."""
+        """Check every field, and the fields whose values limit each other."""
         settle(self)
         if self.min_parts > self.max_parts:
             raise DecompositionError(

@@ -1,4 +1,4 @@
-"""Named sets of parameters."""
+"""Defines named sets of parameters for kinds of models."""
 
 from __future__ import annotations
 
@@ -13,48 +13,64 @@ from .parts import Parameters
 
 @dataclass(frozen=True)
 class Preset(Choice):
-    """A set of parameters with a name.
+    """A named set of parameters.
 
     Attributes
     ----------
     changes : dict of str to value
-        Fields of `Parameters` that differ from their defaults.
+        Values of the fields of `Parameters` that the preset sets.
     """
 
     changes: dict[str, Any]
 
     def parameters(self, **changes: Any) -> Parameters:
-        """Return these parameters but for some `changes` of one's own."""
+        """Return the parameters of this preset, some of them overridden.
+
+        Parameters
+        ----------
+        **changes : int, float or str
+            Fields of `Parameters` with values that replace those of the preset.
+
+        Returns
+        -------
+        parameters : Parameters
+
+        Raises
+        ------
+        DecompositionError
+            If a value is out of its bounds or not one of its choices.
+        """
         return Parameters(**(self.changes | changes))
 
 
 PRESETS = (
-    Preset("DEFAULT", "Default", "What gives the best parts of most shapes", {}),
+    Preset("DEFAULT", "Default", "The settings that suit most shapes best", {}),
     Preset(
         "DENSE",
         "Many Samples",
-        "Rays in wide cones from many samples, for shapes with many thin parts",
+        "For shapes with many thin parts: rays in wide cones, from 6000 samples instead"
+        " of 1200",
         {"sight": "CONE", "samples": 6000},
     ),
     Preset(
         "CHARACTER",
         "Character",
-        "More parts, for limbs that are hidden from each other, and smaller ones, such"
-        " as fingers: Balance 4 instead of 2, Smallest Part 0.002 instead of 0.005",
+        "For bodies with limbs and fingers: more parts, and smaller ones. Balance 4"
+        " instead of 2, Smallest Part 0.002 instead of 0.005",
         {"alpha": 4.0, "smallest_part": 0.002},
     ),
     Preset(
         "MECHANICAL",
         "Mechanical",
-        "Short and straight seams, as between the members of a tool: Smoothness 10"
-        " instead of 2",
+        "For tools and machines: shorter and straighter seams. Smoothness 10 instead"
+        " of 2",
         {"smoothness": 10.0},
     ),
     Preset(
         "SCAN",
         "Scan",
-        "For rough surfaces, whose bumps hide points that see each other: Balance 1"
-        " instead of 2; clean surfaces get too few parts by it",
+        "For rough surfaces, whose bumps hide points from each other: Balance 1 instead"
+        " of 2. Clean surfaces get too few parts with it",
         {"alpha": 1.0},
     ),
     Preset(
@@ -75,17 +91,28 @@ PRESETS = (
 )
 
 PRESET_INFO = ParameterInfo(
-    "Preset", "Settings to start from, which others then change", choices=PRESETS
+    "Preset",
+    "A set of settings to start from; options for single settings override it",
+    choices=PRESETS,
 )
 
 
 def preset(identifier: str) -> Preset:
-    """Return the preset of that identifier.
+    """Return the preset with an identifier.
+
+    Parameters
+    ----------
+    identifier : str
+        For example 'CHARACTER'.
+
+    Returns
+    -------
+    Preset
 
     Raises
     ------
     DecompositionError
-        If there is none.
+        If no preset has that identifier.
     """
     for found in PRESETS:
         if found.identifier == identifier:

@@ -1,1 +1,1 @@
-"""From clusters of samples to parts of the surface, and their seams."""
+"""Turns clusters of samples into connected parts of the surface, and cuts seams."""

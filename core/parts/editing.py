@@ -1,4 +1,4 @@
-"""Parts changed by hand: labels in, labels out."""
+"""Edits of parts by hand: functions from labels to changed labels."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ..geometry.face_graph import FaceGraph
 from ..geometry.symmetry import Plane, side_of
 from ..steps.progress import Steps
 
-# Share of the polygons on one side that are images of the other, where parts can be
-# mirrored.
+# Smallest share of the polygons on one side with a mirror image on the other side, for
+# which parts are mirrored.
 _SYMMETRIC = 0.5
 
 
@@ -25,14 +25,15 @@ class Change:
     Attributes
     ----------
     labels : (P,) int
-        Numbers below K are the parts there were; others are new.
+        Part of each polygon or node. Labels below the former number of parts K are
+        former parts; other labels are new parts.
     ranks : dict of int to float
-        Convexity ranks of new parts that are known better than the whole shape's
-        samples tell.
+        Convexity ranks of new parts, where samples on the part alone gave a more
+        precise rank than the samples of the whole shape.
     mirrored : dict of int to int
-        The part that each mirror image is of.
+        The label of each new mirror image, and the label of the part it mirrors.
     side : str
-        Where the latter are: "L" at positive X, "R" at negative X.
+        Side of the parts that were mirrored: "L" for positive X, "R" for negative X.
     """
 
     labels: NDArray[np.int64]
@@ -42,33 +43,63 @@ class Change:
 
 
 def merge(labels: NDArray[np.int64], chosen: Sequence[int], into: int) -> Change:
-    """Make one part of several: `chosen` become `into`."""
+    """Merge several parts into one.
+
+    Parameters
+    ----------
+    labels : (P,) int
+    chosen : sequence of int
+        Labels of the parts to merge.
+    into : int
+        Label of the merged part.
+
+    Returns
+    -------
+    Change
+    """
     return Change(np.where(np.isin(labels, chosen), into, labels))
 
 
 def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Change:
-    """Give polygons to a part."""
+    """Assign polygons to a part.
+
+    Parameters
+    ----------
+    labels : (P,) int
+    faces : (P,) bool
+        The polygons to assign.
+    part : int
+        Label of the part.
+
+    Returns
+    -------
+    Change
+    """
     return Change(np.where(faces, part, labels))
 
 
 def mirror(
     labels: NDArray[np.int64], graph: FaceGraph, middle: float, to_negative: bool
 ) -> Steps[Change]:
-    """Copy the parts on one side of X to the other side, as `Side.copied` does.
+    """Copy the parts on one side of a plane of constant X to the other side.
+
+    A part that crosses the plane continues on the other side. The mirror image of any
+    other part is a new part.
 
     Parameters
     ----------
     labels : (P,) int
-        Of the nodes of `graph`, in 0…K − 1.
+        Part of each node of `graph`, in 0…K − 1.
     graph : FaceGraph
     middle : float
         X of the plane, in the space of `graph`.
     to_negative : bool
-        Whether the parts at larger X are copied to smaller X, or the reverse.
+        If true, copy from larger X to smaller X; if false, the other way.
 
     Returns
     -------
     Steps of Change
+        The steps yield `Progress`; `run` returns the change.
 
     Raises
     ------
@@ -90,6 +121,7 @@ def mirror(
 
 
 def _not_symmetric() -> DecompositionError:
+    """Return the error for a shape that is not symmetric to the plane."""
     return DecompositionError(
         "The shape is not symmetric: most faces have no mirror image across X; move"
         " it so that X = 0 is its middle."
@@ -99,6 +131,18 @@ def _not_symmetric() -> DecompositionError:
 def compacted(
     labels: NDArray[np.int64],
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return labels 0…K − 1, each used, and the former label of each, (K,)."""
+    """Renumber labels without gaps, in their former order.
+
+    Parameters
+    ----------
+    labels : (P,) int
+
+    Returns
+    -------
+    labels : (P,) int
+        In 0…K − 1, each used.
+    former : (K,) int
+        Former label of each new one, ascending.
+    """
     former, labels = np.unique(labels, return_inverse=True)
     return labels.reshape(-1).astype(np.int64), former

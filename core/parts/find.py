@@ -1,4 +1,4 @@
-"""From visibility to parts, and the figures of parts."""
+"""Finds the parts of a shape from its visibility, and measures given parts."""
 
 from __future__ import annotations
 
@@ -26,14 +26,21 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
     Parameters
     ----------
     memo : PartMemo
-        The visibility, and what was found from it before.
+        The visibility, with results of earlier calls; new results are added.
     parameters : Parameters
-        May differ from those of the visibility where they do not affect sight.
+        They may differ from the parameters of the visibility in settings that do not
+        affect samples or lines of sight.
+
+    Returns
+    -------
+    Steps of Decomposition
+        The steps yield `Progress`; `run` returns the decomposition.
     """
     return (yield from on_one_thread(_find_parts(memo, parameters)))
 
 
 def _find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
+    """Find the parts; `find_parts` runs these steps on one thread."""
     visibility, cut = memo.visibility, memo.cut(parameters)
     partitioner = Partitioner(memo, parameters)
     search = PartCountSearch(
@@ -62,20 +69,25 @@ def describe(
     psi_by_k: dict[int, float],
     best_k: int,
 ) -> Decomposition:
-    """Return the figures of given parts.
+    """Measure given parts: area, number of faces, convexity rank and psi.
 
     Parameters
     ----------
     visibility : Visibility
-        Of the shape.
+        Visibility of the shape that the parts belong to.
     labels : (P,) int
-        Part of each polygon, or point, in 0…K − 1, each used; kept as they are.
+        Part of each polygon, or of each point of a cloud, in 0…K − 1, each used. They
+        are not renumbered.
     parameters : Parameters
-        Whose alpha weights psi.
+        Only `alpha`, the weight in psi, is used.
     psi_by_k : dict of int to float
-        Psi for the numbers of parts that were tried.
+        Psi for the numbers of parts that were tried, stored as it is.
     best_k : int
-        The number among them that a search chooses.
+        The number of parts that a search chooses, stored as it is.
+
+    Returns
+    -------
+    Decomposition
     """
     n_parts, transfer = count_parts(labels), visibility.transfer
     parts = visibility.shape.labels_of_nodes(labels)
@@ -98,13 +110,24 @@ def describe(
 
 
 def by_size(parts: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
-    """Return the parts renumbered, the largest first."""
+    """Renumber parts by area, the largest first.
+
+    Parameters
+    ----------
+    parts : (P,) int
+        Part of each node of `graph`, in 0…K − 1.
+    graph : FaceGraph
+
+    Returns
+    -------
+    parts : (P,) int
+    """
     order = np.argsort(-graph.areas_of(parts), kind="stable")
     return np.argsort(order)[parts]
 
 
 def _notes_on_shells(transfer: Transfer) -> tuple[str, ...]:
-    """Say that most pieces could not be told apart, if so."""
+    """Return a note if most shells are too small for a sample of their own."""
     if transfer.n_unsampled <= transfer.n_shells / 2:
         return ()
     return (
@@ -117,9 +140,10 @@ def _notes_on_shells(transfer: Transfer) -> tuple[str, ...]:
 def _notes_on_count(
     parameters: Parameters, psi_by_k: dict[int, float]
 ) -> tuple[str, ...]:
-    """Say why there are not as many parts as asked for, if so."""
+    """Return a note if the shape cannot be split into the number of parts asked for."""
     wanted, most = parameters.parts or parameters.min_parts, max(psi_by_k)
-    alone = not parameters.parts and wanted == 2  # one part is an answer, too
+    # By default the search may well end with one part: that deserves no note.
+    alone = not parameters.parts and wanted == 2
     if most >= wanted or alone:
         return ()
     return (

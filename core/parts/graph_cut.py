@@ -1,4 +1,4 @@
-"""Seams between parts: the graph cut of eq. 4, by alpha-expansion."""
+"""Cuts the seams between parts: minimizes eq. 4 by alpha-expansion."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 from ..geometry.face_graph import FaceGraph
 from ..steps.progress import Progress, Steps
 
-# How fast a seam gets cheaper with a concave bend, per radian.
+# An edge costs exp(-_CREASE * bend) of its length; `bend` is its concave angle in
+# radians.
 _CREASE = 4.0
-# A polygon's dislike of a label saturates here.
+# Largest cost of a label for a sample.
 _MOST_DISLIKE = 4.0
-# Length that lambda = 1 stands for, as a share of the square root of the area.
+# Cost of a seam as long as the square root of the area, at lambda = 1.
 _SEAM_UNIT = 0.02
-# Sweeps over all labels at most; two or three settle.
+# Largest number of sweeps over all labels. Most shapes need two or three.
 _SWEEPS = 4
-# maximum_flow takes whole numbers: the largest capacity becomes this.
+# `maximum_flow` needs integers: the largest capacity is scaled to this.
 _LARGEST_CAPACITY = 2**24
-# Expansions reach this many polygons from the current seam.
+# An expansion may relabel nodes up to this many steps away from the label's region.
 _BAND = 6
 
 
@@ -29,28 +30,30 @@ def distances_to_parts(
     labels: NDArray[np.int64],
     n_labels: int,
 ) -> NDArray[np.float64]:
-    """Return how far each sample is from each label: the paper's data term of eq. 4.
+    """Return the paper's data term of eq. 4: the cost of each label for each sample.
 
-    The negative logarithm of a Gaussian kernel of the distance to the center of the
-    label's samples in the embedding, with the variance within parts, saturated.
+    It is the negative logarithm of a Gaussian of the distance, in the embedding,
+    between the sample and the center of the label's samples, up to 4.
 
     Parameters
     ----------
     embedding : (N, n) float
+        Coordinates of the samples in the embedding.
     labels : (N,) int
-        In 0…`n_labels` − 1, each used.
+        Label of each sample, in 0…`n_labels` − 1, each used.
     n_labels : int
+        Number of labels K.
 
     Returns
     -------
     costs : (N, K) float
-        In 0…4.
+        In 0…4, without unit.
     """
     members = np.eye(n_labels)[labels]
     sizes = np.maximum(members.sum(axis=0), 1.0)
     centers = (members.T @ embedding) / sizes[:, None]
     squared = ((embedding[:, None, :] - centers[None]) ** 2).sum(axis=2)
-    # One variance for all parts: with its own, a wide part swallows narrow ones.
+    # One variance for all: with variances of their own, wide parts swallow narrow ones.
     variance = (members * squared).sum() / len(labels) + np.finfo(float).tiny
     costs: NDArray[np.float64] = np.minimum(squared / (2 * variance), _MOST_DISLIKE)
     return costs
@@ -62,25 +65,26 @@ def cut_seams(
     costs: NDArray[np.float64],
     smoothness: float,
 ) -> Steps[NDArray[np.int64]]:
-    """Move the seams so that they are short, in creases, and true to the samples.
+    """Move the seams to a minimum of eq. 4, starting from given labels.
 
-    Minimizes eq. 4, E(l) = sum of areas times `costs` + lambda times the length of the
-    seams, where an edge in a concave crease counts less (the smoothness term). In a
-    flat mesh, lengths of outline take the place of areas: seams cross it straight.
+    The energy E(l) is the sum of areas times `costs`, plus lambda times the length of
+    the seams, in which an edge in a concave crease counts less. For a flat mesh, the
+    length of the outline replaces the area, so that seams run straight across.
 
     Parameters
     ----------
     graph : FaceGraph
     labels : (P,) int
-        Where to start, in 0…K − 1.
+        Label of each node at the start, in 0…K − 1.
     costs : (P, K) float
-        Data term per unit of area, or of outline.
+        Data term: cost of each label for each node, per share of the area or outline.
     smoothness : float
-        lambda.
+        Weight lambda of the seams' length.
 
     Returns
     -------
-    labels : (P,) int
+    Steps of (P,) int
+        The new labels. The steps yield `Progress`; `run` returns the labels.
     """
     data = costs * graph.weights[:, None]
     unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
@@ -98,7 +102,8 @@ def cut_seams(
                 continue
             moved, seen[label] = cutter.expand(labels, label)
             if len(moved):
-                # Others stay as they are where they have seen nothing that moved.
+                # Expand a label again if its last expansion moved nodes, or if a node
+                # that it depends on has moved since.
                 settled &= ~(restless | seen[:, moved].any(axis=1))
                 labels[moved] = label
             settled[label], restless[label] = True, len(moved) > 0
@@ -108,9 +113,9 @@ def cut_seams(
 
 
 class _Expansion:
-    """One alpha-expansion after the other over the same graph.
+    """Alpha-expansions of labels on one graph.
 
-    What an expansion takes goes with the size of its band, not with that of the graph.
+    The time of an expansion depends on the size of its band, not of the whole graph.
     """
 
     def __init__(
@@ -122,7 +127,8 @@ class _Expansion:
         self.data = data
         n_nodes = len(data)
         ends = np.concatenate([neighbors, neighbors[:, ::-1]])
-        # Arcs in both directions, by their tails; two nodes may have several edges.
+        # Arcs in both directions, sorted by tail. Several edges between two nodes are
+        # added up.
         graph = sparse.csr_array(
             (np.tile(seams, 2), tuple(ends.T)), shape=(n_nodes, n_nodes)
         )
@@ -134,10 +140,10 @@ class _Expansion:
     def expand(
         self, labels: NDArray[np.int64], label: int
     ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-        """Return the nodes that better had `label`: one minimum cut.
+        """Return the nodes that should change to `label`, by one minimum cut.
 
-        And which nodes it has seen, (P,): as long as these keep their labels, it would
-        come out the same.
+        Return also which nodes this depends on, (P,) bool: while their labels stay, the
+        result stays.
         """
         seen = labels == label
         nodes = self._band(seen)
@@ -153,9 +159,10 @@ class _Expansion:
         heads[heads == len(nodes)] = 0
         free = nodes[heads] == ends
         alike = own[tails] == labels[ends]
-        # The far end keeps its label: moving costs or saves a seam. Where both may move
-        # and have different labels, the seam is there anyway unless both do; one of the
-        # two arcs stands for that.
+        # If the head of an arc cannot move, moving the tail adds or removes their seam.
+        # If both can and their labels differ, the seam goes only if both move: its cost
+        # is subtracted where the first arc starts, and the arc back adds it again if
+        # that node moves alone.
         first = free & ~alike & (tails < heads)
         gained = np.where(free, first, labels[ends] == label)
         lost = alike & ~free
@@ -165,7 +172,7 @@ class _Expansion:
         return nodes[moves], seen
 
     def _band(self, reached: NDArray[np.bool_]) -> NDArray[np.int64]:
-        """Return the nodes within `_BAND` steps outside a region, ascending."""
+        """Return nodes up to `_BAND` steps outside a region, sorted, and mark them."""
         front = np.flatnonzero(reached)
         band: list[NDArray[np.int64]] = []
         for _ in range(_BAND):
@@ -176,7 +183,7 @@ class _Expansion:
         return np.sort(np.concatenate(band))
 
     def _arcs(self, nodes: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the arcs that leave nodes, those of one after those of the other."""
+        """Return the arcs that leave the nodes, grouped by node."""
         sizes = self.n_arcs[nodes]
         firsts = self.starts[nodes] - np.cumsum(sizes) + sizes
         arcs: NDArray[np.int64] = np.repeat(firsts, sizes)
@@ -189,16 +196,17 @@ def _minimum_cut(
     heads: NDArray[np.int64],
     capacities: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """Return which nodes move, minimizing sum of gains + cut arcs.
+    """Return which nodes move so that the total cost is least, (N,) bool.
 
-    `gain` is what moving a node costs; an arc is paid for when its tail stays and its
-    head moves. Arcs are sorted and there are both of every two nodes, if need be one
-    without capacity: all that SciPy's flow asks for. Staying is the source's side.
+    A node that moves costs its `gain`. An arc costs its capacity if its tail stays and
+    its head moves. SciPy needs sorted arcs, each with its reverse arc, even if that has
+    no capacity. Nodes on the source's side of the cut stay.
     """
     n_nodes = len(gain)
     source, sink = n_nodes, n_nodes + 1
     nodes = np.arange(n_nodes)
-    # A node that costs to move is held by the source, one that saves by the sink.
+    # An arc from the source is cut if a node moves that costs something. An arc to the
+    # sink is cut if a node stays that would save something.
     holders = np.where(gain > 0, source, sink)
     tails = np.concatenate([tails, nodes, holders])
     heads = np.concatenate([heads, holders, nodes])

@@ -1,8 +1,8 @@
-"""Parts decomposed again: what is small in a whole shape is large in its part.
+"""Further levels: splits the parts of a shape again, with new samples on each part.
 
-The paper names small sharp concavities in a large convex context as its limit, such as
-the fingers of a whole human (fig. 13c): few samples lie on them. Here each part gets as
-many samples of its own, and is split where psi gains enough.
+The paper names its limit: sharp, small, local concavities in a large convex context
+(fig. 13c), such as the fingers of a whole human. Few samples lie on them. Here each
+part gets as many samples as the whole shape had, and is split if psi gains enough.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from ..steps.progress import Steps, within, within_turn
 from .find import by_size, describe, find_parts
 from .part_memo import PartMemo
 
-# A part is split if psi, from samples of its own, gains more than this. Most parts of
-# a whole shape gain less.
+# A part is split if psi gains more than this, counted from samples on the part alone.
+# Most parts of a whole shape gain less.
 _WORTH_SPLITTING = 0.25
 
 
@@ -31,22 +31,23 @@ def split_again(
     found: Decomposition,
     parameters: Parameters,
 ) -> Steps[Decomposition]:
-    """Split parts that are worth it, and their parts again, down to the last level.
+    """Split each part for which psi gains enough, down to the last level.
 
     Parameters
     ----------
     shape : PreparedShape
     visibility : Visibility
-        Of the shape.
+        Visibility of `shape`.
     found : Decomposition
-        Its parts on the first level.
+        Parts of `shape` on this level.
     parameters : Parameters
-        Whose `levels` counts the level that was found.
+        `levels` is the number of levels, this one included.
 
     Returns
     -------
     Steps of Decomposition
-        Ranks of parts that were split are from their own samples.
+        Convexity ranks of split parts are measured with the samples on the part alone.
+        The steps yield `Progress`; `run` returns the decomposition.
     """
     finer = replace(parameters, parts=0, levels=parameters.levels - 1)
     labels, ranks = found.labels.copy(), found.ranks.tolist()
@@ -66,7 +67,7 @@ def split_again(
 def _pieces(
     shape: PreparedShape, parameters: Parameters
 ) -> Steps[Decomposition | None]:
-    """Return the parts of a part, None if it should stay whole."""
+    """Return the parts that a part is split into, None if it stays whole."""
     visibility = yield from within(see_in_steps(shape, parameters), 0.0, 0.4)
     steps = find_parts(PartMemo(visibility), parameters)
     found = yield from within(steps, 0.4, 0.5)
@@ -85,7 +86,7 @@ def _described(
     parameters: Parameters,
     found: Decomposition,
 ) -> Decomposition:
-    """Return the parts, the largest first, with the search of the first level."""
+    """Measure the parts, the largest first; psi by k is that of the first level."""
     nodes = visibility.shape.labels_of_nodes(labels)
     numbers = by_size(nodes, visibility.transfer.graph)[visibility.shape.nodes]
     _, first = np.unique(numbers, return_index=True)

@@ -1,4 +1,4 @@
-"""Connected parts: specks join their neighbors, psi decides what else is merged."""
+"""Makes parts connected, and merges parts: small pieces by area, others by psi."""
 
 from __future__ import annotations
 
@@ -11,26 +11,28 @@ from scipy.spatial import cKDTree
 from ..geometry.face_graph import FaceGraph
 from ..sight.pairs import PairTally
 
-# As many parts as can be asked for; smaller pieces join others.
+# Largest number of parts, the upper bound of the parameter Parts. If there are more
+# pieces, the smallest ones join their neighbors.
 _MOST_PARTS = 256
 
 
 def connected_parts(
     graph: FaceGraph, labels: NDArray[np.int64], smallest_area: float
 ) -> NDArray[np.int64]:
-    """Return connected pieces as parts, each too small one given to a neighbor.
+    """Cut labels into connected pieces, and give too small pieces to a neighbor.
 
     Parameters
     ----------
     graph : FaceGraph
     labels : (P,) int
     smallest_area : float
-        Pieces below this area join what they border on most.
+        A piece below this area joins the larger neighbor with the longest common
+        border, in squared diagonals.
 
     Returns
     -------
     parts : (P,) int
-        0…K − 1, each used.
+        Part of each node, in 0…K − 1, each used.
     """
     parts = _gathered(graph, labels, smallest_area)
     while True:
@@ -52,7 +54,7 @@ def connected_parts(
 def _gathered(
     graph: FaceGraph, labels: NDArray[np.int64], smallest_area: float
 ) -> NDArray[np.int64]:
-    """Return connected pieces, those of a label that lie scattered and small as one."""
+    """Return connected pieces; small isolated pieces of one label count as one."""
     pieces = graph.pieces(labels, smallest_area)
     areas = graph.areas_of(pieces)
     small = areas < smallest_area
@@ -71,10 +73,11 @@ def _joins_of_small(
     places: NDArray[np.int64],
     small: NDArray[np.bool_],
 ) -> NDArray[np.int64]:
-    """Return for each part the one it joins: itself unless `small`.
+    """Return the part that each part joins, (K,): itself unless it is `small`.
 
-    Only what comes earlier in the order of size, by `places`, takes a part in, so that
-    no two swap; a part without neighbors joins the nearest one that has to join none.
+    `places` is the rank of each part by area, 0 for the largest. A part joins only
+    larger neighbors, so that no two parts join each other. A part without neighbors
+    joins the nearest part that is not small.
     """
     joins = np.arange(len(places))
     borders = graph.borders(parts, len(places))
@@ -88,7 +91,7 @@ def _joins_of_small(
     if alone.any():
         mine, others = np.flatnonzero(alone[parts]), np.flatnonzero(~small[parts])
         distances, nearest = cKDTree(graph.centers[others]).query(graph.centers[mine])
-        # The last assignment of each part is that of its nearest polygon.
+        # Assign in order of falling distance: the nearest polygon of a part is last.
         order = np.argsort(-distances, kind="stable")
         joins[parts[mine[order]]] = parts[others[nearest[order]]]
     return joins
@@ -97,23 +100,24 @@ def _joins_of_small(
 def merge_to(
     n_parts: int, tally: PairTally, touching: NDArray[np.bool_], alpha: float
 ) -> NDArray[np.int64]:
-    """Merge parts two by two, at the least loss of psi, until few enough are left.
+    """Merge pairs of parts, always the pair that loses least psi, down to `n_parts`.
 
     Parameters
     ----------
     n_parts : int
-        How many to keep.
+        Number of parts to keep.
     tally : PairTally
-        Of K parts.
+        Counts of visible and known pairs of samples in K parts.
     touching : (K, K) bool
-        Parts that do not touch are merged only when no two touch any more.
+        Symmetric: whether two parts have a common border. Parts without one are merged
+        only if no two parts touch.
     alpha : float
-        Of psi.
+        Weight of hidden pairs in psi (eq. 5).
 
     Returns
     -------
     merged : (K,) int
-        New part 0…`n_parts` − 1 of each old one.
+        New part of each old part, in 0…`n_parts` − 1.
     """
     merged = np.arange(len(touching))
     touching = touching.copy()

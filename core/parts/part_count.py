@@ -1,4 +1,4 @@
-"""The search for the number of parts k by psi (section 5 of the paper)."""
+"""Searches for the number of parts k by psi (section 5 of the paper)."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from .part_memo import Candidate
 from .partition import Partitioner, count_parts
 from .seams import SeamCutter
 
-# Psi grows ever more slowly with k. A number of parts is good enough if it lacks no
-# more than this share of the most that psi gains over one part.
+# Psi grows more and more slowly with k. A k is good enough if its psi is below the
+# largest psi by at most this share of the largest gain over one part.
 _GAIN_TOLERANCE = 0.035
 
 
 class Search(NamedTuple):
-    """What came of trying several numbers of parts k.
+    """The result of a search for the number of parts k.
 
     Attributes
     ----------
     parts : (P,) int
         The chosen parts, with their seams cut.
     psi_by_k : dict of int to float
-        Psi of one part, and of every k that was tried and that the shape allows, before
-        seams are cut.
+        Psi of one part, and of each k tried for which k parts were found, before seams
+        are cut.
     best_k : int
         The number of parts that the search chooses.
     """
@@ -40,16 +40,17 @@ class Search(NamedTuple):
 
 
 class PartCountSearch:
-    """Tries numbers of parts from a lowest to a highest one.
+    """Tries the numbers of parts from `low` to `high` and chooses one by psi.
 
     Parameters
     ----------
     partitioner : Partitioner
+        Finds the parts for each number.
     seams : SeamCutter
     low, high : int
-        The first and the last number that is tried.
+        First and last number that is tried.
     memo : Memo
-        From both numbers to the candidates for all between them.
+        Maps the first and last number to the candidate for each number of parts.
     """
 
     def __init__(
@@ -66,13 +67,19 @@ class PartCountSearch:
         self._memo = memo
 
     def best(self) -> Steps[Search]:
-        """Return the parts of nearly the largest psi.
+        """Return the parts for the smallest k that is good enough.
 
-        Several k gain nearly as much psi over one part as the best k does. The smallest
-        of them is chosen whose parts are as good as k-means' clusters. Parts are
-        connected and clusters need not be. Where clusters are better, their pieces
-        should be parts of their own. If a symmetric shape is left with a part without
-        its mirror image, up to twice as many parts are taken.
+        1. A k is good enough if its psi is nearly the largest of all k.
+        2. Take the smallest such k whose psi nearly reaches that of the k clusters of
+           k-means. Clusters need not be connected, but parts are. If clusters have a
+           higher psi, some of their pieces should be parts of their own.
+        3. If the parts of a symmetric shape are not symmetric, prefer the next such k
+           with symmetric parts, up to 2k.
+
+        Returns
+        -------
+        Steps of Search
+            The steps yield `Progress`; `run` returns the search.
         """
         tried = yield from within(self._candidates(self._low, self._high), 0.0, 0.7)
         psi_by_k = {k: candidate.psi for k, candidate in tried.items()}
@@ -90,10 +97,18 @@ class PartCountSearch:
         return Search(parts, psi_by_k, best_k)
 
     def given(self, n_parts: int) -> Steps[Search]:
-        """Return the parts that the search finds for `n_parts`.
+        """Return `n_parts` parts, with the psi of other numbers for comparison.
 
-        They are fewer where the shape does not allow so many. The search is made as
-        well: it tells what other numbers would give.
+        Parameters
+        ----------
+        n_parts : int
+            There are fewer parts if the shape cannot be split into so many.
+
+        Returns
+        -------
+        Steps of Search
+            `best_k` is the k that `best` chooses. The steps yield `Progress`; `run`
+            returns the search.
         """
         searched = yield from within(self.best(), 0.0, 0.6)
         fewest = min(n_parts, self._low)
@@ -108,10 +123,10 @@ class PartCountSearch:
     def _first_like_clusters(
         self, tried: dict[int, Candidate], numbers: Sequence[int]
     ) -> Steps[int]:
-        """Return the first k whose parts are as good as k-means' clusters, or 0."""
+        """Return the first k whose parts nearly reach the psi of k clusters, or 0."""
         by = self._partitioner
         for number, k in enumerate(numbers):
-            # Seldom more than one: each reports half of the progress that is left.
+            # Usually the first k is taken: each reports half of the remaining progress.
             steps = self._seams.cut(tried[k].parts)
             parts = yield from within(
                 steps, 1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1)
@@ -123,11 +138,11 @@ class PartCountSearch:
         return 0
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
-        """Return the candidates for one part, and for every k the shape allows."""
+        """Return candidates for 1 and `low`…`high` parts, from the memo if known."""
         return self._memo.recall_steps((low, high), partial(self._try, low, high))
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
-        """Find the candidates for one part, and for every k the shape allows."""
+        """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
         tried = {1: self._partitioner.candidate(1)}
         for turn, n_parts in enumerate(range(low, high + 1)):
             steps = within_turn(self._candidate(n_parts), turn, high + 1 - low)
@@ -145,20 +160,20 @@ class PartCountSearch:
     def _with_more(
         self, tried: dict[int, Candidate], n_parts: int
     ) -> Steps[dict[int, Candidate]]:
-        """Return candidates, with one for more parts than were searched."""
+        """Add the candidate for `n_parts`, which is above the highest number tried."""
         candidate = yield from within(self._candidate(n_parts), 0.0, 0.8)
         more = {count_parts(candidate.parts): candidate} | tried
         return (yield from within(self._evened(more), 0.8, 1.0))
 
     def _candidate(self, n_parts: int) -> Steps[Candidate]:
-        """Return the partitioner's candidate, in two steps."""
+        """Return the partitioner's candidate, found in two steps of equal length."""
         yield Progress("Number of parts", 0.0)
-        self._partitioner.plain(n_parts)  # kept in the memo: half of the work
+        self._partitioner.plain(n_parts)  # half of the work; the memo keeps it
         yield Progress("Number of parts", 0.5)
         return self._partitioner.candidate(n_parts)
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:
-        """Return symmetric candidates in place of others that are hardly better."""
+        """Replace candidates by symmetric ones whose psi is not clearly lower."""
         by = self._partitioner
         if not by.by_psi:
             return tried

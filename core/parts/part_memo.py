@@ -1,4 +1,4 @@
-"""What was found from a visibility, kept so that another number of parts is quick."""
+"""Keeps intermediate results of a visibility, so that other parts are found quickly."""
 
 from __future__ import annotations
 
@@ -18,12 +18,22 @@ from ..steps.progress import Steps
 
 Labels: TypeAlias = NDArray[np.int64]
 
-# Eigenvectors are computed in such numbers: a search with default settings needs 13.
+# Eigenvectors are computed in multiples of this: a default search needs 13.
 _COORDINATES = 13
 
 
 def digest(labels: Labels) -> bytes:
-    """Return a key that tells labels from others."""
+    """Return a hash of labels, to be used as a key.
+
+    Parameters
+    ----------
+    labels : (P,) int
+        Contiguous in memory.
+
+    Returns
+    -------
+    bytes
+    """
     return blake2b(labels.data).digest()
 
 
@@ -37,7 +47,7 @@ class Candidate(NamedTuple):
     psi : float
         Their quality (eq. 5).
     even : bool
-        Whether each part has its mirror image, in a shape that has a mirror plane.
+        Whether the parts were made symmetric to the shape's mirror plane.
     """
 
     parts: Labels
@@ -46,22 +56,22 @@ class Candidate(NamedTuple):
 
 
 class CutMemo:
-    """What was found for one choice of clusters, balance and smallest part.
+    """Results for one set of clusters, refinement, balance and smallest part.
 
     Attributes
     ----------
     candidates : Memo
-        From a number of parts to its candidate.
+        Maps a number of parts to its candidate.
     merged : Memo
-        From a number of parts, and the largest number tried, to the better candidate.
+        Maps a number of parts, and the largest number tried, to the better candidate.
     plain : Memo
-        From a number of parts to k-means' clusters as parts.
+        Maps a number of parts to the connected parts that k-means' clusters give.
     even : Memo
-        From a side and the digest of parts to parts alike on both sides.
+        Maps the number of a side and the digest of parts to symmetric parts.
     searches : Memo
-        From the first and last number tried to the candidate of each number.
+        Maps the first and last number tried to the candidate for each number.
     seams : Memo
-        From a smoothness and the digest of parts to the parts with their seams cut.
+        Maps a smoothness and the digest of parts to the parts with their seams cut.
     """
 
     def __init__(self) -> None:
@@ -74,9 +84,9 @@ class CutMemo:
 
 
 class PartMemo:
-    """A visibility, and what was found from it.
+    """A visibility, with the intermediate results that were computed from it.
 
-    Results never depend on what is kept: it saves time alone.
+    They only save time: parts do not depend on what the memo holds.
 
     Parameters
     ----------
@@ -84,12 +94,13 @@ class PartMemo:
 
     Attributes
     ----------
+    visibility : Visibility
     tallies : Memo
-        From the digest and number of labels to the counts of pairs.
+        Maps the digest and number of labels to the counts of pairs of samples.
     pieces : Memo
-        From a smallest area and the digest of labels to connected parts.
+        Maps a smallest area and the digest of labels to connected parts.
     moves : Memo
-        From the digest of labels and alpha to the labels after all moves.
+        Maps the digest of labels and alpha to the labels after all moves.
     """
 
     def __init__(self, visibility: Visibility) -> None:
@@ -103,14 +114,32 @@ class PartMemo:
         self._sides: tuple[Side, ...] | None = None
 
     def clusters(self, parameters: Parameters) -> Memo[tuple[int, int], Labels]:
-        """Return the memo of k-means' clusters of samples.
+        """Return the memo of the clusters that k-means finds with these parameters.
 
-        From the numbers of clusters and coordinates to the labels.
+        Parameters
+        ----------
+        parameters : Parameters
+            Only `normalization` and `seed` are used.
+
+        Returns
+        -------
+        Memo
+            Maps the numbers of clusters and coordinates to labels of samples (N,).
         """
         return self._clusters.recall((parameters.normalization, parameters.seed), Memo)
 
     def cut(self, parameters: Parameters) -> CutMemo:
-        """Return the memo of what these parameters give."""
+        """Return the memo of the parts that are found with these parameters.
+
+        Parameters
+        ----------
+        parameters : Parameters
+            `normalization`, `seed`, `refinement`, `alpha` and `smallest_part` are used.
+
+        Returns
+        -------
+        CutMemo
+        """
         key = (
             parameters.normalization,
             parameters.seed,
@@ -121,10 +150,22 @@ class PartMemo:
         return self._cuts.recall(key, CutMemo)
 
     def embedding(self, n_parts: int, parameters: Parameters) -> NDArray[np.float64]:
-        """Return coordinates of the samples for a number of parts, (N, n) float.
+        """Return the embedding of the samples, with enough coordinates for the parts.
 
-        Eigenvectors differ a little by how many of them are computed. They come in
-        fixed numbers, so that parts do not depend on how many more are tried.
+        Eigenvectors depend slightly on how many are computed. Their number is always a
+        multiple of 13, so that parts do not depend on the largest number tried.
+
+        Parameters
+        ----------
+        n_parts : int
+            Least number of coordinates.
+        parameters : Parameters
+            Only `normalization` is used.
+
+        Returns
+        -------
+        embedding : (N, n) float
+            Leading eigenvectors; n < `n_parts` only if there are too few samples.
         """
         n_coordinates = _COORDINATES * -(-n_parts // _COORDINATES)
         stochastic = parameters.normalization == "STOCHASTIC"
@@ -134,7 +175,13 @@ class PartMemo:
         )
 
     def sides(self) -> Steps[tuple[Side, ...]]:
-        """Return both sides of the shape's mirror plane, none if it has no plane."""
+        """Return the two sides of the shape's mirror plane, none if it has no plane.
+
+        Returns
+        -------
+        Steps of tuple of Side
+            The steps yield `Progress`; `run` returns the sides.
+        """
         if self._sides is None:
             self._sides = yield from find_sides(self.visibility.transfer.graph)
         return self._sides

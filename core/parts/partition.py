@@ -1,4 +1,4 @@
-"""Exactly k connected parts of a surface, from the visibility of its samples."""
+"""Splits a surface into k connected parts by the visibility of its samples."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from ..steps.progress import Progress, Steps
 from .merging import connected_parts, merge_to
 from .part_memo import Candidate, PartMemo, digest
 
-# Weight of positions, in diagonals, beside the embedding.
+# Weight of positions (in diagonals) relative to coordinates of the embedding.
 _PLACE_WEIGHT = 1e-3
-# Numbers of further clusters that are tried where k clusters make fewer than k parts.
+# If k clusters make fewer than k parts, try so many additional clusters, in turn.
 _MORE_CLUSTERS = (0, 1, 2, 4, 8)
-# Psi from two sets of N samples of one shape differs by about twice this over √N.
-# Smaller differences mean nothing.
+# Sampling error of psi, times √N: with other N samples, the psi of a shape differs by
+# about twice this over √N.
 _NEGLIGIBLE = 0.1
 
 
 class Partitioner:
-    """Makes parts of a shape from its visibility, for one k after the other.
+    """Splits a shape into connected parts, for any number of parts k.
 
     Parameters
     ----------
     memo : PartMemo
-        The visibility. What is found is kept there.
+        The visibility; it also keeps intermediate results.
     parameters : Parameters
 
     Attributes
@@ -40,13 +40,13 @@ class Partitioner:
     visibility : Visibility
     transfer : Transfer
     graph : FaceGraph
-        What the parts are parts of.
+        Graph of the nodes that get labels.
     by_psi : bool
         Whether parts and seams are refined by psi.
     negligible : float
         Differences of psi below this are sampling error.
     smallest_area : float
-        Connected pieces below this area join a neighbor.
+        Connected pieces below this area, in squared diagonals, join a neighbor.
     """
 
     def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
@@ -62,7 +62,16 @@ class Partitioner:
         self._of_clusters = memo.clusters(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
-        """Return `n_parts` parts, or as many as can be, and their psi."""
+        """Return `n_parts` parts and their psi; fewer parts if no more are possible.
+
+        Parameters
+        ----------
+        n_parts : int
+
+        Returns
+        -------
+        Candidate
+        """
 
         def make() -> Candidate:
             parts = self.partition(n_parts)
@@ -71,9 +80,19 @@ class Partitioner:
         return self._cut.candidates.recall(n_parts, make)
 
     def better(self, n_parts: int, most: int) -> Candidate:
-        """Return the candidate, or what comes of merging one of up to `most` parts.
+        """Return the best of the candidate and of merged candidates with more parts.
 
-        What k-means misses with few clusters it may find with more.
+        With more clusters, k-means may find a part that it misses with fewer.
+
+        Parameters
+        ----------
+        n_parts : int
+        most : int
+            Largest number of parts to merge from.
+
+        Returns
+        -------
+        Candidate
         """
         own = self.candidate(n_parts)
         if n_parts >= most or not self.by_psi:
@@ -90,9 +109,18 @@ class Partitioner:
     def symmetric(
         self, parts: NDArray[np.int64], wanted: Container[int]
     ) -> Steps[list[Candidate]]:
-        """Return what each side of a symmetric shape makes of both.
+        """Return the parts made symmetric, by copying either side to the other.
 
-        Two at most: those with a number of parts that is wanted.
+        Parameters
+        ----------
+        parts : (P,) int
+        wanted : container of int
+            Candidates with another number of parts are left out.
+
+        Returns
+        -------
+        Steps of list of Candidate
+            At most two, none if the shape has no mirror plane.
         """
         sides = yield from self._memo.sides()
         found, key = [], digest(parts) if sides else b""
@@ -105,11 +133,11 @@ class Partitioner:
         return found
 
     def _mirrored(self, parts: NDArray[np.int64], side: Side) -> NDArray[np.int64]:
-        """Return the parts that those on one side make of both sides."""
+        """Return the parts after those on one side are copied to the other side."""
         return self._pieces(side.copied(parts, self.graph))
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
-        """Return the pairs of samples counted by the parts of the polygons."""
+        """Count visible and known pairs of samples by parts (P,) of the nodes."""
         labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
         return self._memo.tallies.recall(
             (digest(labels), n_parts),
@@ -117,16 +145,26 @@ class Partitioner:
         )
 
     def psi(self, parts: NDArray[np.int64]) -> float:
-        """Return psi (eq. 5) of parts of the polygons."""
+        """Return psi (eq. 5) of parts (P,) of the nodes."""
         return self.tally(parts).psi(self.parameters.alpha)
 
     def psi_of_clusters(self, n_clusters: int) -> float:
-        """Return psi of k-means' clusters, which may lie in several pieces."""
+        """Return psi of the clusters of k-means, which need not be connected."""
         n_clusters, labels = self._clusters(n_clusters, n_clusters)
         return self.psi(self.transfer.to_polygons(labels, n_clusters))
 
     def partition(self, n_parts: int) -> NDArray[np.int64]:
-        """Return `n_parts` parts of the polygons, or as many as can be, (P,) int."""
+        """Return `n_parts` connected parts; fewer if no more are possible.
+
+        Parameters
+        ----------
+        n_parts : int
+
+        Returns
+        -------
+        parts : (P,) int
+            Part of each node, in 0…K − 1.
+        """
         plain = self.plain(n_parts)
         if n_parts == 1 or not self.by_psi:
             return plain
@@ -138,19 +176,19 @@ class Partitioner:
             ),
         )
         parts = self.tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
-        # Psi may be better with fewer parts: they are split where it loses least.
+        # Psi may be higher with fewer parts: split those where psi loses least.
         moved = self._split(parts, n_parts)
         return max(
             moved, plain, key=lambda parts: (count_parts(parts), self.psi(parts))
         )
 
     def plain(self, n_parts: int) -> NDArray[np.int64]:
-        """Return the parts that k-means' clusters are, as they are, (P,) int."""
+        """Return `n_parts` connected parts (P,) from k-means, not refined by psi."""
         whole = np.zeros(self.graph.n_polygons, dtype=np.int64)
         return self._cut.plain.recall(n_parts, lambda: self._split(whole, n_parts))
 
     def _split(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
-        """Return parts split along k-means' clusters into `n_parts` connected ones."""
+        """Split parts along the borders of k-means' clusters, up to `n_parts` parts."""
         most = parts
         for more in _MORE_CLUSTERS:
             if count_parts(most) >= n_parts:
@@ -167,12 +205,12 @@ class Partitioner:
         return most
 
     def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, NDArray[np.int64]]:
-        """Return clusters of samples to make parts of: their number, labels (N,)."""
+        """Return the number of clusters and the labels (N,) of samples by k-means."""
         n_clusters = min(n_clusters, len(self.visibility.samples))
         embedding = self.embedding(n_parts)[:, :n_clusters]
 
         def make() -> NDArray[np.int64]:
-            # Samples that see the same, as in a convex shape, are told apart by place.
+            # Positions separate samples that see the same, as in a convex shape.
             places = _PLACE_WEIGHT * self.visibility.samples.positions
             coordinates = np.hstack([embedding, places])
             return cluster(coordinates, n_clusters, self.parameters.seed)
@@ -181,23 +219,26 @@ class Partitioner:
         return n_clusters, self._of_clusters.recall(key, make)
 
     def embedding(self, n_parts: int) -> NDArray[np.float64]:
-        """Return the coordinates of the samples for a number of parts."""
+        """Return the embedding of the samples for `n_parts` parts, (N, n) float."""
         return self._memo.embedding(n_parts, self.parameters)
 
     def tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
-        """Return at most `n_parts` parts, connected where that many allow it."""
+        """Return connected parts (P,), merged down to `n_parts` if there are more.
+
+        Parts may lie in several pieces if there are more shells than `n_parts`.
+        """
         return self._at_most(n_parts, self._pieces(labels))
 
     def _pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return connected parts, however many."""
+        """Return the connected pieces of labels, without pieces that are too small."""
         return connected_parts(self.graph, labels, self.smallest_area)
 
     def _at_most(self, n_parts: int, parts: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return parts, merged if there are too many."""
+        """Return the parts, merged down to `n_parts` if there are more."""
         return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
-        """Return `n_parts` parts, merged from more where psi loses least."""
+        """Merge parts (P,) where psi loses least, until `n_parts` are left."""
         n_pieces = count_parts(parts)
         touching = self.graph.borders(parts, n_pieces).toarray() > 0
         merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
@@ -205,5 +246,5 @@ class Partitioner:
 
 
 def count_parts(parts: NDArray[np.int64]) -> int:
-    """Return the number of parts of labels 0…K − 1."""
+    """Return the number of parts K of labels (P,) in 0…K − 1."""
     return int(parts.max()) + 1

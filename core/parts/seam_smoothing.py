@@ -1,4 +1,4 @@
-"""Seams of given parts made smooth, near to where they are."""
+"""Smooths the seams of given parts without moving them far."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from ..geometry.face_graph import FaceGraph
 from ..steps.progress import Steps
 from .graph_cut import cut_seams
 
-# A polygon dislikes a part by its distance from it: 1 at this one, in square roots of
-# the area.
+# Distance from a part at which a polygon's cost for that part is 1, as a share of the
+# square root of the total area.
 _UNIT = 0.05
-# What no seam is worth. Capacities are whole numbers: far more would hide the rest.
+# Cost that excludes a part. Capacities of the graph cut are scaled to integers: a much
+# larger cost would round the others to 0.
 _NEVER = 1e3
-# What is so deep in a part stays there, in shares of the greatest depth.
+# A polygon at this share of its part's greatest depth, or deeper, stays in the part.
 _CORE = 0.5
 
 
@@ -28,25 +29,26 @@ def smooth_seams(
     chosen: Sequence[int],
     smoothness: float,
 ) -> Steps[NDArray[np.int64]]:
-    """Cut the seams of some parts anew: short, in creases, and near to the given ones.
+    """Move the seams of some parts into short lines and creases near the given seams.
 
-    The graph cut of eq. 4, whose data term is here how far a polygon is from a part,
-    so that what was edited by hand is kept.
+    This is the graph cut of eq. 4. Its data term is the distance of a polygon from a
+    part, not a distance in the embedding, so that edits by hand are kept.
 
     Parameters
     ----------
     graph : FaceGraph
     labels : (P,) int
-        In 0…K − 1, each used.
+        Part of each node, in 0…K − 1, each used.
     chosen : sequence of int
-        Parts whose seams move; those between others stay.
+        Parts whose seams move. Seams between two other parts stay.
     smoothness : float
-        lambda.
+        Weight lambda of the seams' length (eq. 4).
 
     Returns
     -------
-    labels : (P,) int
-        All parts are still there: what is deep in one never leaves it.
+    Steps of (P,) int
+        The new labels. No part vanishes: nodes deep inside a part stay in it. The steps
+        yield `Progress`; `run` returns the labels.
     """
     n_parts = int(labels.max()) + 1
     costs = _costs(graph, labels, n_parts)
@@ -59,11 +61,11 @@ def smooth_seams(
 def _costs(
     graph: FaceGraph, labels: NDArray[np.int64], n_parts: int
 ) -> NDArray[np.float64]:
-    """Return how far each polygon is from each part, along the surface, (P, K)."""
+    """Return the data term (P, K): distances of nodes from parts along the surface."""
     one, other = graph.neighbors.T
     steps = np.linalg.norm(graph.centers[one] - graph.centers[other], axis=1)
     unit = _UNIT * float(np.sqrt(graph.areas.sum()))
-    # Polygons at one place are neighbors, too.
+    # Neighbors with equal centers still need an edge: its length must not be 0.
     ways = sparse.coo_array(
         (np.maximum(steps, 1e-6 * unit), (one, other)),
         shape=(graph.n_polygons,) * 2,

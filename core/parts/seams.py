@@ -1,4 +1,4 @@
-"""Seams of parts: short, in creases, as smooth as psi allows, alike on both sides."""
+"""Cuts the seams of parts as smoothly as psi allows, and makes them symmetric."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .graph_cut import cut_seams, distances_to_parts
 from .part_memo import digest
 from .partition import Partitioner, count_parts
 
-# Seams that cost too much psi are cut again with these shares of lambda.
+# Shares of lambda that are tried in turn, until the seams cost little enough psi.
 _SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 
 
@@ -22,9 +22,9 @@ class SeamCutter:
     Parameters
     ----------
     partitioner : Partitioner
-        Made the parts.
+        The partitioner that made the parts; its parameters are used.
     memo : Memo
-        From a smoothness and the digest of parts to the parts with their seams cut.
+        Maps a smoothness and the digest of parts to the parts with their seams cut.
     """
 
     def __init__(
@@ -37,15 +37,26 @@ class SeamCutter:
         self._memo = memo
 
     def cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Return the same number of parts (P,) with their seams cut."""
+        """Return the parts with smooth seams; their number stays the same.
+
+        Parameters
+        ----------
+        parts : (P,) int
+            Part of each node, in 0…K − 1.
+
+        Returns
+        -------
+        Steps of (P,) int
+            The steps yield `Progress`; `run` returns the new parts.
+        """
         key = self._smoothness, digest(parts)
         return self._memo.recall_steps(key, lambda: self._cut(parts))
 
     def _cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Cut the seams of parts.
+        """Return the parts with smooth seams.
 
-        Smooth seams cost psi. They may not cost more than the moves of samples have won
-        over k-means. A part that short seams would swallow keeps its seams.
+        Smooth seams cost psi, but at most what the moves of samples gained over
+        k-means. If a part would become too small, its nodes keep their labels.
         """
         n_parts, by = count_parts(parts), self._partitioner
         if n_parts == 1 or self._smoothness == 0:
@@ -68,7 +79,7 @@ class SeamCutter:
     def _evened(
         self, parts: NDArray[np.int64], enough: float
     ) -> Steps[NDArray[np.int64]]:
-        """Return parts with seams alike on both sides, if psi stays enough."""
+        """Return parts symmetric to the mirror plane, if psi is still high enough."""
         by = self._partitioner
         if not by.by_psi:
             return parts
@@ -80,7 +91,7 @@ class SeamCutter:
     def _data_costs(
         self, labels: NDArray[np.int64], n_labels: int
     ) -> NDArray[np.float64]:
-        """Return the data term of eq. 4 for samples and labels, (N, K)."""
+        """Return the data term of eq. 4: the cost of each label per sample, (N, K)."""
         by = self._partitioner
         if not by.by_psi:
             return distances_to_parts(by.embedding(n_labels), labels, n_labels)

@@ -1,1 +1,1 @@
-"""Ray casters: Blender's BVH tree."""
+"""Ray casters: Blender's BVH tree and Embree."""

@@ -1,4 +1,4 @@
-"""Rays cast by Embree, where there is no Blender: in one call, many times faster."""
+"""Cast rays by Embree, without Blender: all in one call, many times faster."""
 
 from __future__ import annotations
 
@@ -9,21 +9,23 @@ from numpy.typing import NDArray
 
 from ....core.geometry.mesh import TriangleMesh
 
-# Number by which Embree says that a ray hits nothing.
+# Triangle number that Embree returns for a ray without a hit.
 _MISS = -1
 
 
 class EmbreeRayCaster:
-    """A `RayCaster` for one mesh; it works in single precision.
+    """Cast rays at one mesh by Embree, in single precision.
+
+    Implements the protocol `RayCaster` of `core.sight.ray_march`.
 
     Parameters
     ----------
     mesh : TriangleMesh
-        Its triangles are numbered in the answers.
+        Hits are numbered by its triangles.
     """
 
     def __init__(self, mesh: TriangleMesh) -> None:
-        # Robust: no ray slips through between two triangles of one edge.
+        # Robust: no ray passes between two triangles that share an edge.
         self._scene = EmbreeScene(robust=True)
         corners = np.ascontiguousarray(mesh.vertices[mesh.triangles], dtype=np.float32)
         EmbreeMesh(self._scene, corners)
@@ -36,7 +38,21 @@ class EmbreeRayCaster:
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Return the nearest triangle along each ray, and its distance.
 
-        See `core.sight.ray_march.RayCaster`.
+        Parameters
+        ----------
+        origins : (M, 3) float
+            Starts of the rays, in the space of the mesh.
+        directions : (M, 3) float
+            Unit vectors.
+        reach : (M,) float
+            Hits farther away than this are misses.
+
+        Returns
+        -------
+        triangles : (M,) int
+            Row of the mesh's triangles, −1 for a miss.
+        distances : (M,) float
+            `inf` for a miss.
         """
         rays = [
             np.ascontiguousarray(array, dtype=np.float32)

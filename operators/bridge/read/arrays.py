@@ -1,4 +1,4 @@
-"""What scripts pass as a shape -> shapes: arrays, lists, other libraries' meshes."""
+"""Turn the arguments of scripts into shapes: arrays, lists, and mesh objects."""
 
 from __future__ import annotations
 
@@ -21,22 +21,26 @@ _SHAPES = (
 
 
 def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
-    """Return what a script means by a shape.
+    """Return the shape that a script passed, as a mesh or a point cloud.
 
     Parameters
     ----------
     shape : object
-        (V, 3) vertices, a TriangleMesh, a PointCloud, a Blender object, or anything
+        Vertices (V, 3), a TriangleMesh, a PointCloud, a Blender object, or any object
         with attributes `vertices` and `faces`, such as a `trimesh.Trimesh`.
     faces : sequence of sequences of int, optional
-        Rows of the vertices around each polygon; without it, vertices are points.
+        Vertex rows of each polygon. Vertices without faces are points.
+
+    Returns
+    -------
+    TriangleMesh or PointCloud
 
     Raises
     ------
     TypeError
-        If it is none of these.
+        If an argument is of another type.
     DecompositionError
-        If it has no surface that can be decomposed.
+        If the shape has no surface that can be decomposed.
     """
     is_object = _is_blender_object(shape)
     named = hasattr(shape, "vertices") and hasattr(shape, "faces")
@@ -58,7 +62,27 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
 
 
 def mesh_of(shape: object, faces: object = None) -> TriangleMesh:
-    """Return what a script means by a mesh; errors are those of `shape_of`."""
+    """Return the mesh that a script passed.
+
+    Parameters
+    ----------
+    shape : object
+        Vertices (V, 3), a TriangleMesh, a Blender object, or any object with
+        attributes `vertices` and `faces`.
+    faces : sequence of sequences of int, optional
+        Vertex rows of each polygon.
+
+    Returns
+    -------
+    TriangleMesh
+
+    Raises
+    ------
+    TypeError
+        If an argument is of another type.
+    DecompositionError
+        If the shape has no faces, or no surface that can be decomposed.
+    """
     mesh = shape_of(shape, faces)
     if isinstance(mesh, PointCloud):
         raise DecompositionError(
@@ -70,14 +94,27 @@ def mesh_of(shape: object, faces: object = None) -> TriangleMesh:
 def labels_of(
     labels: object, mesh: TriangleMesh, needed: bool
 ) -> NDArray[np.int64] | None:
-    """Return the part of each polygon (P,), or None where none is given.
+    """Return the labels that a script passed, after checking them.
+
+    Parameters
+    ----------
+    labels : object
+        Part of each polygon, or None.
+    mesh : TriangleMesh
+        The mesh whose polygons they label.
+    needed : bool
+        Whether None is an error.
+
+    Returns
+    -------
+    (P,) int or None
 
     Raises
     ------
     TypeError
         If labels are not whole numbers.
     DecompositionError
-        If they do not fit the mesh, or are needed and missing.
+        If labels do not fit the mesh, or are needed and missing.
     """
     if labels is None:
         if needed:
@@ -97,7 +134,7 @@ def labels_of(
 
 
 def _is_blender_object(shape: object) -> bool:
-    """Return whether a shape is a Blender object; raise if it is other Blender data."""
+    """Return whether a shape is a Blender object; TypeError for other Blender data."""
     kind = getattr(shape, "bl_rna", None)
     if kind is None:
         return False
@@ -169,18 +206,18 @@ def _polygon(face: object, row: int) -> NDArray[np.int64]:
 
 
 def _numbers(values: object) -> NDArray[Any] | None:
-    """Return real numbers as an array, None if they are none or ragged."""
+    """Return an array of real numbers; None if values are ragged or no numbers."""
     if values is None or isinstance(values, str | bytes):
         return None
     try:
         array = np.asarray(values)
-    except (TypeError, ValueError):  # ragged, or an object that refuses
+    except (TypeError, ValueError):  # ragged, or an object that cannot be an array
         return None
     return array if array.dtype.kind in "iuf" else None
 
 
 def _indices(array: NDArray[Any]) -> NDArray[np.int64]:
-    """Return vertex numbers as such, or raise if they are no whole numbers."""
+    """Return vertex numbers as integers; raise if one is negative or not whole."""
     if array.dtype.kind == "f" and array.size:
         raise TypeError("`faces` must be whole numbers: rows of the vertices.")
     if array.size and array.min() < 0:
@@ -191,5 +228,5 @@ def _indices(array: NDArray[Any]) -> NDArray[np.int64]:
 
 
 def _name(thing: object) -> str:
-    """Return what a thing is called in a sentence."""
+    """Return how an error message names a value: by its type."""
     return f"a value of type {type(thing).__name__}"

@@ -1,1 +1,1 @@
-"""The work that is done on objects, step by step."""
+"""Work on Blender objects, as steps: decompose, measure, edit, build hulls."""

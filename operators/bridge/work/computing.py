@@ -1,7 +1,7 @@
-"""What is computed of an object: it is checked and read at once, then worked on.
+"""Compute results for an object: decompose it, measure it, build hulls around it.
 
-Each function returns the work as `Steps`. Errors of an object that cannot be read or
-written to are raised at once.
+Each function checks and reads the object at once, and raises then if it cannot. It
+returns the computation as `Steps`, which give the result when they are run.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .session_cache import has_seen, session_cache
 
 Result = TypeVar("Result")  # of any kind that has notes
 
-# In the order in which they load each other.
+# In the order in which they import one another.
 _LIBRARIES = (
     "scipy.linalg",
     "scipy.spatial",
@@ -47,7 +47,7 @@ _LIBRARIES = (
 def decompose_object(
     obj: bpy.types.Object, parameters: Parameters
 ) -> Steps[Decomposition]:
-    """Return the work of decomposing an object that parts are to be written to.
+    """Return the steps that decompose an object.
 
     Raises
     ------
@@ -65,18 +65,24 @@ def decompose_object(
 
 
 def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
-    """Return whether `decompose_object` needs no new lines of sight.
+    """Return whether decomposing an object needs no new lines of sight.
 
-    Errors are those of `decompose_object`.
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read or written to.
     """
     check_writable(obj)
     return parameters.levels == 1 and has_seen(read_shape(obj), parameters)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
-    """Return the work of measuring an object.
+    """Return the steps that measure the convexity rank of an object.
 
-    Errors are those of `decompose_object`.
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read.
     """
     check_records(obj)
     shape = read_shape(obj)
@@ -90,9 +96,12 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
 def measure_selection_of(
     obj: bpy.types.Object, parameters: Parameters
 ) -> Steps[Measurement]:
-    """Return the work of measuring the selected faces of an object.
+    """Return the steps that measure the rank of an object's selected faces.
 
-    Errors are those of `decompose_object`, and that no face is selected.
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
     shape, faces = read_shape(obj), selected_faces(obj)
@@ -111,9 +120,12 @@ def measure_selection_of(
 def point_viewer_of(
     obj: bpy.types.Object, parameters: Parameters
 ) -> Steps[core.PointViewer]:
-    """Return the work of making an object ready to be looked from.
+    """Return the steps that prepare showing what points of an object see.
 
-    Errors are those of `decompose_object`.
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read.
     """
     shape = read_shape(obj)
 
@@ -126,10 +138,12 @@ def point_viewer_of(
 
 
 def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
-    """Return the work of drawing a picture of what an object's parts come from.
+    """Return the steps that draw one of `PICTURES`: how the parts were found.
 
-    Lines of sight are found as they were for the parts. Errors are those of
-    `decompose_object`.
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read, or has no record of its parts.
     """
     parameters = noted_parameters(obj)
     labels, shape = part_labels(obj), read_shape(obj)
@@ -153,10 +167,22 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
 def build_hulls_of(
     obj: bpy.types.Object, parameters: Parameters, hull_parameters: HullParameters
 ) -> Steps[HullDecomposition]:
-    """Return the work of building hulls around an object or its parts.
+    """Return the steps that build hulls around an object or its parts.
 
-    An object without parts is decomposed only where each part gets one shape. These
-    parts are not written to it. Errors are those of `decompose_object`.
+    An object without parts is first decomposed if each part is to get one shape. These
+    parts are not written to the object.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    parameters : Parameters
+        Used to decompose the object.
+    hull_parameters : HullParameters
+
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read or can have no hulls.
     """
     reason = hull_refusal(obj)
     if reason:
@@ -179,9 +205,9 @@ def build_hulls_of(
 
 
 def load_libraries() -> Steps[None]:
-    """Load what the core needs: a second that enabling the add-on must not take.
+    """Load the libraries of the core, one per step, so that the window responds.
 
-    Once in a session, and one library after the other, so that a window stays alive.
+    They take a second to load, which enabling the extension must not.
     """
     for name in _LIBRARIES:
         if name not in sys.modules:
@@ -190,7 +216,7 @@ def load_libraries() -> Steps[None]:
 
 
 def hull_summary(found: HullDecomposition) -> str:
-    """Return the figures of a hull decomposition in a line."""
+    """Return one line with the number of hulls, their largest error and volume."""
     return (
         f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
         f" largest error {found.errors.max():.3f},"
@@ -199,14 +225,14 @@ def hull_summary(found: HullDecomposition) -> str:
 
 
 def _with_libraries(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:
-    """Load the libraries, run `steps`, and put `notes` before those of their value."""
+    """Load the libraries, run `steps`, and put `notes` before those of the result."""
     yield from load_libraries()
     value: Any = yield from steps
     return replace(value, notes=(*notes, *value.notes))
 
 
 def summary(decomposition: Decomposition) -> str:
-    """Return the figures of a decomposition in a line."""
+    """Return one line with the number of parts, psi and the mean convexity rank."""
     n_parts = decomposition.n_parts
     return (
         f"{n_parts} {'part' if n_parts == 1 else 'parts'},"

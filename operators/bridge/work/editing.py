@@ -1,4 +1,4 @@
-"""Edits of an object's parts: read at once, computed step by step, then written."""
+"""Edit the parts of an object: read it at once, compute in steps, then write."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ MakeChange: TypeAlias = Callable[
     [Shape, "core.PartMemo", PresentParts], Steps["core.Change"]
 ]
 
-# Areas that differ by less, in shares of themselves, are those of the same faces.
+# Two parts with a smaller relative difference of area count as the same faces.
 _SAME_AREA = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
 class Edited:
-    """Parts after an edit.
+    """The parts of an object after an edit or a new decomposition.
 
     Attributes
     ----------
     decomposition : Decomposition
     identities : tuple of Identity or None
-        Of the parts that are kept and of the others; None if all are new.
+        Identity of each part, kept or new; None if all parts are new.
     parameters : Parameters
-        To be recorded with it.
+        Recorded on the object with the parts.
     """
 
     decomposition: Decomposition
@@ -49,11 +49,17 @@ class Edited:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences to the user about what is worth knowing."""
+        """Sentences to the user."""
         return self.decomposition.notes
 
     def write(self, obj: bpy.types.Object) -> None:
-        """Show the parts on their object."""
+        """Write the parts to an object.
+
+        Parameters
+        ----------
+        obj : bpy.types.Object
+            The object that they were computed for.
+        """
         write_parts(obj, self.decomposition, self.parameters, self.identities)
 
 
@@ -62,15 +68,19 @@ def edit_object(
     make_change: MakeChange,
     parameters: Parameters | None = None,
 ) -> Steps[Edited]:
-    """Check and read an object with parts; return the work of changing them.
+    """Check and read an object with parts; return the steps that change them.
 
     Parameters
     ----------
     obj : bpy.types.Object
     make_change : callable
-        Returns the change from the shape, what is known of it, and the parts.
+        Takes the shape, its memo and the present parts; returns the steps of a Change.
     parameters : Parameters, optional
-        Of the visibility; those that the parts were found with if left out.
+        Decide the lines of sight; by default, as for the present parts.
+
+    Returns
+    -------
+    Steps of Edited
 
     Raises
     ------
@@ -103,7 +113,7 @@ def _described(
     change: core.Change,
     parameters: Parameters,
 ) -> tuple[Decomposition, tuple[Identity, ...]]:
-    """Return the figures of changed parts, in the order of their numbers."""
+    """Return changed parts as a decomposition, sorted by number, with identities."""
     labels, former = core.compacted(change.labels)
     before = with_sides(parts.identities, change.mirrored.values(), change.side)
     identities = identities_after(before, former.tolist(), change.mirrored)
@@ -119,10 +129,10 @@ def _described(
 def _ranks(
     found: Decomposition, parts: PresentParts, change: core.Change, former: list[int]
 ) -> NDArray[np.float64]:
-    """Return the rank of each part, as well as it is known.
+    """Return the convexity rank of each part, from the best estimate there is, (K,).
 
-    The samples of the whole shape that lie on a small part are few: ranks of parts that
-    are as they were stay, and those split off have one from samples of their own.
+    Only few samples of the whole shape lie on a small part. So unchanged parts keep
+    their ranks, and parts that were split off have ranks from their own samples.
     """
     changed = parts.labels != change.labels
     touched = set(parts.labels[changed]) | set(change.labels[changed])

@@ -1,4 +1,4 @@
-"""The edits of parts, as `editing.edit_object` takes them."""
+"""Make the edits of parts that `editing.edit_object` runs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,20 @@ from .session_cache import session_cache
 
 
 def merging(chosen: Sequence[int], into: int) -> MakeChange:
-    """Return the edit that makes one part of several."""
+    """Return the edit that merges parts into one.
+
+    Parameters
+    ----------
+    chosen : sequence of int
+        Parts to merge.
+    into : int
+        Part that they become.
+
+    Returns
+    -------
+    callable
+        For `edit_object`.
+    """
 
     def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
         yield Progress("Merge", 0.0)
@@ -28,7 +41,24 @@ def merging(chosen: Sequence[int], into: int) -> MakeChange:
 
 
 def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
-    """Return the edit that gives faces to a part, or raise if there are none."""
+    """Return the edit that assigns faces to a part.
+
+    Parameters
+    ----------
+    faces : (P,) bool
+        Faces to assign.
+    part : int
+
+    Returns
+    -------
+    callable
+        For `edit_object`.
+
+    Raises
+    ------
+    DecompositionError
+        If there is no face to assign.
+    """
     if not faces.any():
         raise DecompositionError("No face is selected; select those to be assigned.")
 
@@ -40,7 +70,20 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
 
 
 def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
-    """Return the edit that splits each of some parts into so many, 0 for by psi."""
+    """Return the edit that splits each of some parts.
+
+    Parameters
+    ----------
+    chosen : sequence of int
+        Parts to split.
+    n_parts : int
+        Number of parts that each becomes; 0 lets psi decide.
+
+    Returns
+    -------
+    callable
+        For `edit_object`; its steps raise DecompositionError if no part was split.
+    """
 
     def change(
         shape: Shape, _: core.PartMemo, parts: PresentParts
@@ -53,7 +96,7 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
             members = parts.labels == part
             steps = core.decompose_in_steps(shape, parameters, session_cache(), members)
             found = yield from within_turn(steps, turn, len(chosen))
-            # The largest piece goes on as the part that it was.
+            # The largest new part keeps the number of the part that was split.
             numbers = np.array([part, *range(free, free + found.n_parts - 1)])
             labels[members] = numbers[found.labels]
             ranks |= dict(zip(numbers.tolist(), found.ranks.tolist(), strict=True))
@@ -66,6 +109,7 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
 
 
 def _nothing_split(name: str, n_parts: int) -> DecompositionError:
+    """Return the error for an edit that split no part."""
     if n_parts:
         return DecompositionError(
             f"{name} has too few faces to be split; subdivide it, or choose another."
@@ -77,7 +121,20 @@ def _nothing_split(name: str, n_parts: int) -> DecompositionError:
 
 
 def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
-    """Return the edit that smooths the seams of parts."""
+    """Return the edit that smooths the seams of parts.
+
+    Parameters
+    ----------
+    chosen : sequence of int
+        Parts whose seams are smoothed.
+    smoothness : float
+        Weight lambda of the smoothness term (eq. 4).
+
+    Returns
+    -------
+    callable
+        For `edit_object`.
+    """
 
     def change(
         _: Shape, memo: core.PartMemo, parts: PresentParts
@@ -91,7 +148,18 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
 
 
 def mirroring(to_negative: bool) -> MakeChange:
-    """Return the edit that copies the parts of one side of X to the other."""
+    """Return the edit that copies the parts of one side of X to the other.
+
+    Parameters
+    ----------
+    to_negative : bool
+        Whether to copy from positive X to negative X, or the reverse.
+
+    Returns
+    -------
+    callable
+        For `edit_object`; its steps raise DecompositionError without symmetry.
+    """
 
     def change(
         _: Shape, memo: core.PartMemo, parts: PresentParts

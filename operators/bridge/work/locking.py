@@ -1,4 +1,4 @@
-"""Objects decomposed anew, all but their locked parts."""
+"""Decompose an object again, except for its locked parts."""
 
 from __future__ import annotations
 
@@ -20,10 +20,23 @@ from .session_cache import session_cache
 
 
 def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
-    """Return the work of decomposing an object, all but its locked parts if any.
+    """Return the steps that decompose an object, except for its locked parts.
 
-    Errors are those of `decompose_object` and `edit_object`, and of numbers of parts
-    that leave none to what is not locked.
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    parameters : Parameters
+        Numbers of parts include the locked parts.
+
+    Returns
+    -------
+    Steps of Edited
+
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read or written to, all parts are locked, or
+        the number of parts leaves none for the unlocked faces.
     """
     locks = edit_refusal(obj) is None and any(row.locked for row in obj.wcd_parts)
     if locks:
@@ -37,7 +50,7 @@ def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[E
 
 
 def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
-    """Return the work of decomposing what is not locked, from samples of its own."""
+    """Return the steps that decompose the unlocked faces, from their own samples."""
     parts = present_parts(obj)
     locked = np.flatnonzero(parts.locked)
     members = ~np.isin(parts.labels, locked)
@@ -62,7 +75,7 @@ def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edit
 
 
 def _parameters_of_rest(parameters: Parameters, n_locked: int) -> Parameters:
-    """Return the parameters of what is not locked: numbers of parts count all."""
+    """Return parameters for the unlocked faces, without the locked parts in numbers."""
     fewest = max(2, parameters.min_parts - n_locked)
     most = max(fewest, parameters.max_parts - n_locked)
     n_parts = parameters.parts

@@ -1,7 +1,7 @@
-"""The one cache of the session: new parts of the same shape take a moment.
+"""Keep one cache per session, so that decomposing the same shape again is quick.
 
-It is the one state of the extension that outlives an operator. It holds arrays and no
-data of Blender's, and it knows shapes by content, so that no change goes unnoticed.
+It is the only state of the extension that outlives an operator. It holds arrays, no
+Blender data. Shapes are compared by content, so that no change goes unnoticed.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _cache: core.ShapeCache | None = None
 
 
 def session_cache() -> core.ShapeCache:
-    """Return the cache. It is made at the first call, as it loads SciPy."""
+    """Return the cache of the session. The first call makes it, and loads SciPy."""
     global _cache
     if _cache is None:
         _cache = core.ShapeCache(BvhRayCaster)
@@ -25,23 +25,34 @@ def session_cache() -> core.ShapeCache:
 
 
 def has_seen(shape: Shape, parameters: Parameters) -> bool:
-    """Return whether the lines of sight of a shape are known already."""
+    """Return whether the cache holds the lines of sight of a shape.
+
+    Parameters
+    ----------
+    shape : TriangleMesh or PointCloud
+    parameters : Parameters
+        Those that affect samples or lines of sight must be the same.
+
+    Returns
+    -------
+    bool
+    """
     return _cache is not None and _cache.has_seen(shape, parameters)
 
 
 @bpy.app.handlers.persistent
 def forget(*_: object) -> None:
-    """Free the memory."""
+    """Empty the cache. Blender passes arguments to handlers; they are ignored."""
     global _cache
     _cache = None
 
 
 def register() -> None:
-    """Forget at each file load."""
+    """Empty the cache whenever a file is loaded."""
     bpy.app.handlers.load_pre.append(forget)
 
 
 def unregister() -> None:
-    """Undo `register`, and forget."""
+    """Undo `register`, and empty the cache."""
     bpy.app.handlers.load_pre.remove(forget)
     forget()
