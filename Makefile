@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-window pictures lint zip bench bench-coacd bench-hulls bench-physics bench-ablation \
+.PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-physics bench-ablation \
   bench-clouds bench-speed contact-sheet clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
@@ -32,7 +32,7 @@ demo: venv ## Decompose Blender's monkey; results in build/demo/
 	@echo "build/demo/suzanne.png     a picture of the parts"
 	@echo "build/demo/suzanne.json    the numbers"
 
-test: development ## Run all tests, but those that need a window
+test: development ## Run all tests that need no window
 	@echo "Testing with $$($(VENV)/bin/python -V) and $$($(VENV)/bin/pip list 2>/dev/null | awk '/^(bpy|numpy|scipy) / {printf "%s %s  ", $$1, $$2}')"
 	@WCD_REQUIRE_BLENDER=1 $(PYTHON_HERE) .tools/run_tests.py $(PYTEST)
 
@@ -40,13 +40,29 @@ test-window: development ## Drive a Blender that has a window: BLENDER=command t
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
 	@BLENDER="$(BLENDER)" $(PYTHON_HERE) -m pytest tests/window $(PYTEST)
 
-pictures: ## Take the README's pictures of the window anew: BLENDER=command
+docs: ## Build the pages as a site into build/docs/
+	@wanted=.tools/requirements/docs.txt; made=.venv-docs/made-by-make.txt; \
+	cmp -s $$wanted $$made || { \
+	  python=$$(.tools/find_python 3.13 $(PYTHON) || .tools/find_python 3.11 $(PYTHON)); \
+	  echo "Making .venv-docs: $$(xargs <$$wanted)"; \
+	  rm -rf .venv-docs; $$python -m venv .venv-docs; \
+	  .venv-docs/bin/pip install -qq --disable-pip-version-check -r $$wanted; \
+	  cp $$wanted $$made; }
+	@PYTHONDONTWRITEBYTECODE=1 NO_MKDOCS_2_WARNING=1 .venv-docs/bin/mkdocs build --strict --clean \
+	  --config-file docs/site/mkdocs.yml
+	@echo "build/docs/index.html"
+
+figures: venv ## Draw the figures of docs/ anew: FIGURES="hands ranks" for some of them
+	@$(PYTHON_HERE) docs/figures/make_figures.py $(FIGURES)
+
+pictures: ## Take the pictures of the window anew: BLENDER=command
+	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
 	@for subject in looks sight explode; do \
 	  $(BLENDER) --python tests/window/drive.py -- $$subject; done
-	@cp build/window/looks-before.png .pictures/sidebar.png
-	@cp build/window/looks-after.png .pictures/parts.png
-	@cp build/window/sight-clicked.png .pictures/sight.png
-	@cp build/window/explode-exploded.png .pictures/exploded.png
+	@cp build/window/looks-before.png docs/pictures/sidebar.png
+	@cp build/window/looks-after.png docs/pictures/parts.png
+	@cp build/window/sight-clicked.png docs/pictures/sight.png
+	@cp build/window/explode-exploded.png docs/pictures/exploded.png
 
 lint: development ## Check the format, the rules of the code and the types
 	$(VENV)/bin/ruff format --check .
