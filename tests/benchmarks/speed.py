@@ -3,7 +3,7 @@
     make bench-speed
 
 Medians of several runs with default settings, after imports; 2 subdivisions are the
-15,744 triangles that the promises in the README speak of, 4 make 251,904. A window
+15,744 triangles that docs/quality.md speaks of, 4 make 251,904. A window
 waits for one step at a time: those of all runs are told by stage. Re-cuts follow, each
 right after a run with default settings, in seconds of the processor.
 """

@@ -19,13 +19,13 @@ FAST = {"samples": 200, "parts": 2}
 @pytest.fixture
 def conversions(monkeypatch):
     """Return how often each object was converted."""
-    counts = Counter()
+    counts, converted = Counter(), converting.converted
 
     def counted(obj):
         counts[obj.name] += 1
-        return converting.converted(obj)
+        return converted(obj)
 
-    for module in (carrier, shape):
+    for module in (carrier, converting):
         monkeypatch.setattr(module, "converted", counted)
     return counts
 

@@ -19,7 +19,7 @@ def test_notes_on_reading_and_on_the_result_are_recorded(mirrored):
     bpy.ops.wcd.decompose(samples=16, parts=16, smallest_part=0.5)
     reading, counting = json.loads(mirrored["wcd"])["notes"]
     assert "without its modifiers (Mirror)" in reading
-    assert "of the 16 parts asked for" in counting
+    assert "of the 16 parts could be made" in counting
 
 
 def test_notes_go_when_their_cause_is_gone(mirrored):

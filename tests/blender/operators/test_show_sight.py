@@ -174,7 +174,7 @@ def test_a_selection_is_asked_for(suzanne):
         bpy.ops.wcd.measure_selection(**FAST)
     in_mode(suzanne, "EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
-    with pytest.raises(RuntimeError, match="No faces are selected; select those"):
+    with pytest.raises(RuntimeError, match="No faces are selected; select the faces"):
         bpy.ops.wcd.measure_selection(**FAST)
 
 
