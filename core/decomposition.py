@@ -66,28 +66,24 @@ def decompose_in_steps(
     # Section 4: embed and cluster the samples, choose the number of parts by psi
     # (eq. 5), cut the seams (eq. 4).
     found = yield from within(find_parts(memo, parameters), seen, done)
-    # Section 5: split the parts further.
-    fresh, one = np.arange(found.n_parts), replace(parameters, parts=0, levels=1)
-    for level in range(1, parameters.levels):
-        pieces = {}
-        for turn, part in enumerate(fresh.tolist()):
-            alone = prepared.part(found.labels == part)
-            pieces[part] = yield from within(
-                within_turn(
-                    within_turn(_parts_alone(alone, one, cache), turn, len(fresh)),
-                    level - 1,
-                    parameters.levels - 1,
-                ),
-                done,
-                1.0,
-            )
-        found, fresh = with_pieces(memo.visibility, found, pieces, parameters)
+    # Section 5: split the latest parts further, each seen by samples of its own.
+    latest, n_more = np.arange(found.n_parts), parameters.levels - 1
+    for level in range(n_more):
+        parts = {part: prepared.part(found.labels == part) for part in latest.tolist()}
+        splitting = within_turn(_split_each(parts, parameters, cache), level, n_more)
+        pieces = yield from within(splitting, done, 1.0)
+        found, latest = with_pieces(memo.visibility, found, pieces, parameters)
     return found
 
 
-def _parts_alone(
-    shape: PreparedShape, parameters: Parameters, cache: ShapeCache
-) -> Steps[Decomposition]:
-    """Return the parts of a part, from samples that all lie on it."""
-    memo = yield from within(cache.see(shape, parameters), 0.0, 0.8)
-    return (yield from within(find_parts(memo, parameters), 0.8, 1.0))
+def _split_each(
+    parts: dict[int, PreparedShape], parameters: Parameters, cache: ShapeCache
+) -> Steps[dict[int, Decomposition]]:
+    """Return the pieces of each part, as many as raise psi."""
+    free, pieces = replace(parameters, parts=0, levels=1), {}
+    for turn, (number, part) in enumerate(parts.items()):
+        seeing = within(cache.see(part, free), 0.0, 0.8)
+        memo = yield from within_turn(seeing, turn, len(parts))
+        finding = within(find_parts(memo, free), 0.8, 1.0)
+        pieces[number] = yield from within_turn(finding, turn, len(parts))
+    return pieces
