@@ -14,8 +14,8 @@ from .bridge.parts.images import erase_images
 from .bridge.read.carrier import carrier_for, placed_carrier
 from .bridge.refusals import clear_refusal, decompose_refusal
 from .bridge.work.computing import summary
-from .bridge.work.editing import Edited
 from .bridge.work.locking import decompose_unlocked
+from .bridge.work.run_edit import Edited
 from .running.computation import Computation
 from .running.on_objects import OnEach
 from .settings import ADVANCED, FRONT, draw, parameters_from, properties_for

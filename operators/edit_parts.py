@@ -12,7 +12,7 @@ from .bridge.mesh.selection import selected_faces
 from .bridge.parts.rows import active_part, chosen_parts
 from .bridge.refusals import assign_refusal, edit_refusal, merge_refusal
 from .bridge.work import edits
-from .bridge.work.editing import Edited, edit_object
+from .bridge.work.run_edit import Edited, edit_object
 from .running.computation import Replacement
 from .settings import properties_for
 

@@ -15,8 +15,8 @@ from ..core.steps.progress import Steps
 from .bridge.refusals import recut_refusal
 from .bridge.stored.record import noted_parameters
 from .bridge.work.computing import is_quick
-from .bridge.work.editing import Edited
 from .bridge.work.locking import decompose_unlocked
+from .bridge.work.run_edit import Edited
 from .running import modal
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for

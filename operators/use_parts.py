@@ -7,8 +7,8 @@ from typing import ClassVar
 import bpy
 
 from .bridge.parts.exploding import explode, exploding, implode
+from .bridge.parts.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.parts.separating import replace, separate
-from .bridge.parts.showing import write_colors, write_face_sets
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .running.on_objects import OnEach
 

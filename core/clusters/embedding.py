@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import get_blas_funcs
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from ..sight.pairs import Matrix
+from ..sight.pair_visibility import Matrix
 
 # Most samples whose matrix is in double precision; more would take too much memory.
 # Libraries round sums differently. In double precision this changes the eigenvectors

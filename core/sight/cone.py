@@ -11,7 +11,7 @@ from ..geometry.frames import cone_directions, fan_directions, with_normals
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps
 from .lines import RAYS_PER_STEP
-from .pairs import PairVisibility, pair_counts
+from .pair_visibility import PairVisibility, pair_counts
 from .prepared import PreparedShape
 from .viewpoints import Viewpoints
 

@@ -18,7 +18,7 @@ from ..geometry.frames import cone_directions
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps, within
 from .lines import RAYS_PER_STEP
-from .pairs import PairVisibility
+from .pair_visibility import PairVisibility
 from .ray_march import PASS, RayMarcher
 
 # Cells along the longest side of the bounding box.

@@ -8,7 +8,7 @@ from scipy import sparse
 
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps, within
-from .pairs import PairVisibility, pair_counts
+from .pair_visibility import PairVisibility, pair_counts
 from .ray_march import RayMarcher
 from .viewpoints import Viewpoints
 

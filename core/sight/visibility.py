@@ -14,7 +14,7 @@ from ..steps.progress import Progress, Steps, within
 from .cone import see_cones
 from .containers import see_through_containers
 from .lines import see_all_pairs, see_uniform_pairs
-from .pairs import Matrix, PairVisibility
+from .pair_visibility import Matrix, PairVisibility
 from .prepared import PreparedShape
 from .viewpoints import viewpoints
 

@@ -13,7 +13,7 @@ from ...core.steps.progress import Progress, Steps, in_turn, mapped, run
 from ..bridge.read.carrier import discard_waiting
 from ..bridge.read.target import Target
 from ..bridge.work.computing import summary
-from ..bridge.work.editing import Edited
+from ..bridge.work.run_edit import Edited
 from . import modal
 from .on_objects import OnActive, OnObjects
 

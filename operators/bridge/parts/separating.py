@@ -11,7 +11,7 @@ from ....core.errors import DecompositionError
 from .erase import clear
 from .exploding import implode
 from .materials import part_materials
-from .parted import part_identities, part_labels
+from .read import part_identities, part_labels
 
 
 def new_collection(obj: bpy.types.Object, name: str) -> bpy.types.Collection:

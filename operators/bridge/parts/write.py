@@ -21,10 +21,10 @@ from ..stored.names import COLOR_LAYER, LAYERS, MATERIAL_LAYER, NORMAL_LAYER, PA
 from ..stored.record import check_records, write_result
 from ..stored.restore import Restore, write_restore
 from .erase import erase_parts
+from .face_sets_and_colors import show, shown
 from .materials import discard_unused, part_materials, points_material
 from .palette import part_color
 from .rows import kept_rows, write_rows
-from .showing import show, shown
 
 
 def write_parts(

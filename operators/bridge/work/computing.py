@@ -17,7 +17,7 @@ from ....core.results import Decomposition, HullDecomposition, Measurement, Pict
 from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import part_srgb
-from ..parts.parted import part_identities, part_labels
+from ..parts.read import part_identities, part_labels
 from ..parts.write import check_writable
 from ..read.shape import read_shape, reading_notes
 from ..refusals import hull_refusal

@@ -1,4 +1,4 @@
-"""Make the edits of parts that `editing.edit_object` runs."""
+"""Make the edits of parts that `run_edit.edit_object` runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.geometry.shape import Shape
 from ....core.steps.progress import Progress, Steps, within_turn
 from ..parts.present_parts import PresentParts
-from .editing import MakeChange
+from .run_edit import MakeChange
 from .session_cache import session_cache
 
 

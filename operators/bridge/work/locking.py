@@ -15,7 +15,7 @@ from ....core.steps.progress import Steps
 from ..parts.present_parts import PresentParts, present_parts
 from ..refusals import edit_refusal
 from .computing import decompose_object
-from .editing import Edited, edit_object
+from .run_edit import Edited, edit_object
 from .session_cache import session_cache
 
 

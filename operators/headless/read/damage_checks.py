@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ....core.errors import DecompositionError
 from ..formats import READ_ENDINGS
-from .ply_header import read_header
+from .ply_files import read_header
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {

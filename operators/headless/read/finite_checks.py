@@ -9,7 +9,7 @@ import numpy as np
 
 from ....core.errors import DecompositionError
 from .damage_checks import n_stl_triangles
-from .ply_header import read_header
+from .ply_files import read_header
 
 # NaN or infinity behind the keyword of a line.
 _WORD = rb"[ \t].*?(?<![\w.])(nan|inf|infinity)\b"

@@ -16,17 +16,13 @@ import bpy
 from ...bridge.mesh.points import set_points
 from ..formats import axes
 from .off_files import read_off
-from .point_files import read_points
+from .ply_files import import_ply
+from .xyz_files import read_points
 
 
 def _obj(path: Path, up: str) -> set[str]:
     """Import .obj."""
     return set(bpy.ops.wm.obj_import(filepath=str(path), **axes(up)))
-
-
-def _ply(path: Path, up: str) -> set[str]:
-    """Import .ply."""
-    return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))
 
 
 def _stl(path: Path, up: str) -> set[str]:
@@ -94,7 +90,7 @@ def _enable(addon: str) -> None:
 
 IMPORTERS: dict[str, Callable[[Path, str], set[str]]] = {
     ".obj": _obj,
-    ".ply": _ply,
+    ".ply": import_ply,
     ".stl": _stl,
     ".off": _off,
     ".xyz": _points,

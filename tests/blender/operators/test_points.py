@@ -13,7 +13,7 @@ from scipy.spatial import ConvexHull
 from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.mesh.points import is_cloud, set_points
-from weak_convex_decomposition.operators.bridge.parts.parted import part_labels
+from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 
 FAST = {"samples": 200, "parts": 2}

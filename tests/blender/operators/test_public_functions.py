@@ -3,7 +3,7 @@
 import bpy
 import pytest
 import weak_convex_decomposition as wcd
-from weak_convex_decomposition.operators.bridge.parts.parted import part_labels
+from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 
 
 def test_an_object_gets_the_parts_that_the_operator_gives_it(suzanne):

@@ -4,7 +4,7 @@ import shapes
 from scipy import sparse
 from weak_convex_decomposition.core.clusters import moves
 from weak_convex_decomposition.core.clusters.moves import MoveGains, raise_psi
-from weak_convex_decomposition.core.sight.pairs import PairVisibility
+from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 
 ALPHAS = (0.5, 1.0, 2.0)
 

@@ -3,7 +3,7 @@ import pytest
 import shapes
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.parts.merging import connected_parts, merge_to
-from weak_convex_decomposition.core.sight.pairs import PairVisibility
+from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 
 BOX = face_graph(shapes.box(divisions=4))
 LEFT = BOX.centers[:, 0] < 0.5

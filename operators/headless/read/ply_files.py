@@ -1,12 +1,14 @@
-"""Reads the header of a .ply file, and tells whether the file is complete.
-
-Blender's importer reads the rest.
-"""
+"""Reads .ply files: the header tells whether a file is whole, Blender imports it."""
 
 from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from ..formats import axes
 
 # Codes as in `struct`.
 _TYPES = {
@@ -142,3 +144,8 @@ def read_header(data: bytes) -> Header | None:
     if not mark or order is None or negative:
         return None
     return Header(order, tuple(elements), len(text) + len(mark) + newline)
+
+
+def import_ply(path: Path, up: str) -> set[str]:
+    """Add the object in a .ply file to the scene by Blender's importer."""
+    return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))

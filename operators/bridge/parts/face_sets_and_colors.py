@@ -10,7 +10,7 @@ from ..mesh.layers import layers_of
 from ..mesh.points import is_cloud
 from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
 from .palette import part_color
-from .parted import part_identities, part_labels
+from .read import part_identities, part_labels
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:

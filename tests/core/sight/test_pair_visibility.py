@@ -4,7 +4,7 @@ import shapes
 from computed import measure
 from scipy import sparse
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.sight.pairs import PairVisibility
+from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 
 ALPHAS = (0.0, 0.5, 1.0, 3.0)
 UNIFORM_CONES = {"sight": "CONE", "psi_pairs": "UNIFORM"}
