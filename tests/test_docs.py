@@ -6,7 +6,7 @@ import re
 from dataclasses import fields
 
 import pytest
-from conftest import ROOT
+from conftest import HAS_BLENDER, PACKAGE, ROOT
 from test_readme import OWN_OPTIONS, blocks, make_targets, options_in
 from weak_convex_decomposition import core  # noqa: F401  # the package, for the hooks
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
@@ -170,13 +170,27 @@ def test_the_pages_of_python_name_every_field_of_the_results():
             assert f"| `{field.name}` |" in text, f"{page}.md: {field.name}"
 
 
+def python_on_the_pages():
+    return [script for page in ALL_PAGES.values() for script in blocks("python", page)]
+
+
 def test_python_on_the_pages_parses():
-    scripts = [
-        script for page in ALL_PAGES.values() for script in blocks("python", page)
-    ]
+    scripts = python_on_the_pages()
     assert len(scripts) > 5
     for script in scripts:
         ast.parse(script)
+
+
+@pytest.mark.skipif(not HAS_BLENDER, reason="there may be no ray caster")
+def test_python_that_needs_no_file_and_no_object_runs_as_it_stands():
+    scripts = [
+        script
+        for script in python_on_the_pages()
+        if PACKAGE in script and "model.obj" not in script and "register" not in script
+    ]
+    assert len(scripts) == 3
+    for script in scripts:
+        exec(compile(script, "page", "exec"), {})
 
 
 def test_every_figure_of_the_paper_has_the_command_that_draws_it():
