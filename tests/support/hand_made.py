@@ -103,3 +103,13 @@ def in_mode(obj, mode):
     """Bring an object into a mode."""
     if obj.mode != mode:
         bpy.ops.object.mode_set(mode=mode)
+
+
+def centers(obj):
+    """Return the centers of an object's faces as its modifiers leave them."""
+    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    return np.array([polygon.center for polygon in mesh.polygons])
+
+
+def areas(mesh):
+    return np.array([polygon.area for polygon in mesh.polygons])

@@ -233,14 +233,13 @@ class Hands:
         with self.context():
             bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
         PICTURES.mkdir(parents=True, exist_ok=True)
-        path = PICTURES / f"{self.subject}-{name}.png"
-        area = []
+        path, area = PICTURES / f"{self.subject}-{name}.png", []
         if crop is not None:
             top = self.window.height - crop.y - crop.height
             area = ["-crop", f"{crop.width}x{height or crop.height}+{crop.x}+{top}"]
         few = ["+dither", "-colors", "96"]  # small files
-        command = ["import", "-window", "root", *area, "+repage", *few, f"png8:{path}"]
-        subprocess.run(command, check=True, env={**os.environ, "HOME": "/tmp"})
+        shot = ["import", "-window", "root", *area, "+repage", *few, f"png8:{path}"]
+        subprocess.run(shot, check=True, env={**os.environ, "HOME": "/tmp"})
         shown = subprocess.run(
             ["identify", "-format", "%[fx:standard_deviation]", str(path)],
             capture_output=True,

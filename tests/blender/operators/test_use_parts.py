@@ -1,23 +1,19 @@
 """Objects, exploded views, face sets and colors made of parts."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
 from hand_made import (
     activate,
+    areas,
     bands,
+    centers,
     decompose_by_hand,
     face_values,
     give_user_data,
     in_mode,
 )
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.exploding import (
-    exploding,
-    slider,
-)
 from weak_convex_decomposition.operators.bridge.parts.palette import part_color
 
 NAMES = ("separate", "explode", "face_sets", "color_attribute")
@@ -25,16 +21,6 @@ NAMES = ("separate", "explode", "face_sets", "color_attribute")
 
 def call(name, **options):
     return getattr(bpy.ops.wcd, name)(**options)
-
-
-def centers(obj):
-    """Return the centers of an object's faces as its modifiers leave them."""
-    mesh = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    return np.array([polygon.center for polygon in mesh.polygons])
-
-
-def areas(mesh):
-    return np.array([polygon.area for polygon in mesh.polygons])
 
 
 def test_every_part_becomes_an_object(suzanne):
@@ -116,46 +102,6 @@ def test_loose_vertices_stay_with_one_part(suzanne):
         for p in pieces
     ]
     assert loose == [3, 0]
-
-
-def test_parts_move_away_from_the_center_together(suzanne):
-    labels = decompose_by_hand(suzanne, 4)
-    before = snapshot(suzanne)["mesh"]
-    there = centers(suzanne)
-    weights = areas(suzanne.data)
-    middle = np.average(there, axis=0, weights=weights)
-    for distance in (0.0, 0.7):
-        assert call("explode", distance=distance) == {"FINISHED"}
-        moved = centers(suzanne) - there
-        for part in range(4):
-            mine = labels == part
-            own = np.average(there[mine], axis=0, weights=weights[mine])
-            expected = distance * (own - middle)
-            assert moved[mine] == pytest.approx(
-                np.tile(expected, (mine.sum(), 1)), abs=1e-5
-            )
-    assert len(suzanne.modifiers) == len(bpy.data.node_groups) == 1
-    assert snapshot(suzanne)["mesh"] == before
-    owner, path = slider(exploding(suzanne))
-    assert owner.path_resolve(path) == pytest.approx(0.7)
-
-
-def test_exploded_views_end(suzanne):
-    decompose_by_hand(suzanne, 4)
-    before = snapshot(suzanne)
-    assert not bpy.ops.wcd.implode.poll()
-    call("explode")
-    assert bpy.ops.wcd.implode() == {"FINISHED"}
-    assert snapshot(suzanne) == before
-    assert not bpy.data.node_groups
-
-
-def test_an_exploded_view_does_not_count_as_a_modifier(suzanne):
-    bpy.ops.wcd.decompose(samples=300)
-    call("explode")
-    bpy.ops.wcd.decompose(samples=300)
-    assert json.loads(suzanne["wcd"])["notes"] == []
-    assert exploding(suzanne)
 
 
 def test_face_sets_are_the_parts_and_earlier_ones_come_back(suzanne):
@@ -264,14 +210,6 @@ def test_object_mode_is_asked_for(suzanne, name):
     in_mode(suzanne, "EDIT")
     with pytest.raises(RuntimeError, match="switch to Object Mode"):
         call(name)
-
-
-def test_an_exploded_view_is_not_cleared_in_edit_mode(suzanne):
-    decompose_by_hand(suzanne, 3)
-    call("explode")
-    in_mode(suzanne, "EDIT")
-    with pytest.raises(RuntimeError, match="switch to Object Mode first"):
-        bpy.ops.wcd.clear()
 
 
 def test_several_objects_are_separated(suzanne):

@@ -1,0 +1,142 @@
+"""What a user does while an operator computes: nothing of it is overwritten."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+import weak_convex_decomposition as package
+from hands import hand_curve
+from presses import (
+    ESC,
+    MOUSE,
+    OPERATORS,
+    TIMER,
+    errors_of,
+    finish,
+    press,
+)
+from snapshot import snapshot
+from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.operators.measure import WCD_OT_measure
+from weak_convex_decomposition.operators.running import modal
+
+
+def delete():
+    bpy.ops.object.delete()
+
+
+def subdivide():
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.subdivide()
+    bpy.context.active_object.update_from_editmode()
+
+
+def load_another_mesh():
+    bpy.context.active_object.data = bpy.data.meshes.new("Other")
+
+
+def edit_another_object():
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def sculpt():
+    bpy.ops.object.mode_set(mode="SCULPT")
+
+
+@pytest.mark.parametrize("cls", OPERATORS)
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (delete, "changed or deleted meanwhile; start again"),
+        (subdivide, "changed or deleted meanwhile; start again"),
+        (load_another_mesh, "changed or deleted meanwhile; start again"),
+        (edit_another_object, "while another object is edited. Start again"),
+        (sculpt, "switch the mode. Start again"),
+    ],
+)
+def test_what_changed_meanwhile_is_left_alone(suzanne, window, cls, change, sentence):
+    pressed = press(cls, window)
+    pressed.modal(None, TIMER)
+    change()
+    there = [(obj.name, snapshot(obj)) for obj in bpy.data.objects]
+    assert finish(pressed) == {"CANCELLED"}
+    (error,) = errors_of(pressed)
+    assert sentence in error or "Object Mode only; switch the mode" in error
+    assert [(obj.name, snapshot(obj)) for obj in bpy.data.objects] == there
+    assert window.is_clean()
+
+
+def test_a_curve_gets_its_mesh_at_the_end_and_esc_leaves_none(window):
+    hand = hand_curve()
+    before = [obj.name for obj in bpy.data.objects], len(bpy.data.meshes)
+    pressed = press(WCD_OT_decompose, window)
+    pressed.modal(None, TIMER)
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert ([obj.name for obj in bpy.data.objects], len(bpy.data.meshes)) == before
+    pressed = press(WCD_OT_decompose, window)
+    assert finish(pressed) == {"FINISHED"}
+    (carrier,) = hand.children
+    assert carrier.name in bpy.context.scene.objects
+    assert len(bpy.data.meshes) == before[1] + 1
+    pressed = press(WCD_OT_decompose, window)
+    assert bpy.ops.wcd.cancel() == {"FINISHED"}
+    assert "CANCELLED" in pressed.modal(None, MOUSE)
+    assert hand.children == (carrier,)
+
+
+def test_undo_meanwhile_is_noticed(suzanne, window):
+    bpy.ops.ed.undo_push(message="Suzanne")
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.ed.undo_push(message="Cube")
+    pressed = press(WCD_OT_decompose, window)
+    bpy.ops.ed.undo()
+    assert finish(pressed) == {"CANCELLED"}
+    assert "deleted meanwhile" in errors_of(pressed)[0]
+    assert "wcd" not in bpy.context.active_object
+
+
+def test_edit_mode_may_be_entered_meanwhile(suzanne, window):
+    pressed = press(WCD_OT_decompose, window)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert finish(pressed) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert suzanne.data.attributes["wcd_part"]
+
+
+def test_another_file_or_a_closed_window_ends_it(suzanne, window):
+    pressed = press(WCD_OT_decompose, window)
+    pressed.cancel(None)  # as Blender does
+    assert window.is_clean()
+
+
+def test_unregistering_ends_it(suzanne, window):
+    press(WCD_OT_decompose, window)
+    package.unregister()
+    assert window.is_clean()
+    package.register()
+
+
+def test_bad_input_is_told_before_anything_is_started(window):
+    bpy.ops.object.add(type="MESH")
+    with pytest.raises(AssertionError, match="CANCELLED"):
+        press(WCD_OT_decompose, window)
+    assert window.is_clean()
+
+
+def test_our_bugs_leave_nothing_behind(suzanne, window):
+    def broken(context):
+        yield from ()
+        raise ZeroDivisionError
+
+    pressed = press(WCD_OT_measure, window)
+    modal.stop()
+    context = SimpleNamespace(
+        window=window,
+        window_manager=window,
+        workspace=SimpleNamespace(name="Layout"),
+    )
+    pressed._running = modal.start(context, "Broken", broken(context))
+    with pytest.raises(ZeroDivisionError):
+        pressed.modal(None, TIMER)
+    assert window.is_clean()

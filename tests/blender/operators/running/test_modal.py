@@ -1,0 +1,119 @@
+"""Operators as buttons start them: progress, Esc and Cancel."""
+
+import bpy
+import pytest
+from presses import (
+    ESC,
+    GONE,
+    MOUSE,
+    OPERATORS,
+    TIMER,
+    call_of,
+    cube_at,
+    errors_of,
+    finish,
+    press,
+    select,
+    values_of,
+)
+from snapshot import snapshot
+from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.operators.measure import WCD_OT_measure
+from weak_convex_decomposition.operators.running import modal
+
+
+@pytest.mark.parametrize("cls", OPERATORS)
+def test_a_button_gives_what_a_script_gives(suzanne, window, cls):
+    bpy.context.scene.wcd.samples = 300
+    before = snapshot(suzanne)
+    assert call_of(cls)(**values_of(cls)) == {"FINISHED"}
+    expected = snapshot(suzanne)
+    bpy.ops.wcd.clear()
+    assert snapshot(suzanne) == before
+    pressed = press(cls, window)
+    assert finish(pressed) == {"FINISHED"}
+    assert snapshot(suzanne) == expected
+    assert window.is_clean()
+    assert window.handlers == [pressed]
+    assert pressed.reports[-1][0] == "INFO"
+
+
+def test_several_objects_have_one_progress_and_esc_leaves_all(window):
+    objects = [cube_at(0), cube_at(5), cube_at(10)]
+    select(*objects)
+    before = [snapshot(obj) for obj in objects]
+    pressed = press(WCD_OT_decompose, window)
+    shares, stages = [], []
+    for _ in range(3):
+        pressed.modal(None, TIMER)
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert [snapshot(obj) for obj in objects] == before
+    pressed = press(WCD_OT_decompose, window)
+    while pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
+        shares.append(modal.current.job.progress.fraction)
+        stages.append(modal.current.job.progress.stage.partition(":")[0])
+    assert shares == sorted(shares)
+    assert set(stages) == {"Cube", "Cube.001", "Cube.002"}
+    assert all("wcd_part" in obj.data.attributes for obj in objects)
+
+
+def test_one_object_deleted_meanwhile_does_not_stop_the_others(window):
+    kept, gone = cube_at(0), cube_at(5)
+    select(kept, gone)
+    pressed = press(WCD_OT_decompose, window)
+    pressed.modal(None, TIMER)
+    bpy.data.objects.remove(gone)
+    assert finish(pressed) == {"FINISHED"}
+    assert "wcd_part" in kept.data.attributes
+    assert ("WARNING", "Cube.001: " + GONE) in pressed.reports
+    assert errors_of(pressed) == []
+
+
+def test_a_slice_of_time_has_as_many_steps_as_fit(window, monkeypatch):
+    cube_at(0)
+    pressed = press(WCD_OT_decompose, window)
+    assert pressed.modal(None, TIMER) == {"PASS_THROUGH"}
+    monkeypatch.setattr(modal, "_SLICE", 1e9)
+    assert pressed.modal(None, TIMER) == {"FINISHED"}
+
+
+def test_progress_is_told_and_other_events_pass(suzanne, window, monkeypatch):
+    monkeypatch.setattr(modal, "_LOOK", 0.0)
+    pressed = press(WCD_OT_decompose, window)
+    shares = []
+    while pressed.modal(None, MOUSE) == pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
+        progress = modal.current.job.progress
+        shares.append(progress.fraction)
+        assert f"{progress.stage}, {progress.fraction:.0%}" in window.status
+    assert shares == sorted(shares)
+    assert len(shares) > 5
+
+
+@pytest.mark.parametrize("cls", OPERATORS)
+def test_esc_leaves_everything_as_it_was(suzanne, window, cls):
+    before = snapshot(suzanne)
+    pressed = press(cls, window)
+    pressed.modal(None, TIMER)
+    assert not window.is_clean()
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert window.is_clean()
+    assert snapshot(suzanne) == before
+    assert bpy.ops.wcd.measure(samples=100) == {"FINISHED"}  # nothing in the way
+
+
+def test_the_cancel_button_stops(suzanne, window):
+    assert not bpy.ops.wcd.cancel.poll()
+    before = snapshot(suzanne)
+    pressed = press(WCD_OT_decompose, window)
+    assert bpy.ops.wcd.cancel() == {"FINISHED"}
+    assert window.is_clean()
+    assert "CANCELLED" in pressed.modal(None, MOUSE)
+    assert snapshot(suzanne) == before
+
+
+@pytest.mark.parametrize("name", ["decompose", "measure", "build_hulls"])
+def test_one_at_a_time(suzanne, window, name):
+    pressed = press(WCD_OT_measure, window)
+    with pytest.raises(RuntimeError, match="Measure Convexity is running; wait"):
+        getattr(bpy.ops.wcd, name)()
+    assert finish(pressed) == {"FINISHED"}

@@ -1,0 +1,50 @@
+"""Reads what Blender's data say of parts, for tests of edits."""
+
+import json
+
+import numpy as np
+from hand_made import face_values, in_mode
+
+
+def labels_of(obj):
+    mode = obj.mode
+    in_mode(obj, "OBJECT")
+    labels = face_values(obj.data, "wcd_part")
+    in_mode(obj, mode)
+    return labels
+
+
+def record_of(obj):
+    return json.loads(obj["wcd"])
+
+
+def parts_of(obj):
+    """Return the name, number and material of each part, from the record."""
+    keys = ("name", "number", "material")
+    return [tuple(part[key] for key in keys) for part in record_of(obj)["parts"]]
+
+
+def check_in_step(obj):
+    """Check that groups, slots, faces, rows and record tell of the same parts."""
+    mode = obj.mode
+    in_mode(obj, "OBJECT")
+    record, labels = record_of(obj), labels_of(obj)
+    names = [part["name"] for part in record["parts"]]
+    assert record["k"] == len(names) == len(set(names))
+    assert [row.name for row in obj.wcd_parts] == names
+    assert [row.number for row in obj.wcd_parts] == [n for _, n, _ in parts_of(obj)]
+    assert set(names) <= {group.name for group in obj.vertex_groups}
+    counts = np.bincount(labels, minlength=len(names))
+    assert [part["faces"] for part in record["parts"]] == counts.tolist()
+    assert sum(part["faces"] for part in record["parts"]) == len(labels)
+    belongs = {(names[i], v) for f, i in enumerate(labels) for v in vertices_of(obj, f)}
+    groups = {group.index: group.name for group in obj.vertex_groups}
+    weights = {(groups[g.group], v.index) for v in obj.data.vertices for g in v.groups}
+    assert {pair for pair in weights if pair[0] in names} == belongs
+    slots = [obj.data.materials[p.material_index].name for p in obj.data.polygons]
+    assert slots == [record["parts"][index]["material"] for index in labels]
+    in_mode(obj, mode)
+
+
+def vertices_of(obj, face):
+    return obj.data.polygons[face].vertices
