@@ -15,8 +15,10 @@ from ...core.errors import DecompositionError
 def replacing(path: Path) -> Iterator[Path]:
     """Give the path of a new file beside `path`; rename it to `path` at the end.
 
-    If the block raises, the new file is removed and `path` stays as it was.
+    If the block raises, the new file is removed and `path` stays as it was. If `path`
+    is a link, the file that it points to is replaced.
     """
+    path = path.resolve()
     handle, name = tempfile.mkstemp(prefix=".wcd-", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     unfinished = Path(name)
@@ -40,5 +42,7 @@ def explaining(path: Path, action: str) -> Iterator[None]:
     try:
         yield
     except (RuntimeError, OSError) as error:
-        reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
+        # The text of an OSError would name the unfinished file.
+        reason = getattr(error, "strerror", None) or str(error)
+        reason = reason.strip().splitlines()[-1].removeprefix("Error: ")
         raise DecompositionError(f"{path} cannot be {action} ({reason}).") from error

@@ -13,10 +13,11 @@ from .decompose_file import decompose_file
 from .report import save_report
 from .request.options import Request, parse
 from .results import InputResult
-from .screen import Screen
+from .screen import Screen, StreamError, open_closed_streams, stop_printing, write
 from .write.render_engine import EngineTrial
 
 _COMMAND = "wcd"
+_FAILED = 1
 _INTERRUPTED = 130  # what shells report after Ctrl-C
 
 # Blender's handle of our command; `unregister` needs it.
@@ -48,11 +49,23 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
     -------
     int
         Exit status: 0 if everything was done, 1 if something failed and the rest was
-        done, 2 if the arguments are wrong, 130 after Ctrl-C.
+        done, or if nothing can be printed any more, 2 if the arguments are wrong, 130
+        after Ctrl-C.
     """
+    open_closed_streams()
+    try:
+        return _run(arguments, program)
+    except StreamError as error:
+        stop_printing(error)
+        return _FAILED
+
+
+def _run(arguments: list[str], program: str) -> int:
+    """Run the command line; return the exit status."""
     try:
         request = parse(arguments, program)
     except SystemExit as stop:  # from argparse: --help, --version or wrong usage
+        write(sys.stdout, "")  # flush the help
         return int(stop.code or 0)
     screen = Screen(sys.stdout, sys.stderr, request.quiet)
     try:
@@ -64,7 +77,8 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
     attempts.written(
         request.report, lambda file: save_report(file, results, request.parameters)
     )
-    return int(bool(attempts.errors) or any(result.failed for result in results))
+    failed = attempts.errors or any(result.failed for result in results)
+    return _FAILED if failed else 0
 
 
 def _decompose_files(request: Request, screen: Screen) -> list[InputResult]:

@@ -8,10 +8,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ...core.errors import DecompositionError
 from ...core.parameters.parts import Parameters
 from ..bridge.stored.notes import version
-from .atomic import replacing
+from .atomic import explaining, replacing
 from .results import InputResult, ObjectResult
 
 
@@ -31,13 +30,8 @@ def save_report(
         "inputs": [_input_entry(result) for result in results],
     }
     text = json.dumps(report, indent=2, ensure_ascii=False) + "\n"
-    try:
-        with replacing(path) as unfinished:
-            unfinished.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise DecompositionError(
-            f"{path} cannot be written ({error.strerror})."
-        ) from error
+    with explaining(path, "written"), replacing(path) as unfinished:
+        unfinished.write_text(text, encoding="utf-8")
 
 
 def _input_entry(result: InputResult) -> dict[str, Any]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TextIO, TypeVar
 
 from ...core.steps.progress import Progress, Steps, mapped, run
@@ -13,6 +16,10 @@ T = TypeVar("T")
 # Time between two lines of progress at least.
 _TERMINAL_SECONDS = 0.1
 _LOG_SECONDS = 2.0
+
+
+class StreamError(Exception):
+    """Standard output or standard error takes no more text."""
 
 
 class Screen:
@@ -47,17 +54,17 @@ class Screen:
         """Show a result."""
         if not self._quiet:
             self._wipe()
-            _write(self._out, f"{text}\n")
+            write(self._out, f"{text}\n")
 
     def warning(self, text: str) -> None:
         """Show a warning."""
         self._wipe()
-        _write(self._err, f"warning: {text}\n")
+        write(self._err, f"warning: {text}\n")
 
     def error(self, text: str) -> None:
         """Show an error."""
         self._wipe()
-        _write(self._err, f"error: {text}\n")
+        write(self._err, f"error: {text}\n")
 
     def follow(self, title: str, steps: Steps[T]) -> T:
         """Finish a computation, show its progress and return its value."""
@@ -77,21 +84,57 @@ class Screen:
             self._next = self._clock() + _TERMINAL_SECONDS
             self._wipe()
             self._line = f"{line} {progress.fraction:4.0%}"
-            _write(self._err, self._line)
+            write(self._err, self._line)
         elif line != self._stage:
             self._next = self._clock() + _LOG_SECONDS
             self._stage = line
-            _write(self._err, f"{line} ({progress.fraction:.0%})\n")
+            write(self._err, f"{line} ({progress.fraction:.0%})\n")
 
     def _wipe(self) -> None:
         """Erase the line of progress in the terminal."""
         if self._line:
-            _write(self._err, "\r" + " " * len(self._line) + "\r")
+            write(self._err, "\r" + " " * len(self._line) + "\r")
             self._line = ""
 
 
-def _write(stream: TextIO, text: str) -> None:
-    """Write text; escape characters that the stream cannot encode."""
+def write(stream: TextIO, text: str) -> None:
+    """Write text; escape characters that the stream cannot encode.
+
+    Raises
+    ------
+    StreamError
+        If the disk is full, or the program that reads the text has ended.
+    """
     encoding = stream.encoding or "utf-8"
-    stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
-    stream.flush()
+    try:
+        stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        stream.flush()
+    except OSError as error:
+        raise StreamError(
+            f"What the command prints cannot be written ({error.strerror})."
+        ) from error
+
+
+def open_closed_streams() -> None:
+    """Discard what goes to a standard stream that is closed from the start."""
+    for descriptor, name in ((1, "stdout"), (2, "stderr")):
+        if getattr(sys, name) is None:
+            _discard(descriptor)
+            setattr(sys, name, os.fdopen(descriptor, "w", encoding="utf-8"))
+
+
+def stop_printing(error: StreamError) -> None:
+    """Say why printing ends, unless nobody reads it; discard what comes later."""
+    if not isinstance(error.__cause__, BrokenPipeError):
+        with suppress(StreamError):
+            write(sys.stderr, f"error: {error}\n")
+    _discard(1)
+    _discard(2)
+
+
+def _discard(descriptor: int) -> None:
+    """Send what is written to a file descriptor nowhere."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    if null != descriptor:  # the lowest that is free, so perhaps this one
+        os.dup2(null, descriptor)
+        os.close(null)

@@ -26,6 +26,9 @@ _STL_HEADER = 84
 _STL_TRIANGLE = 50
 # Characters that no number has, not even "1e-5" or "-inf".
 _NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
+# A vertex or a face in an .obj file, and the numbers of the vertices of a face.
+_OBJ_LINE = re.compile(rb"^[ \t]*([vf])[ \t]([^#\n]*)", re.MULTILINE)
+_OBJ_CORNER = re.compile(rb"(?<!\S)-?\d+")
 # Numbers on a line of an .obj file, by keyword, at least.
 _N_OBJ_NUMBERS = {"v": 3, "vn": 3, "vt": 1, "f": 3}
 
@@ -66,6 +69,7 @@ def _check_content(path: Path, ending: str) -> None:
         _check_ply(path)
     if ending == ".obj":
         _check_last_line(path, tail)
+        _check_obj_corners(path)
 
 
 def _mislabelled(path: Path) -> DecompositionError:
@@ -77,16 +81,11 @@ def _mislabelled(path: Path) -> DecompositionError:
 
 def _ends_of(path: Path) -> tuple[bytes, bytes, int]:
     """Return the first and last kilobytes of a file, and its size."""
-    try:
-        with path.open("rb") as file:
-            head = file.read(4096)
-            size = file.seek(0, os.SEEK_END)
-            file.seek(max(0, size - 4096))
-            return head, file.read(), size
-    except OSError as error:
-        raise DecompositionError(
-            f"{path} cannot be opened ({error.strerror})."
-        ) from error
+    with path.open("rb") as file:
+        head = file.read(4096)
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - 4096))
+        return head, file.read(), size
 
 
 def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
@@ -145,3 +144,19 @@ def _check_last_line(path: Path, tail: bytes) -> None:
     words = tail.decode("latin-1").splitlines()[-1].split()
     if words and len(words) <= _N_OBJ_NUMBERS.get(words[0], 0):
         raise DecompositionError(f"{path.name} is truncated: it stops within a line.")
+
+
+def _check_obj_corners(path: Path) -> None:
+    """Raise for an OBJ file with faces that Blender would leave out."""
+    n_vertices = 0
+    for line in _OBJ_LINE.finditer(path.read_bytes().replace(b"\\\n", b" ")):
+        if line[1] == b"v":
+            n_vertices += 1
+            continue
+        for corner in map(int, _OBJ_CORNER.findall(line[2])):
+            # Vertices count from 1, or from -1 back from the face.
+            if not 1 <= abs(corner) <= n_vertices:
+                raise DecompositionError(
+                    f"{path.name} has a face that comes before its vertices or refers"
+                    " to some that are missing; export it again."
+                )

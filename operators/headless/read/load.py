@@ -9,6 +9,7 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ...bridge.mesh.points import is_cloud
+from ..atomic import explaining
 from ..current_file import mesh_objects, open_empty_file
 from ..formats import USUAL_UP
 from ..quiet import quiet_blender
@@ -33,8 +34,9 @@ def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
     DecompositionError
         If the file cannot be read, or has neither faces nor points.
     """
-    check_file(path)
-    check_finite(path)
+    with explaining(path, "read"):
+        check_file(path)
+        check_finite(path)
     ending = path.suffix.lower()
     open_empty_file()
     try:

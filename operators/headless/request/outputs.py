@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ....core.errors import DecompositionError
+from ..atomic import explaining
 from ..formats import HULL_ENDINGS, MODEL_ENDINGS, PICTURE_ENDINGS
 
 _NAME = "{name}"
@@ -54,7 +55,8 @@ def targets_for(
         if file and file.suffix.lower() == ".obj"
     ]
     for file in files:
-        _check_writable(file)
+        with explaining(file, "written"):
+            _check_writable(file)
     _check_distinct(files, inputs)
     return tuple(map(Targets, outputs, pictures, hull_files))
 
@@ -80,15 +82,20 @@ def _resolved(
 
 def _check_writable(file: Path) -> None:
     """Raise if `file` cannot be created or replaced."""
-    if not file.parent.is_dir():
-        raise DecompositionError(
-            f"{file} cannot be written: there is no folder {file.parent}."
-        )
     if file.is_dir():
         raise DecompositionError(f"{file} is a folder; name a file in it.")
-    if not os.access(file.parent, os.W_OK):
+    if file.exists() and not file.is_file():
         raise DecompositionError(
-            f"{file} cannot be written: the folder {file.parent} is read-only."
+            f"{file} is a device or a pipe; name a file that can be replaced."
+        )
+    folder = file.resolve().parent  # links are followed
+    if not folder.is_dir():
+        raise DecompositionError(
+            f"{file} cannot be written: there is no folder {folder}."
+        )
+    if not os.access(folder, os.W_OK):
+        raise DecompositionError(
+            f"{file} cannot be written: the folder {folder} is read-only."
         )
 
 

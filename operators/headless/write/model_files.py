@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -45,7 +46,8 @@ def _move_materials(unfinished: Path, path: Path) -> None:
     text = unfinished.read_bytes()
     old, new = (f"mtllib {p.name}".encode() for p in (materials, final))
     unfinished.write_bytes(text.replace(old, new, 1))
-    materials.replace(final)
+    with replacing(final) as target:  # perhaps on another disk, by a link
+        shutil.move(materials, target)
 
 
 def _blend(path: Path, _up: str) -> None:

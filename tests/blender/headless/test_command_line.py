@@ -101,6 +101,23 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
         assert list(tmp_path.iterdir()) == [], arguments
 
 
+def test_outputs_that_cannot_be_replaced_are_refused(tmp_path, capsys):
+    os.mkfifo(tmp_path / "pipe")
+    endings = {"report": "json", "output": "glb", "picture": "png", "hulls": "stl"}
+    for option, ending in endings.items():
+        pipe, gone = tmp_path / f"pipe.{ending}", tmp_path / f"gone.{ending}"
+        pipe.symlink_to("pipe")
+        gone.symlink_to(tmp_path / "none" / "a")
+        cases = [
+            (pipe, "is a device or a pipe"),
+            (gone, "there is no folder"),
+            (tmp_path / f"{'a' * 300}.{ending}", "(File name too long)"),
+        ]
+        for path, message in cases:
+            assert run("a.obj", f"--{option}", path) == 2, path
+            assert message in capsys.readouterr().err, path
+
+
 def test_one_input_all_results(tmp_path, model, capfd):
     report, output = tmp_path / "r.json", tmp_path / "out.blend"
     capfd.readouterr()  # what Blender said about making the input

@@ -1,3 +1,4 @@
+import errno
 import json
 from itertools import pairwise
 
@@ -9,6 +10,7 @@ from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.palette import part_color
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
+from weak_convex_decomposition.operators.headless.atomic import explaining
 from weak_convex_decomposition.operators.headless.formats import MODEL_ENDINGS
 from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write.model_files import save
@@ -175,6 +177,28 @@ def test_nothing_else_is_left_in_the_folder(tmp_path, parted):
         names = {file.name for file in folder.iterdir()}
         assert names == {f"a{ending}"} | ({"a.mtl"} if ending == ".obj" else set())
         assert (folder / f"a{ending}").read_bytes() != b"earlier", ending
+
+
+def test_links_stay_and_what_they_point_to_is_replaced(tmp_path, parted):
+    there = tmp_path / "there"
+    there.mkdir()
+    for ending in (*MODEL_ENDINGS, ".mtl"):
+        (there / f"b{ending}").write_text("earlier")
+        (tmp_path / f"a{ending}").symlink_to(there / f"b{ending}")
+    for ending in MODEL_ENDINGS:
+        save(tmp_path / f"a{ending}", None)
+    for ending in (*MODEL_ENDINGS, ".mtl"):
+        assert (tmp_path / f"a{ending}").is_symlink(), ending
+        assert (there / f"b{ending}").read_bytes() != b"earlier", ending
+    assert len(list(there.iterdir())) == len(MODEL_ENDINGS) + 1
+
+
+def test_errors_name_the_file_that_was_asked_for(tmp_path):
+    path = tmp_path / "a.glb"
+    error = PermissionError(errno.EACCES, "Permission denied", ".wcd-1.glb")
+    with pytest.raises(DecompositionError) as caught, explaining(path, "written"):
+        raise error
+    assert str(caught.value) == f"{path} cannot be written (Permission denied)."
 
 
 def test_a_folder_that_is_gone(tmp_path, parted):

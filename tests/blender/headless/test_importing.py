@@ -133,6 +133,8 @@ def test_files_of_another_kind_are_refused(tmp_path, ending):
 
 
 def test_missing_files_folders_and_unknown_endings(tmp_path):
+    with pytest.raises(DecompositionError, match=r"cannot be read \(File name too"):
+        load(tmp_path / f"{'a' * 300}.obj")
     with pytest.raises(DecompositionError, match="does not exist"):
         load(tmp_path / "a.obj")
     (tmp_path / "folder.obj").mkdir()
@@ -149,6 +151,25 @@ def test_obj_cut_within_a_line(tmp_path):
     )
     with pytest.raises(DecompositionError, match="stops within a line"):
         load(tmp_path / "a.obj")
+
+
+def test_obj_faces_without_their_vertices(tmp_path, unexpected):
+    triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+    faces = (
+        "f 1 2 4",
+        "f 0 1 2",
+        "f -1 -2 -4",
+        "f 1/1 2/1 9/1",
+        "f 1 2 \\\n4",
+        "f 1 2 4\nv 0 0 1",
+    )
+    cases = {
+        f"{number}.obj": (f"{triangle}{face}\n".encode(), "has a face that")
+        for number, face in enumerate(faces)
+    }
+    assert unexpected(cases) == {}
+    (tmp_path / "a.obj").write_text(triangle + "v 0 0 1\nf -1/9 1 2//1 # 99\n")
+    assert len(load(tmp_path / "a.obj")[0].data.polygons) == 2
 
 
 def test_wires_are_refused(tmp_path):

@@ -1,7 +1,13 @@
 import io
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 from weak_convex_decomposition.core.steps.progress import Progress
 from weak_convex_decomposition.operators.headless.screen import Screen
+
+CHECKOUT = Path(__file__).parents[3]
 
 
 class Terminal(io.StringIO):
@@ -44,3 +50,37 @@ def test_follow_shows_progress_and_returns_the_value():
     err = io.StringIO()
     assert Screen(io.StringIO(), err, quiet=False).follow("a", steps()) == 7
     assert err.getvalue() == "a: Sight (50%)\n"
+
+
+def test_output_that_goes_nowhere_ends_the_run_without_a_traceback(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    full = "error: What the command prints cannot be written (No space left on device)."
+    read, broken = os.pipe()
+    os.close(read)
+    # Set by bpy in this process, and what could keep the text of --version unbuffered.
+    unset = ("OCIO", "PYTHONUNBUFFERED")
+    cases = [
+        ("a.obj --samples 20", "", 1, ""),
+        ("--version", "", 1, ""),
+        ("a.obj --samples 20", ">/dev/full", 1, full),
+        ("a.obj --samples 20", ">&-", 0, ""),
+        ("a.obj --samples 20", "2>&- >/dev/full", 1, ""),
+    ]
+    for arguments, redirection, status, message in cases:
+        command = f'"$0" "$1" {arguments} {redirection}'
+        done = subprocess.run(
+            ["sh", "-c", command, sys.executable, CHECKOUT],
+            cwd=tmp_path,
+            env={k: v for k, v in os.environ.items() if k not in unset},
+            stdout=broken,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+            timeout=100,
+        )
+        case = (arguments, redirection, done.stderr)
+        assert done.returncode == status, case
+        assert [line for line in done.stderr.splitlines() if "rror" in line] == (
+            [message] if message else []
+        ), case
+    os.close(broken)
