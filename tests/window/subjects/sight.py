@@ -57,6 +57,22 @@ def click_button(hands, wanted):
     yield from hands.click(place)
 
 
+def keep_by_enter(hands):
+    """Check that Enter keeps the picture and listens no more; a button removes it."""
+    yield from click_button(hands, "wcd.show_sight")
+    yield lambda: sight_overlay.current is not None
+    yield from hands.click(middle(hands))
+    yield lambda: sight_overlay.current.view is not None
+    view = sight_overlay.current.view
+    yield from hands.press("Return")
+    yield from hands.click(middle(hands, up=0.1))
+    yield 0.5
+    assert sight_overlay.current.view is view
+    yield from click_button(hands, "wcd.hide_sight")
+    yield lambda: sight_overlay.current is None
+    assert leftovers() == []
+
+
 def steps(hands):
     hands.open_panels("WCD_PT_why")
     yield from hands.fill_screen()
@@ -95,17 +111,5 @@ def steps(hands):
     yield 0.5
     assert drawn(hands.pixels("hidden")) == plain
 
-    # Enter keeps the picture and listens no more; the button takes it away.
-    yield from click_button(hands, "wcd.show_sight")
-    yield lambda: sight_overlay.current is not None
-    yield from hands.click(middle(hands))
-    yield lambda: sight_overlay.current.view is not None
-    view = sight_overlay.current.view
-    yield from hands.press("Return")
-    yield from hands.click(middle(hands, up=0.1))
-    yield 0.5
-    assert sight_overlay.current.view is view
-    yield from click_button(hands, "wcd.hide_sight")
-    yield lambda: sight_overlay.current is None
-    assert leftovers() == []
+    yield from keep_by_enter(hands)
     assert snapshot(obj) == before
