@@ -52,7 +52,7 @@ class ShapeCache:
         Raises
         ------
         DecompositionError
-            If the surface has no area.
+            If the shape cannot be normalized; see `TriangleMesh.normalized`.
         """
         key = content_key(shape)
         if self._shape is None or self._shape[0] != key:

@@ -50,7 +50,8 @@ def decompose_in_steps(
     Raises
     ------
     DecompositionError
-        If the surface has no area, or if faces are the samples and there are too many.
+        If the shape cannot be normalized, for example because it has no area, or if
+        faces are the samples and there are too many.
 
     References
     ----------

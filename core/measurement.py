@@ -51,8 +51,8 @@ def measure_in_steps(
     Raises
     ------
     DecompositionError
-        If the shape or the faces have no area, or if the shape is a flat mesh and none
-        of the faces lies at its outline.
+        If the shape cannot be normalized, if the faces have no area, or if the shape is
+        a flat mesh and none of the faces lies at its outline.
     """
     prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
     if faces is not None:

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from numpy.typing import ArrayLike
 
 from .. import core
+from ..core.geometry.array_checks import described
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
 from ..core.results import Decomposition, HullDecomposition, Measurement
@@ -198,6 +199,11 @@ def _finish(steps: Steps[T], progress: ShowProgress | None) -> T:
     """Run `steps` to their end and report their progress to the callable `progress`."""
     if progress is None:
         return run(steps)
+    if not callable(progress):
+        raise TypeError(
+            "`progress` must be a function of stage and fraction, not"
+            f" {described(progress)}."
+        )
 
     def tell(now: Progress) -> Progress:
         progress(now.stage, float(now.fraction))

@@ -25,6 +25,12 @@ PUBLIC = {
 }
 
 
+class Cloud:
+    """A point cloud of another library: vertices, and no faces."""
+
+    vertices = l_shape().vertices[l_shape().triangles].mean(axis=1)
+
+
 class Trimesh:
     """A mesh of another library."""
 
@@ -125,8 +131,9 @@ def test_vertices_without_faces_are_points():
     mesh = l_shape()
     points = mesh.vertices[mesh.triangles].mean(axis=1)
     found = wcd.measure(points, samples=100)
-    again = wcd.measure(wcd.PointCloud(points), samples=100)
-    assert (found.rank, found.n_samples) == (again.rank, again.n_samples)
+    for shape in (wcd.PointCloud(points), Cloud()):
+        again = wcd.measure(shape, samples=100)
+        assert (found.rank, found.n_samples) == (again.rank, again.n_samples)
 
 
 def test_parameters_come_as_a_value_as_keywords_or_both():
@@ -188,12 +195,12 @@ def test_a_progress_that_raises_ends_the_work():
     [
         (lambda: wcd.decompose("chair.obj"), "must be vertices with faces.* type str"),
         (lambda: wcd.decompose(None), "must be vertices with faces.* type NoneType"),
-        (lambda: wcd.decompose([[0, 0, 0], [1]]), "must be vertices.* type list"),
+        (lambda: wcd.decompose([[0, 0, 0], [1]]), "rows of unequal lengths"),
         (lambda: wcd.decompose(VERTICES, 3), "`faces` must be rows .* type int"),
         (lambda: wcd.decompose(VERTICES, [1, 2, 3]), "Face 0 must be a list"),
         (lambda: wcd.decompose(VERTICES, ["abc"]), "Face 0 must be a list"),
         (lambda: wcd.decompose(VERTICES, [[0.0, 1.0, 2.0]]), "must be whole numbers"),
-        (lambda: wcd.decompose(l_shape(), FACES), "A TriangleMesh is a shape already"),
+        (lambda: wcd.decompose(l_shape(), FACES), "The TriangleMesh is a shape"),
         (lambda: wcd.decompose(Trimesh(VERTICES, FACES), FACES), "is a shape already"),
         (lambda: wcd.decompose(VERTICES, FACES, part=3), "'part'; its .* parts, rays,"),
         (
@@ -216,6 +223,13 @@ def test_a_progress_that_raises_ends_the_work():
             lambda: wcd.build_hulls(VERTICES, FACES, labels=[0.5] * 8),
             "`labels` must be whole numbers",
         ),
+        (lambda: wcd.decompose(np.eye(3) > 0), r"not .* dtype bool and shape \(3, 3\)"),
+        (lambda: wcd.decompose(np.array([None])), "not an array of dtype object"),
+        (lambda: wcd.decompose(VERTICES, np.eye(3) + 0j), "Face 0 .* dtype complex128"),
+        (
+            lambda: wcd.measure(VERTICES, FACES, progress=5),
+            "`progress` must be a function of stage and fraction, not .* type int",
+        ),
     ],
 )
 def test_wrong_types_are_told_in_a_sentence(call, sentence):
@@ -226,7 +240,7 @@ def test_wrong_types_are_told_in_a_sentence(call, sentence):
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (lambda: wcd.decompose([[0, 0], [1, 1]]), r"shape \(V, 3\), not \(2, 2\)"),
+        (lambda: wcd.decompose([[0, 0], [1, 1]]), r"shape \(N, 3\), not \(2, 2\)"),
         (lambda: wcd.decompose(VERTICES, []), "has no faces"),
         (lambda: wcd.decompose(VERTICES, [[0, 1]]), "Face 0 has 2 corners"),
         (lambda: wcd.decompose(VERTICES, [[0, 1, 12]]), "missing vertices"),
@@ -239,6 +253,13 @@ def test_wrong_types_are_told_in_a_sentence(call, sentence):
         (lambda: wcd.build_hulls(VERTICES, FACES, pieces="PARTS"), "pass `labels`"),
         (lambda: wcd.build_hulls(VERTICES, FACES, labels=[0, 1]), "must be 8 numbers"),
         (lambda: wcd.build_hulls(VERTICES, FACES, labels=[-1] * 8), "8 numbers from 0"),
+        (
+            lambda: wcd.build_hulls(
+                VERTICES, FACES, labels=np.full(8, 2**63, dtype=np.uint64)
+            ),
+            "8 numbers from 0 to",
+        ),
+        (lambda: wcd.decompose(np.array(VERTICES) * 1e160, FACES), "has a diagonal of"),
     ],
 )
 def test_bad_values_are_told_in_a_sentence(call, sentence):

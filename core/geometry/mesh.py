@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from .array_checks import check_size, checked_numbers, rows_of_three
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
 _LEAST_AREA = 1e-9
@@ -32,13 +33,17 @@ class TriangleMesh:
     triangles : (T, 3) int
         Rows of `vertices`, counter-clockwise seen from outside.
     polygons : (T,) int
-        Polygon of each triangle; every polygon 0…max has at least one.
+        Polygon of each triangle. In a mesh to decompose, every polygon 0…max has at
+        least one.
 
     Raises
     ------
+    TypeError
+        If vertices are no numbers, or triangles or polygons no whole numbers.
     DecompositionError
-        If there are no triangles, coordinates are not finite, indices are out of
-        range, or `polygons` does not give a number to each triangle.
+        If an array has a wrong shape, there are no triangles, coordinates are not
+        finite, indices are out of range, or `polygons` does not give a number to each
+        triangle.
     """
 
     vertices: NDArray[np.float64]
@@ -47,9 +52,11 @@ class TriangleMesh:
 
     def __post_init__(self) -> None:
         """Check the arrays and keep read-only copies of the right types."""
-        vertices = np.array(self.vertices, dtype=np.float64).reshape(-1, 3)
-        triangles = np.array(self.triangles, dtype=np.int64).reshape(-1, 3)
-        polygons = np.array(self.polygons, dtype=np.int64).reshape(-1)
+        vertices = rows_of_three(self.vertices, "Vertices").astype(np.float64)
+        triangles = rows_of_three(self.triangles, "Triangles", whole=True)
+        triangles = triangles.astype(np.int64)
+        polygons = checked_numbers(self.polygons, "Polygons", whole=True)
+        polygons = polygons.astype(np.int64)
         if len(triangles) == 0:
             raise DecompositionError(
                 "The mesh has no faces; add faces or choose another object."
@@ -63,7 +70,7 @@ class TriangleMesh:
             raise DecompositionError(
                 "The mesh has faces that refer to missing vertices; repair it first."
             )
-        if len(polygons) != len(triangles) or polygons.min() < 0:
+        if polygons.shape != (len(triangles),) or polygons.min() < 0:
             raise DecompositionError(
                 "The mesh needs one polygon number for each of its triangles."
             )
@@ -111,18 +118,24 @@ class TriangleMesh:
         Raises
         ------
         DecompositionError
-            If the faces have no area, or the bounding box is infinite.
+            If the faces have no area, the mesh is too large or too small to compute
+            with, or some polygon has no triangle.
         """
-        if self.diagonal == 0 or not np.isfinite(self.diagonal):
+        check_size(*self.bounds)
+        n_triangles = len(self.triangles)
+        if self.n_polygons > n_triangles or not np.bincount(self.polygons).all():
             raise DecompositionError(
-                "The faces have no area; choose an object with a surface."
+                "The numbers of the polygons have gaps; count them 0, 1, 2 and so on,"
+                " each with a triangle."
             )
-        scaled = replace(self, vertices=(self.vertices - self.center) / self.diagonal)
-        if scaled.areas.sum() <= _LEAST_AREA:
-            raise DecompositionError(
-                "The faces have no area; choose an object with a surface."
-            )
-        return scaled
+        if self.diagonal > 0:
+            scale = self.diagonal
+            scaled = replace(self, vertices=(self.vertices - self.center) / scale)
+            if scaled.areas.sum() > _LEAST_AREA:
+                return scaled
+        raise DecompositionError(
+            "The faces have no area; choose an object with a surface."
+        )
 
     @cached_property
     def welded_triangles(self) -> NDArray[np.int64]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from .array_checks import check_size, rows_of_three
 
 # Least number of points of a cloud. Fewer do not show a surface.
 _FEWEST = 16
@@ -31,8 +32,11 @@ class PointCloud:
 
     Raises
     ------
+    TypeError
+        If points or normals are no numbers.
     DecompositionError
-        If there are too few points, if all lie at one place or in a line, if there is
+        If an array has a wrong shape, if there are too few points, if all lie at one
+        place or in a line, or too far apart or too near to compute with, if there is
         not one normal per point, or if values are not finite or normals zero.
     """
 
@@ -41,12 +45,12 @@ class PointCloud:
 
     def __post_init__(self) -> None:
         """Check the arrays and keep read-only copies, normals at length 1."""
-        points = np.array(self.points, dtype=np.float64).reshape(-1, 3)
+        points = rows_of_three(self.points, "Points").astype(np.float64)
         _check_points(points)
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
         if self.normals is not None:
-            normals = np.array(self.normals, dtype=np.float64).reshape(-1, 3)
+            normals = rows_of_three(self.normals, "Normals").astype(np.float64)
             lengths = _lengths_of_normals(normals, len(points))
             normals /= lengths
             normals.flags.writeable = False
@@ -95,11 +99,11 @@ def _check_points(points: NDArray[np.float64]) -> None:
             "The point cloud has coordinates that are not finite numbers; delete"
             " those points."
         )
+    check_size(points.min(axis=0), points.max(axis=0))
     diagonal = np.linalg.norm(np.ptp(points, axis=0))
-    if diagonal == 0 or not np.isfinite(diagonal):
+    if diagonal == 0:
         raise DecompositionError(
-            "All points of the cloud are at one place, or infinitely far apart; choose"
-            " an object with a surface."
+            "All points of the cloud are at one place; choose an object with a surface."
         )
     scaled = (points - points.mean(axis=0)) / diagonal
     _, widths, _ = np.linalg.svd(scaled.T @ scaled / len(points))

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 _FLAT = 1e-12
 
 
+# Shapes too large to compute with, or infinite, are refused later, in a sentence.
+@np.errstate(over="ignore", invalid="ignore")
 def triangulate(
     vertices: NDArray[np.float64], faces: Sequence[NDArray[np.int64]]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -15,6 +15,7 @@ from ..parameters.hulls import HullParameters
 from ..results import HullDecomposition
 from ..steps.progress import Progress, Steps, within
 from .best_cut import best_cut
+from .convex_hull import offset
 from .fitting import fit_shape
 from .joining import join_pieces
 from .piece import Cell, Piece, piece_of_part, whole
@@ -56,7 +57,7 @@ def build_hulls_in_steps(
     Raises
     ------
     DecompositionError
-        If the shape is a point cloud, or its surface has no area.
+        If the shape is a point cloud, or cannot be normalized.
     """
     if not isinstance(shape, TriangleMesh):
         raise DecompositionError(
@@ -72,9 +73,9 @@ def build_hulls_in_steps(
     yield Progress("Solid", 0.0)
     steps = solid_of(replace(mesh, vertices=vertices), seed)
     solid = yield from within(steps, 0.0, 0.0)
-    parts = _parts_of_triangles(shape, labels)
+    numbers, parts = _parts_of_triangles(shape, labels)
     if parameters.pieces == "PARTS":
-        start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
+        start = [piece_of_part(solid, parts == part) for part in range(len(numbers))]
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
     else:
         pieces = yield from _within_error(solid, parameters)
@@ -85,7 +86,8 @@ def build_hulls_in_steps(
     for piece in pieces:
         yield Progress("Shapes", 1.0)
         shapes.append(fit_shape(piece.hull, parameters, size).moved(size, center))
-        main_parts.append(-1 if labels is None else _main_part(solid, parts, piece))
+        row = _main_part(solid, parts, piece) if labels is not None else 0
+        main_parts.append(numbers[row])
     errors = np.array([piece.error for piece in pieces])
     volume = float(solid.volumes.sum()) * size**3
     total = sum(shape.volume for shape in shapes)
@@ -94,17 +96,20 @@ def build_hulls_in_steps(
         errors,
         np.array(main_parts),
         total / volume if volume > 0 else np.inf,
-        (*prepared.notes, *_notes(errors, parameters)),
+        (*prepared.notes, *_notes(pieces, parameters, size)),
     )
 
 
 def _parts_of_triangles(
     mesh: TriangleMesh, labels: NDArray[np.int64] | None
-) -> NDArray[np.int64]:
-    """Return the part of each triangle, (T,); 0 for all without labels."""
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the numbers of the parts, (K,), and the row of each triangle's, (T,).
+
+    Without labels, all triangles are in one part of number −1.
+    """
     if labels is None:
-        return np.zeros(len(mesh.triangles), dtype=np.int64)
-    return labels[mesh.polygons]
+        return np.array([-1]), np.zeros(len(mesh.triangles), dtype=np.int64)
+    return np.unique(labels[mesh.polygons], return_inverse=True)
 
 
 def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]]:
@@ -135,18 +140,30 @@ def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
 
 
 def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
-    """Return the part that most of the surface samples in a piece's hull belong to."""
+    """Return the part of most of the surface samples in a piece's hull, of `parts`."""
     low, high = piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0)
     near = ((low <= solid.samples) & (solid.samples <= high)).all(axis=1)
     near[near] = piece.hull.heights(solid.samples[near]) <= 0
     return int(np.bincount(parts[solid.triangles[near]], minlength=1).argmax())
 
 
-def _notes(errors: NDArray[np.float64], parameters: HullParameters) -> tuple[str, ...]:
-    """Return a note if the largest error is above `max_error`, else nothing."""
-    if parameters.pieces == "PARTS" or errors.max() <= parameters.max_error:
-        return ()
-    return (
-        f"The error is {errors.max():.3f}, above Largest Error, after as many cuts as"
-        f" Most Hulls = {parameters.max_hulls} allows; raise Most Hulls for more.",
-    )
+def _notes(
+    pieces: list[Piece], parameters: HullParameters, unit: float
+) -> tuple[str, ...]:
+    """Return notes on errors above `max_error`, and on hulls that did not shrink."""
+    notes = []
+    error = max(piece.error for piece in pieces)
+    if parameters.pieces != "PARTS" and error > parameters.max_error:
+        notes.append(
+            f"The error is {error:.3f}, above Largest Error, after as many cuts as"
+            f" Most Hulls = {parameters.max_hulls} allows; raise Most Hulls for more."
+        )
+    margin = parameters.margin / unit
+    if parameters.shape == "HULL" and margin < 0:
+        kept = sum(offset(piece.hull, margin) is piece.hull for piece in pieces)
+        if kept:
+            notes.append(
+                f"Margin = {parameters.margin:g} would make {kept} of {len(pieces)}"
+                " hulls vanish, which keep their size; choose a value nearer to 0."
+            )
+    return tuple(notes)

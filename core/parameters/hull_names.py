@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from string import Formatter
 
 from ..errors import DecompositionError
 
 # Prefixes by which Unreal recognizes collision shapes. It has none for cylinders.
 _UNREAL = {"HULL": "UCX", "BOX": "UBX", "SPHERE": "USP", "CAPSULE": "UCP"}
+# Most characters that a template may add to the name of the object. Blender cuts names
+# off after 255 bytes.
+_LONGEST = 255
 
 
 @dataclass(frozen=True)
@@ -78,23 +83,39 @@ def hull_names(
     Raises
     ------
     DecompositionError
-        If the template cannot be filled in, or gives two hulls the same name.
+        If the template cannot be filled in, or gives two hulls the same name or names
+        that are too long.
     """
     chosen = next(n.template for n in NAMINGS if n.identifier == naming) or template
     try:
+        wide = _widest_field(chosen) > _LONGEST
         names = [
             chosen.format(
                 name=name, n=n, kind=kind.lower(), prefix=_UNREAL.get(kind, "UCX")
             )
-            for n, kind in enumerate(kinds, start=1)
+            for n, kind in enumerate([] if wide else kinds, start=1)
         ]
     except (KeyError, IndexError, ValueError, AttributeError, TypeError) as error:
         raise DecompositionError(
             f"Template {template!r} cannot be filled in; write it like"
             " {name}_{n:02d}, with {name}, {n}, {kind} and {prefix} only."
         ) from error
+    if wide or max(map(len, names), default=0) > _LONGEST + len(name):
+        raise DecompositionError(
+            f"Template {template!r} adds more than {_LONGEST} characters to a name;"
+            " shorten it."
+        )
     if len(set(names)) < len(names):
         raise DecompositionError(
             f"Template {template!r} gives all hulls one name; put {{n}} in it."
         )
     return names
+
+
+def _widest_field(template: str) -> int:
+    """Return the largest number in the format specs of a template; 0 if none has any.
+
+    Python would fill a name up to that width, whatever memory it takes.
+    """
+    specs = " ".join(spec or "" for _, _, spec, _ in Formatter().parse(template))
+    return max(map(int, re.findall(r"\d+", specs)), default=0)

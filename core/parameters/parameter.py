@@ -12,6 +12,8 @@ from ..errors import DecompositionError
 # Blender stores properties in single precision: a value may exceed its bound by this
 # share of itself.
 _FLOAT32_SLACK = 1e-6
+# Messages write whole numbers from this on with an exponent.
+_LONGEST_PLAIN = 1e15
 
 
 @dataclass(frozen=True)
@@ -100,7 +102,7 @@ def info_of(parameter_field: Field[Any]) -> ParameterInfo:
 
 
 def settle(parameters: Any) -> None:
-    """Check every field of a dataclass, and convert NumPy's numbers to Python's.
+    """Check every field of a dataclass, and convert values to Python's plain types.
 
     Parameters
     ----------
@@ -116,7 +118,9 @@ def settle(parameters: Any) -> None:
         value = getattr(parameters, parameter_field.name)
         check(parameter_field, value)
         default: Any = parameter_field.default
-        object.__setattr__(parameters, parameter_field.name, type(default)(value))
+        # `str` would name a member of an Enum of texts, and not return its text.
+        plain = str.__str__ if isinstance(default, str) else type(default)
+        object.__setattr__(parameters, parameter_field.name, plain(value))
 
 
 def check(parameter_field: Field[Any], value: Any) -> None:
@@ -137,7 +141,7 @@ def check(parameter_field: Field[Any], value: Any) -> None:
     info = info_of(parameter_field)
     if info.choices:
         allowed = [choice.identifier for choice in info.choices]
-        if value not in allowed:
+        if not isinstance(value, str) or value not in allowed:
             raise DecompositionError(
                 f"{info.label} cannot be {value!r}; choose one of {', '.join(allowed)}."
             )
@@ -148,12 +152,20 @@ def check(parameter_field: Field[Any], value: Any) -> None:
         return
     whole = isinstance(parameter_field.default, int)
     number = isinstance(value, Integral if whole else Real)
-    if not number or isinstance(value, bool) or not math.isfinite(value):
+    bounds = f"choose a value from {_written(info.low)} to {_written(info.high)}"
+    try:
+        finite = number and math.isfinite(value)
+    except OverflowError as error:  # a whole number beyond all floats
+        raise DecompositionError(f"{info.label} is out of range; {bounds}.") from error
+    if not finite or isinstance(value, bool):
         kind = "a whole number" if whole else "a number"
         raise DecompositionError(f"{info.label} must be {kind}, not {value!r}.")
     slack = 0.0 if whole else _FLOAT32_SLACK * max(1.0, abs(value))
     if not info.low - slack <= value <= info.high + slack:
-        raise DecompositionError(
-            f"{info.label} is {value:g}; choose a value from {info.low:g}"
-            f" to {info.high:g}."
-        )
+        raise DecompositionError(f"{info.label} is {_written(value)}; {bounds}.")
+
+
+def _written(number: float) -> str:
+    """Return a number as text, without an exponent if it is whole and not huge."""
+    plain = abs(number) < _LONGEST_PLAIN and number == round(number)
+    return f"{number:.0f}" if plain else f"{number:g}"

@@ -142,7 +142,7 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     Raises
     ------
     DecompositionError
-        If the surface has no area.
+        If the shape cannot be normalized; see `TriangleMesh.normalized`.
     """
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):

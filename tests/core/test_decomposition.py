@@ -152,7 +152,7 @@ def test_polygons_without_area_get_a_part_too():
 )
 def test_bad_input_is_refused_with_a_sentence(vertices, triangles, text):
     with pytest.raises(DecompositionError, match=text) as error:
-        split_up(TriangleMesh(vertices, triangles, np.zeros(len(triangles))))
+        split_up(TriangleMesh(vertices, triangles, np.zeros(len(triangles), int)))
     assert str(error.value).endswith(".")
 
 

@@ -259,7 +259,7 @@ def split(mesh):
     return replace(
         mesh,
         vertices=mesh.vertices[mesh.triangles.ravel()],
-        triangles=np.arange(mesh.triangles.size),
+        triangles=np.arange(mesh.triangles.size).reshape(-1, 3),
     )
 
 
@@ -272,7 +272,7 @@ def refined(mesh):
     quarters = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
     return TriangleMesh(
         np.concatenate([mesh.vertices, mesh.vertices[edges].mean(axis=1)]),
-        np.stack([np.stack(quarter, axis=1) for quarter in quarters], axis=1),
+        np.stack(quarters).transpose(2, 0, 1).reshape(-1, 3),
         np.repeat(mesh.polygons, 4),
     )
 

@@ -9,6 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ....core.geometry.array_checks import (
+    checked_numbers,
+    described,
+    real_numbers,
+    rows_of_three,
+)
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
 from ....core.geometry.triangulation import triangulate
@@ -27,7 +33,8 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
     ----------
     shape : object
         Vertices (V, 3), a TriangleMesh, a PointCloud, a Blender object, or any object
-        with attributes `vertices` and `faces`, such as a `trimesh.Trimesh`.
+        with attributes `vertices` and `faces`, such as a `trimesh.Trimesh`; one that
+        has `vertices` alone is a point cloud.
     faces : sequence of sequences of int, optional
         Vertex rows of each polygon. Vertices without faces are points.
 
@@ -43,10 +50,10 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
         If the shape has no surface that can be decomposed.
     """
     is_object = _is_blender_object(shape)
-    named = hasattr(shape, "vertices") and hasattr(shape, "faces")
+    named = hasattr(shape, "vertices")
     if faces is not None and (is_object or named or isinstance(shape, _OWN)):
         name = type(shape).__name__
-        raise TypeError(f"A {name} is a shape already; leave out `faces`.")
+        raise TypeError(f"The {name} is a shape already; leave out `faces`.")
     if isinstance(shape, _OWN):
         return shape
     if is_object:
@@ -54,7 +61,8 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
 
         return read_shape(shape)
     if named:
-        shape, faces = shape.vertices, shape.faces  # type: ignore[attr-defined]
+        faces = getattr(shape, "faces", None)
+        shape = shape.vertices  # type: ignore[attr-defined]
     vertices = _vertices_of(shape)
     if faces is None:
         return PointCloud(vertices)
@@ -123,19 +131,19 @@ def labels_of(
                 " `decompose` finds them."
             )
         return None
-    array = _numbers(labels)
-    if array is None or array.dtype.kind == "f":
-        raise TypeError(f"`labels` must be whole numbers, not {_name(labels)}.")
+    array = checked_numbers(labels, "`labels`", whole=True).astype(np.int64)
+    # Numbers beyond the type have become negative.
     if array.shape != (mesh.n_polygons,) or array.min() < 0:
         raise DecompositionError(
-            f"`labels` must be {mesh.n_polygons} numbers from 0, one for each face."
+            f"`labels` must be {mesh.n_polygons} numbers from 0 to 2**63 - 1, one for"
+            " each face."
         )
-    return array.astype(np.int64)
+    return array
 
 
 def _is_blender_object(shape: object) -> bool:
     """Return whether a shape is a Blender object; TypeError for other Blender data."""
-    kind = getattr(shape, "bl_rna", None)
+    kind = getattr(type(shape), "bl_rna", None)  # objects may have been removed
     if kind is None:
         return False
     if kind.identifier != "Object":
@@ -143,7 +151,12 @@ def _is_blender_object(shape: object) -> bool:
             f"A shape cannot be a {kind.identifier} of Blender; pass the object that"
             " has it."
         )
-    _check_readable(shape)
+    try:
+        _check_readable(shape)
+    except ReferenceError as error:
+        raise DecompositionError(
+            "The object has been removed from Blender; pass one that is there."
+        ) from error
     return True
 
 
@@ -159,28 +172,23 @@ def _check_readable(obj: Any) -> None:
 
 def _vertices_of(shape: object) -> NDArray[np.float64]:
     """Return the vertices (V, 3) that a script passed."""
-    vertices = _numbers(shape)
+    vertices = real_numbers(shape)
     if vertices is None:
-        raise TypeError(f"A shape must be {_SHAPES}, not {_name(shape)}.")
-    if vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise DecompositionError(
-            f"Vertices must be an array of shape (V, 3), not {vertices.shape}; pass one"
-            " row of x, y and z for each."
-        )
-    return vertices.astype(np.float64)
+        raise TypeError(f"A shape must be {_SHAPES}, not {described(shape)}.")
+    return rows_of_three(vertices, "Vertices").astype(np.float64)
 
 
 def _triangles_of(
     vertices: NDArray[np.float64], faces: object
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the triangles (T, 3) of faces, and the face (T,) of each."""
-    array = _numbers(faces)
+    array = real_numbers(faces)
     if array is not None and array.ndim == 2 and array.shape[1] == 3:
         return _indices(array), np.arange(len(array))
     if not isinstance(faces, Sequence | np.ndarray):
         raise TypeError(
             f"`faces` must be rows of vertex numbers, (F, 3) or lists of any length,"
-            f" not {_name(faces)}."
+            f" not {described(faces)}."
         )
     if array is not None and array.ndim == 2 and array.shape[1] > 3:
         polygons = list(_indices(array))
@@ -195,10 +203,10 @@ def _triangles_of(
 
 def _polygon(face: object, row: int) -> NDArray[np.int64]:
     """Return the vertex numbers of one face, (N,), N at least 3."""
-    corners = _numbers(face)
+    corners = real_numbers(face)
     if corners is None or corners.ndim != 1:
         raise TypeError(
-            f"Face {row} must be a list of vertex numbers, not {_name(face)}."
+            f"Face {row} must be a list of vertex numbers, not {described(face)}."
         )
     if len(corners) < 3:
         raise DecompositionError(
@@ -207,28 +215,13 @@ def _polygon(face: object, row: int) -> NDArray[np.int64]:
     return _indices(corners)
 
 
-def _numbers(values: object) -> NDArray[Any] | None:
-    """Return an array of real numbers; None if values are ragged or no numbers."""
-    if values is None or isinstance(values, str | bytes):
-        return None
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError):  # ragged, or an object that cannot be an array
-        return None
-    return array if array.dtype.kind in "iuf" else None
-
-
 def _indices(array: NDArray[Any]) -> NDArray[np.int64]:
     """Return vertex numbers as integers; raise if one is negative or not whole."""
     if array.dtype.kind == "f" and array.size:
         raise TypeError("`faces` must be whole numbers: rows of the vertices.")
-    if array.size and array.min() < 0:
+    rows = array.astype(np.int64)  # numbers beyond the type become negative
+    if rows.size and rows.min() < 0:
         raise DecompositionError(
             "The mesh has faces that refer to missing vertices; repair it first."
         )
-    return array.astype(np.int64)
-
-
-def _name(thing: object) -> str:
-    """Return how an error message names a value: by its type."""
-    return f"a value of type {type(thing).__name__}"
+    return rows

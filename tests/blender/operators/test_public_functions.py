@@ -43,3 +43,9 @@ def test_objects_without_a_surface_are_refused():
 def test_faces_beside_an_object_are_refused(suzanne):
     with pytest.raises(TypeError, match="is a shape already; leave out `faces`"):
         wcd.decompose(suzanne, [[0, 1, 2]])
+
+
+def test_removed_objects_are_refused(suzanne):
+    bpy.data.objects.remove(suzanne)
+    with pytest.raises(wcd.DecompositionError, match=r"has been removed .*\.$"):
+        wcd.decompose(suzanne)

@@ -26,6 +26,45 @@ def test_bad_arrays_are_refused_with_a_sentence(vertices, triangles, polygons, t
     assert str(error.value).endswith(".")
 
 
+def test_arrays_of_other_shapes_and_types_are_refused_not_reshaped():
+    good = {"vertices": CORNERS, "triangles": [[0, 1, 2]], "polygons": [0]}
+    for name, value, error, text in (
+        ("vertices", np.ones((3, 4)), DecompositionError, r"\(N, 3\), not \(3, 4\)"),
+        ("vertices", np.ones((3, 2)), DecompositionError, r"\(N, 3\), not \(3, 2\)"),
+        ("vertices", np.ones(9), DecompositionError, r"\(N, 3\), not \(9,\)"),
+        ("vertices", np.eye(3) + 0j, TypeError, "numbers, not an array of dtype compl"),
+        ("vertices", [[0, 0, 0], [1]], TypeError, "not a list of rows of unequal len"),
+        ("vertices", "abc", TypeError, "must be numbers, not a value of type str"),
+        ("triangles", [[0, 1, 2, 0]], DecompositionError, r"not \(1, 4\)"),
+        ("triangles", [[0, 1, 2.5]], TypeError, "whole numbers, not .* dtype float64"),
+        ("triangles", None, TypeError, "whole numbers, not a value of type NoneType"),
+        ("polygons", [[0]], DecompositionError, "one polygon number"),
+        ("polygons", [0.5], TypeError, "Polygons must be whole numbers"),
+        ("polygons", np.array([2**63], np.uint64), DecompositionError, "one polygon"),
+    ):
+        with pytest.raises(error, match=text) as caught:
+            TriangleMesh(**good | {name: value})
+        assert str(caught.value).endswith("."), name
+
+
+def test_polygons_without_triangles_are_refused():
+    for polygons in ([0, 1, 2, 7], [1, 1, 2, 3], [0, 1, 2, 10**7], [0, 1, 2, 10**12]):
+        mesh = TriangleMesh(CORNERS, [[0, 1, 2]] * 4, polygons)
+        with pytest.raises(DecompositionError, match=r"have gaps; .*\.$"):
+            mesh.normalized()
+
+
+def test_sizes_that_leave_double_precision_are_refused():
+    for scale in (1e-307, 1e-160, 1e-52, 1e51, 1e160, 1e307):
+        mesh = shapes.moved(shapes.box((-9,) * 3, (9,) * 3), scale)
+        with pytest.raises(DecompositionError, match=r"a diagonal of .*scale .*\.$"):
+            mesh.normalized()
+    for scale in (1e-45, 1e38):  # the ends of single precision
+        assert shapes.moved(shapes.box(), scale).normalized().diagonal == (
+            pytest.approx(1)
+        )
+
+
 @pytest.mark.parametrize(
     "vertices",
     [

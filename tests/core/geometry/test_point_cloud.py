@@ -18,6 +18,11 @@ BAD = {
     "zero normal": (POINTS, clouds.changed(NORMALS, 3, 0.0), "zero or not finite"),
     "NaN normal": (POINTS, clouds.changed(NORMALS, 3, np.nan), "zero or not finite"),
     "normals of others": (POINTS, NORMALS[:-1], "50 points but 49 normals"),
+    "two columns": (POINTS[:, :2], None, r"shape \(N, 3\), not \(50, 2\)"),
+    "four columns": (np.ones((60, 4)), None, r"shape \(N, 3\), not \(60, 4\)"),
+    "columns of normals": (POINTS, NORMALS.T, r"Normals must .* not \(3, 50\)"),
+    "too far apart": (POINTS * 1e160, None, "a diagonal of"),
+    "too near": (POINTS * 1e-200, None, "a diagonal of"),
 }
 
 
@@ -27,6 +32,18 @@ def test_bad_clouds_have_their_sentence(case):
     with pytest.raises(DecompositionError, match=match) as error:
         PointCloud(points, normals)
     assert str(error.value).endswith(".")
+
+
+def test_what_is_no_number_is_refused():
+    for points, normals, text in (
+        (POINTS + 0j, None, "Points must be numbers, not an array of dtype complex128"),
+        ("cloud", None, "Points must be numbers, not a value of type str"),
+        (None, None, "Points must be numbers, not a value of type NoneType"),
+        (POINTS, [["x", "y", "z"]] * 50, "Normals must be numbers, not .* dtype <U1"),
+    ):
+        with pytest.raises(TypeError, match=text) as error:
+            PointCloud(points, normals)
+        assert str(error.value).endswith(".")
 
 
 def test_a_slanted_line_is_one_wherever_it_lies():

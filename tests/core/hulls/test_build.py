@@ -127,6 +127,30 @@ def test_one_shape_for_each_part():
     assert hulls_of(mesh, labels, pieces="PARTS", max_hulls=1).n_hulls == 1
 
 
+def test_parts_may_have_any_numbers():
+    mesh = shapes.joined(shapes.box(), shapes.box((2, 0, 0), (4, 1, 1)))
+    labels = np.repeat([10**12, 7], 6)
+    for pieces in ("PARTS", "BY_ERROR"):
+        found = hulls_of(mesh, labels, pieces=pieces)
+        assert found.parts.tolist() == [7, 10**12]
+
+
+def test_hulls_that_a_margin_would_make_vanish_are_told():
+    mesh = shapes.joined(shapes.box(), shapes.box((2, 0, 0), (5, 3, 3)))
+    volumes, notes = {}, {}
+    for margin in (0.0, -0.4, -0.6):
+        found = hulls_of(mesh, margin=margin)
+        volumes[margin] = [round(each.volume, 3) for each in found.shapes]
+        notes[margin] = found.notes
+    assert volumes == {0.0: [27, 1], -0.4: [10.648, 0.008], -0.6: [5.832, 1]}
+    assert notes[0.0] == notes[-0.4] == ()
+    assert notes[-0.6] == (
+        "Margin = -0.6 would make 1 of 2 hulls vanish, which keep their size; choose a"
+        " value nearer to 0.",
+    )
+    assert hulls_of(mesh, margin=-0.6, shape="BOX").notes == ()
+
+
 def test_fewer_hulls_than_connected_pieces():
     mesh = shapes.joined(
         *(shapes.box((2 * i, 0, 0), (2 * i + 1, 1, 1)) for i in range(4))

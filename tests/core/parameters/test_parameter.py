@@ -1,6 +1,8 @@
 import re
 from dataclasses import dataclass, fields
+from enum import Enum
 
+import numpy as np
 import pytest
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
@@ -10,6 +12,7 @@ from weak_convex_decomposition.core.parameters.parameter import (
     check,
     info_of,
     parameter,
+    settle,
 )
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
@@ -51,11 +54,29 @@ def test_check_lets_good_values_pass():
         (COUNT, 2.5, "Count must be a whole number, not 2.5."),
         (WEIGHT, "x", "Weight must be a number, not 'x'."),
         (COLOR, "red", "Color cannot be 'red'; choose one of RED, TAN."),
+        (COUNT, 10**400, "Count is out of range; choose a value from 1 to 5."),
+        (WEIGHT, -(10**400), "Weight is out of range; choose a value from 0 to inf."),
+        (COUNT, 2**31, "Count is 2147483648; choose a value from 1 to 5."),
+        (WEIGHT, -2.5e20, "Weight is -2.5e+20; choose a value from 0 to inf."),
+        (
+            COLOR,
+            np.array(["RED"]),
+            "Color cannot be array(['RED'], dtype='<U3'); choose one of RED, TAN.",
+        ),
     ],
 )
 def test_check_says_what_is_wrong_and_what_to_do(field, value, text):
     with pytest.raises(DecompositionError, match=f"^{re.escape(text)}$"):
         check(field, value)
+
+
+def test_choices_are_kept_as_plain_texts():
+    Colors = Enum("Colors", {"TAN": "TAN"}, type=str)
+    for value in (Colors.TAN, np.str_("TAN")):
+        settings = Settings(color=value)
+        settle(settings)
+        assert settings.color == "TAN"
+        assert type(settings.color) is str
 
 
 def test_every_parameter_has_a_label_a_help_and_a_good_default():

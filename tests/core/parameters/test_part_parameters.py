@@ -54,7 +54,8 @@ def test_a_number_out_of_bounds_is_refused_by_name():
         for value in (info.low - steps[0], info.high + steps[1]):
             text = refusal(**{name: value})
             case = f"{name} = {value}"
-            bounds = f"from {info.low:g} to {info.high:g}"
+            style = "g" if name in REALS else ".0f"
+            bounds = f"from {info.low:{style}} to {info.high:{style}}"
             assert_sentence(text, bounds, case=case)
             assert text.startswith(f"{info.label} is "), case
 
