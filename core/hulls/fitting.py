@@ -47,7 +47,9 @@ def fit_shape(hull: Hull, parameters: HullParameters, unit: float) -> CollisionS
         return CollisionShape("HULL", grown, np.zeros(3), np.eye(3), np.zeros(3))
     shape = _FITS[parameters.shape](hull)
     least = np.where(shape.sizes > 0, THIN / 2, 0.0)
-    return replace(shape, sizes=np.maximum(shape.sizes + margin * (least > 0), least))
+    moving = shape.sizes > 0
+    moving[2] &= parameters.shape != "CAPSULE"  # its ends move with its radius
+    return replace(shape, sizes=np.maximum(shape.sizes + margin * moving, least))
 
 
 def box_around(hull: Hull) -> CollisionShape:

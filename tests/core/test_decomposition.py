@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -82,7 +83,7 @@ def test_double_faces_and_sheets_inside_leave_the_parts_as_they_are():
     mesh = shapes.dumbbell()
     inner = shapes.sheet()
     doubled = shapes.joined(mesh, mesh)
-    crossed = shapes.joined(mesh, shapes.moved(inner, 0.2, offset=(1.5, 1.5, 1.5)))
+    crossed = shapes.joined(mesh, changes.moved(inner, 0.2, offset=(1.5, 1.5, 1.5)))
     for shape in (doubled, crossed):
         found = split_up(shape, samples=100, parts=2, containers="HOLLOW")
         labels = found.labels[: mesh.n_polygons]

@@ -1,5 +1,6 @@
 from dataclasses import replace
 
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -30,7 +31,7 @@ SAME = {"max_parts": 6}
 
 def test_the_same_parts_after_a_rotation(decomposed, table, agreement):
     mesh, areas = table
-    turned = shapes.moved(mesh, rotation=shapes.any_rotation(1), offset=(9, 2, 5))
+    turned = changes.moved(mesh, rotation=changes.any_rotation(1), offset=(9, 2, 5))
     assert same_partition(
         agreement, decomposed(shapes.table), split_up(turned, **SAME), areas
     )
@@ -41,7 +42,7 @@ def test_the_same_parts_at_another_scale(decomposed, table, scale, agreement):
     mesh, areas = table
     found, scaled = (
         decomposed(shapes.table),
-        split_up(shapes.moved(mesh, scale), **SAME),
+        split_up(changes.moved(mesh, scale), **SAME),
     )
     assert same_partition(agreement, found, scaled, areas)
     assert scaled.areas == pytest.approx(found.areas * scale**2, rel=0.03)
@@ -50,20 +51,20 @@ def test_the_same_parts_at_another_scale(decomposed, table, scale, agreement):
 
 def test_the_same_parts_of_shuffled_faces(decomposed, table, agreement):
     mesh, areas = table
-    shuffled, polygons = shapes.permuted(mesh, 5)
+    shuffled, polygons = changes.permuted(mesh, 5)
     found = split_up(shuffled, **SAME)
     assert same_partition(agreement, decomposed(shapes.table), found, areas, polygons)
 
 
 def test_the_same_parts_of_split_vertices(decomposed, table, agreement):
     mesh, areas = table
-    found = split_up(shapes.split(mesh), **SAME)
+    found = split_up(changes.split(mesh), **SAME)
     assert same_partition(agreement, decomposed(shapes.table), found, areas)
 
 
 def test_the_same_parts_of_an_inside_out_mesh_with_a_note(decomposed, table, agreement):
     mesh, areas = table
-    found = split_up(shapes.inside_out(mesh), **SAME)
+    found = split_up(changes.inside_out(mesh), **SAME)
     assert same_partition(agreement, decomposed(shapes.table), found, areas)
     assert len(found.notes) == 1
     assert "inside out" in found.notes[0]
@@ -72,7 +73,7 @@ def test_the_same_parts_of_an_inside_out_mesh_with_a_note(decomposed, table, agr
 def test_the_same_parts_of_a_finer_tessellation(decomposed, agreement):
     """Each triangle in four, each a polygon of its own."""
     mesh = shapes.l_shape()
-    finer = shapes.refined(mesh)
+    finer = changes.refined(mesh)
     finer = replace(finer, polygons=np.arange(len(finer.triangles)))
     coarse, fine = decomposed(shapes.l_shape), split_up(finer)
     assert coarse.n_parts == fine.n_parts

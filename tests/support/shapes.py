@@ -3,6 +3,7 @@
 from dataclasses import replace
 from itertools import pairwise
 
+import changes
 import numpy as np
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 
@@ -139,7 +140,9 @@ def sheet(divisions=6):
 
 def open_box(divisions=4):
     """Return a unit box without its top: a surface with a hole."""
-    return without(box(divisions=divisions), lambda centers: centers[:, 2] > 1 - 1e-6)
+    return changes.without(
+        box(divisions=divisions), lambda centers: centers[:, 2] > 1 - 1e-6
+    )
 
 
 # Spheres.
@@ -216,7 +219,7 @@ def sphere(subdivisions=2, radius=1.0, center=(0, 0, 0)):
     ]
     mesh = mesh_of(corners, faces)
     for _ in range(subdivisions):
-        mesh = refined(mesh)
+        mesh = changes.refined(mesh)
         mesh = replace(mesh, polygons=np.arange(len(mesh.triangles)))
     unit = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1, keepdims=True)
     return replace(mesh, vertices=np.asarray(center) + radius * unit)
@@ -243,69 +246,4 @@ def uv_sphere(n_rings=8, n_segments=12):
 
 def hollow_sphere(inner=0.5, subdivisions=2):
     """Return a unit sphere around a cavity of radius `inner`."""
-    return joined(sphere(subdivisions), inside_out(sphere(subdivisions, inner)))
-
-
-# The same shape, told otherwise.
-
-
-def inside_out(mesh):
-    """Return the mesh with every triangle turned."""
-    return replace(mesh, triangles=mesh.triangles[:, ::-1])
-
-
-def split(mesh):
-    """Return the mesh with vertices of its own for each triangle, as in an STL."""
-    return replace(
-        mesh,
-        vertices=mesh.vertices[mesh.triangles.ravel()],
-        triangles=np.arange(mesh.triangles.size).reshape(-1, 3),
-    )
-
-
-def refined(mesh):
-    """Return the mesh with each triangle in four; polygons stay what they are."""
-    edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges, middles = np.unique(edges, axis=0, return_inverse=True)
-    ab, bc, ca = (middles.reshape(-1, 3) + len(mesh.vertices)).T
-    a, b, c = mesh.triangles.T
-    quarters = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
-    return TriangleMesh(
-        np.concatenate([mesh.vertices, mesh.vertices[edges].mean(axis=1)]),
-        np.stack(quarters).transpose(2, 0, 1).reshape(-1, 3),
-        np.repeat(mesh.polygons, 4),
-    )
-
-
-def without(mesh, chosen):
-    """Return the mesh without triangles of which `chosen(centers)` is true."""
-    keep = ~chosen(mesh.vertices[mesh.triangles].mean(axis=1))
-    _, polygons = np.unique(mesh.polygons[keep], return_inverse=True)
-    return replace(mesh, triangles=mesh.triangles[keep], polygons=polygons)
-
-
-def moved(mesh, scale=1.0, rotation=None, offset=(0, 0, 0)):
-    """Return the mesh scaled, rotated and set off."""
-    rotation = np.eye(3) if rotation is None else rotation
-    return replace(mesh, vertices=scale * mesh.vertices @ rotation.T + offset)
-
-
-def any_rotation(seed):
-    """Return a random rotation matrix."""
-    matrix, triangular = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    matrix = matrix * np.sign(np.diag(triangular))
-    return matrix * np.linalg.det(matrix)
-
-
-def permuted(mesh, seed):
-    """Return the mesh with vertices and polygons shuffled, and each one's new row."""
-    rng = np.random.default_rng(seed)
-    vertices = rng.permutation(len(mesh.vertices))
-    polygons = rng.permutation(mesh.n_polygons)
-    order = np.argsort(polygons[mesh.polygons], kind="stable")
-    shuffled = TriangleMesh(
-        mesh.vertices[np.argsort(vertices)],
-        vertices[mesh.triangles[order]],
-        polygons[mesh.polygons[order]],
-    )
-    return shuffled, polygons
+    return joined(sphere(subdivisions), changes.inside_out(sphere(subdivisions, inner)))

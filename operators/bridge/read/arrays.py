@@ -33,8 +33,8 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
     ----------
     shape : object
         Vertices (V, 3), a TriangleMesh, a PointCloud, a Blender object, or any object
-        with attributes `vertices` and `faces`, such as a `trimesh.Trimesh`; one that
-        has `vertices` alone is a point cloud.
+        with attributes `vertices` and `faces` or `triangles`, such as a
+        `trimesh.Trimesh`; one that has `vertices` alone is a point cloud.
     faces : sequence of sequences of int, optional
         Vertex rows of each polygon. Vertices without faces are points.
 
@@ -61,7 +61,7 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
 
         return read_shape(shape)
     if named:
-        faces = getattr(shape, "faces", None)
+        faces = getattr(shape, "faces", getattr(shape, "triangles", None))
         shape = shape.vertices  # type: ignore[attr-defined]
     vertices = _vertices_of(shape)
     if faces is None:

@@ -1,3 +1,4 @@
+import changes
 import clouds
 import numpy as np
 import pytest
@@ -26,7 +27,7 @@ def test_neighbors_are_pairs_without_repetition():
 
 
 def test_bends_are_positive_in_creases_and_negative_on_edges():
-    surface = surface_on(shapes.refined(shapes.l_prism()), 4000)
+    surface = surface_on(changes.refined(shapes.l_prism()), 4000)
     bent = np.abs(surface.bends) > 1.0
     middles = surface.centers[surface.neighbors].mean(axis=1)
     bent &= np.abs(middles[:, 2] - 0.5) < 0.3  # away from the caps

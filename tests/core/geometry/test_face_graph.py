@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -16,7 +17,7 @@ def edges_of(surface):
     return {frozenset(pair) for pair in surface.neighbors.tolist()}
 
 
-@pytest.mark.parametrize("change", [lambda mesh: mesh, shapes.split, shapes.refined])
+@pytest.mark.parametrize("change", [lambda mesh: mesh, changes.split, changes.refined])
 def test_a_box_has_six_sides_and_twelve_convex_edges(change):
     surface = face_graph(change(shapes.box()))
     assert surface.n_polygons == 6
@@ -47,7 +48,7 @@ def test_bends_tell_creases_from_ridges_and_flats():
 
 def test_bends_do_not_depend_on_which_neighbor_comes_first():
     surface = face_graph(shapes.l_shape())
-    shuffled, polygons = shapes.permuted(shapes.l_shape(), 4)
+    shuffled, polygons = changes.permuted(shapes.l_shape(), 4)
     other = face_graph(shuffled)
     pairs = polygons[surface.neighbors]
     mine = {frozenset(p): b for p, b in zip(pairs.tolist(), surface.bends, strict=True)}

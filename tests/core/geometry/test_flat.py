@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import changes
 import flats
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ L = flats.filled(flats.L, spacing=0.25)
 COMB = flats.filled(flats.comb(4), spacing=0.5)
 HAND = flats.filled(flats.HAND, spacing=0.12)
 RING = flats.filled(flats.circle(2.0), flats.circle(1.2), spacing=0.2)
-UPRIGHT = shapes.any_rotation(2)
+UPRIGHT = changes.any_rotation(2)
 
 
 def split_up(mesh, **values):
@@ -42,7 +43,7 @@ def test_walls_stand_along_outlines_and_holes():
 
 @pytest.mark.parametrize("rotation", [np.eye(3), np.diag([1, -1, -1]), UPRIGHT])
 def test_walls_face_away_from_the_faces_in_the_plane(rotation):
-    mesh = shapes.moved(RING, 7.0, rotation, (20, 3, 5)).normalized()
+    mesh = changes.moved(RING, 7.0, rotation, (20, 3, 5)).normalized()
     flat = flat_mesh(mesh)
     assert abs(flat.normal @ rotation[:, 2]) == pytest.approx(1)
     centers = flat.walls.vertices[flat.walls.triangles].mean(axis=1)
@@ -71,7 +72,7 @@ def test_the_winding_of_faces_does_not_matter():
 
 
 def test_two_layers_have_the_outline_of_one():
-    both = shapes.joined(RING, shapes.inside_out(RING))
+    both = shapes.joined(RING, changes.inside_out(RING))
     assert wall_length(both) == pytest.approx(wall_length(RING))
     found = split_up(both, parts=3)
     front, back = np.split(found.labels, 2)
@@ -101,7 +102,7 @@ def test_what_is_not_in_one_plane_is_not_flat():
 
 
 def test_single_precision_far_from_the_origin_is_flat():
-    far = shapes.moved(HAND, rotation=UPRIGHT, offset=(300, 200, 100))
+    far = changes.moved(HAND, rotation=UPRIGHT, offset=(300, 200, 100))
     rounded = far.vertices.astype(np.float32)
     assert flat_mesh(replace(far, vertices=rounded).normalized()) is not None
 
@@ -131,7 +132,7 @@ def test_a_hand_has_a_palm_and_five_fingers(values):
 
 
 def test_cones_lie_flat_in_any_plane():
-    turned = shapes.moved(HAND, rotation=UPRIGHT)
+    turned = changes.moved(HAND, rotation=UPRIGHT)
     for mesh in (HAND, turned):
         parameters = Parameters(samples=200, rays=10, sight="CONE")
         seen = lines_of_sight(mesh, parameters).affinity_pairs.visible
@@ -168,7 +169,7 @@ def test_nothing_is_seen_across_a_hole():
 
 @pytest.mark.parametrize(("mesh", "parts", "samples"), [(COMB, 5, 600), (HAND, 6, 300)])
 def test_the_same_parts_in_any_plane(mesh, parts, samples, agreement):
-    turned = shapes.moved(mesh, 30.0, UPRIGHT, (9, 2, 5))
+    turned = changes.moved(mesh, 30.0, UPRIGHT, (9, 2, 5))
     found, other = (split_up(m, samples=samples) for m in (mesh, turned))
     assert found.n_parts == other.n_parts == parts
     assert agreement(found.labels, other.labels, mesh.areas) > 0.97

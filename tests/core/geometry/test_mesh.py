@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -56,11 +57,11 @@ def test_polygons_without_triangles_are_refused():
 
 def test_sizes_that_leave_double_precision_are_refused():
     for scale in (1e-307, 1e-160, 1e-52, 1e51, 1e160, 1e307):
-        mesh = shapes.moved(shapes.box((-9,) * 3, (9,) * 3), scale)
+        mesh = changes.moved(shapes.box((-9,) * 3, (9,) * 3), scale)
         with pytest.raises(DecompositionError, match=r"a diagonal of .*scale .*\.$"):
             mesh.normalized()
     for scale in (1e-45, 1e38):  # the ends of single precision
-        assert shapes.moved(shapes.box(), scale).normalized().diagonal == (
+        assert changes.moved(shapes.box(), scale).normalized().diagonal == (
             pytest.approx(1)
         )
 
@@ -102,7 +103,9 @@ def test_areas_and_normals():
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
 def test_normalized_is_centered_with_a_diagonal_of_one(scale):
-    mesh = shapes.moved(shapes.box(), scale, shapes.any_rotation(1), (3e3 * scale,) * 3)
+    mesh = changes.moved(
+        shapes.box(), scale, changes.any_rotation(1), (3e3 * scale,) * 3
+    )
     normal = mesh.normalized()
     assert normal.diagonal == pytest.approx(1.0)
     extremes = normal.vertices.max(axis=0) + normal.vertices.min(axis=0)
@@ -119,7 +122,7 @@ def test_loose_vertices_do_not_count():
 
 def test_welded_corners_are_equal_where_vertices_coincide():
     box = shapes.box()
-    welded = shapes.split(box).welded_triangles
+    welded = changes.split(box).welded_triangles
     assert len(np.unique(welded)) == 8
     same = box.triangles.ravel()[:, None] == box.triangles.ravel()
     assert ((welded.ravel()[:, None] == welded.ravel()) == same).all()

@@ -1,5 +1,6 @@
 from dataclasses import replace
 
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -50,7 +51,7 @@ SOLIDS = {
     "box": shapes.box,
     "L": shapes.l_shape,
     "sphere": shapes.uv_sphere,
-    "split": lambda: shapes.split(shapes.box(divisions=2)),
+    "split": lambda: changes.split(shapes.box(divisions=2)),
     "hollow": lambda: shapes.hollow_sphere(0.5, 1),
     "apart": lambda: shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1))),
     "crossing": lambda: shapes.joined(
@@ -71,7 +72,7 @@ def test_what_faces_out_stays_as_it_is(name):
 @pytest.mark.parametrize("name", SOLIDS)
 def test_what_is_inside_out_is_turned_whole(name):
     mesh = SOLIDS[name]()
-    result, notes = facing_out(shapes.inside_out(mesh))
+    result, notes = facing_out(changes.inside_out(mesh))
     assert_same_winding(result, mesh)
     assert len(notes) == 1
     assert "inside out" in notes[0]
@@ -89,54 +90,54 @@ def test_inconsistent_winding_is_mended(name):
 
 def test_one_of_two_separate_solids_is_turned():
     one, other = shapes.box(), shapes.box((3, 0, 0), (4, 1, 1))
-    result, notes = facing_out(shapes.joined(one, shapes.inside_out(other)))
+    result, notes = facing_out(shapes.joined(one, changes.inside_out(other)))
     assert_same_winding(result, shapes.joined(one, other))
     assert len(notes) == 1
 
 
 def test_one_of_two_interpenetrating_solids_is_turned():
     one, other = shapes.box(), shapes.box((0.5, 0.5, 0.5), (2, 2, 2))
-    result, _ = facing_out(shapes.joined(one, shapes.inside_out(other)))
+    result, _ = facing_out(shapes.joined(one, changes.inside_out(other)))
     assert_same_winding(result, shapes.joined(one, other))
 
 
 @pytest.mark.parametrize("make", [shapes.sheet, mobius], ids=lambda m: m.__name__)
 def test_open_shells_keep_their_sense(make):
     assert_untouched(make())
-    assert_untouched(shapes.inside_out(make()))
+    assert_untouched(changes.inside_out(make()))
 
 
 def test_an_open_shell_that_is_nearly_closed_is_turned_outwards():
     box = shapes.open_box()
     assert_untouched(box)
-    away = shapes.moved(box, offset=(5, -3, 2))
-    result, notes = facing_out(shapes.inside_out(away))
+    away = changes.moved(box, offset=(5, -3, 2))
+    result, notes = facing_out(changes.inside_out(away))
     assert_same_winding(result, away)
     assert "inside out" in notes[0]
 
 
 def test_a_solid_with_a_sliver_is_still_closed():
     """A triangle without area between two others, as many files have them."""
-    box = shapes.split(shapes.box())
+    box = changes.split(shapes.box())
     sliver = shapes.mesh_of(box.vertices[[0, 0, 1]], [(0, 1, 2)])
     mesh = shapes.joined(box, sliver)
-    result, notes = facing_out(shapes.inside_out(mesh))
+    result, notes = facing_out(changes.inside_out(mesh))
     assert notes
     assert_same_winding(
-        shapes.without(result, lambda centers: np.arange(len(centers)) >= 12), box
+        changes.without(result, lambda centers: np.arange(len(centers)) >= 12), box
     )
 
 
 def test_positions_and_polygons_are_kept():
-    mesh = shapes.inside_out(shapes.box(divisions=2))
+    mesh = changes.inside_out(shapes.box(divisions=2))
     result, _ = facing_out(mesh)
     assert (result.vertices == mesh.vertices).all()
     assert (result.polygons == mesh.polygons).all()
 
 
 def test_what_is_open_turns_with_an_object_that_is_inside_out():
-    both = shapes.joined(shapes.box(), shapes.moved(shapes.sheet(), offset=(5, 0, 0)))
+    both = shapes.joined(shapes.box(), changes.moved(shapes.sheet(), offset=(5, 0, 0)))
     assert_untouched(both)
-    result, notes = facing_out(shapes.inside_out(both))
+    result, notes = facing_out(changes.inside_out(both))
     assert_same_winding(result, both)
     assert "inside out" in notes[0]

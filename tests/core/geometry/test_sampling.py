@@ -1,5 +1,6 @@
 from dataclasses import replace
 
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -18,7 +19,7 @@ def draw(mesh, n_samples=400, seed=0):
 
 def uneven_box():
     """Return a box whose left half has 64 times as many triangles."""
-    fine = shapes.refined(shapes.refined(shapes.refined(shapes.box((0, 0, 0)))))
+    fine = changes.refined(changes.refined(changes.refined(shapes.box((0, 0, 0)))))
     return shapes.joined(fine, shapes.box((2, 0, 0), (3, 1, 1)))
 
 

@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -27,7 +28,7 @@ def test_samples_know_their_polygon():
     assert (transfer.to_samples(labels) == transfer.polygon_of).all()
 
 
-@pytest.mark.parametrize("change", [lambda mesh: mesh, shapes.refined, shapes.split])
+@pytest.mark.parametrize("change", [lambda mesh: mesh, changes.refined, changes.split])
 def test_polygons_take_the_label_of_the_samples_around_them(change):
     mesh = change(shapes.l_shape())
     samples, transfer = carry(mesh)

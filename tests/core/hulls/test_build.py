@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -101,7 +102,7 @@ def test_the_result_does_not_depend_on_units_and_place():
     # Unlike arms: among cuts that are alike, noise may choose.
     mesh = shapes.blocks((7, 5, 2), ((0, 7), (0, 2), (0, 2)), ((0, 2), (0, 5), (0, 2)))
     found = hulls_of(mesh)
-    moved = hulls_of(shapes.moved(mesh, scale=10.0, offset=(100, 0, 0)))
+    moved = hulls_of(changes.moved(mesh, scale=10.0, offset=(100, 0, 0)))
     assert moved.n_hulls == found.n_hulls
     assert sorted(moved.errors) == pytest.approx(sorted(found.errors), abs=0.01)
     for one, other in zip(found.shapes, moved.shapes, strict=True):
@@ -167,7 +168,7 @@ def test_fewer_hulls_than_connected_pieces():
     [
         shapes.sheet,
         shapes.open_box,
-        lambda: shapes.inside_out(shapes.box()),
+        lambda: changes.inside_out(shapes.box()),
         lambda: shapes.mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]),
     ],
     ids=["sheet", "open", "inside out", "triangle"],
@@ -185,9 +186,9 @@ def test_shapes_that_are_no_solids_have_hulls(make):
 def test_sheets_with_two_sides_have_no_volume(seed):
     """Rounding leaves a little, beside which no error counted any more."""
     sheet = shapes.open_box()
-    mesh = shapes.moved(
-        shapes.joined(sheet, shapes.inside_out(sheet)),
-        rotation=shapes.any_rotation(seed),
+    mesh = changes.moved(
+        shapes.joined(sheet, changes.inside_out(sheet)),
+        rotation=changes.any_rotation(seed),
     )
     found = hulls_of(mesh, max_hulls=16)
     assert found.volume_ratio == np.inf

@@ -1,5 +1,6 @@
 """What hulls cost, and the bounds that save looking at most of them."""
 
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -19,7 +20,7 @@ PLANES = [np.array([*np.eye(3)[axis], -place]) for axis in (0, 1) for place in (
 @pytest.fixture(scope="module", params=[shapes.u_shape, shapes.comb, shapes.table])
 def sides(request):
     """Return both sides of some cuts of a shape, and the shape's volume."""
-    solid = run(solid_of(shapes.moved(request.param(), scale=0.25), 0))
+    solid = run(solid_of(changes.moved(request.param(), scale=0.25), 0))
     piece = whole(solid)
     return [cut(solid, piece, plane) for plane in PLANES], piece.volume
 

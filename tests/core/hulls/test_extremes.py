@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -22,7 +23,7 @@ def test_volumes_are_nearly_those_of_hulls(seed):
 
 
 def test_the_volume_of_a_box_is_exact():
-    corners = shapes.box((0, 0, 0), (3, 2, 1)).vertices @ shapes.any_rotation(1).T + 9
+    corners = shapes.box((0, 0, 0), (3, 2, 1)).vertices @ changes.any_rotation(1).T + 9
     below, above = beside(corners, 8)
     assert below == pytest.approx([6])
     assert above == pytest.approx([0])

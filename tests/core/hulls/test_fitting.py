@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -7,7 +8,7 @@ from weak_convex_decomposition.core.hulls.fitting import fit_shape, outline_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
 KINDS = ["BOX", "SPHERE", "CYLINDER", "CAPSULE"]
-TURN = shapes.any_rotation(3)
+TURN = changes.any_rotation(3)
 BAR = shapes.box((0, 0, 0), (6, 2, 1)).vertices
 
 
@@ -81,5 +82,7 @@ def test_shapes_move_with_their_part(kind):
 def test_margins_move_faces_outwards():
     assert around(BAR, "HULL", margin=0.5).volume == pytest.approx(7 * 3 * 2)
     assert around(BAR, "BOX", margin=0.5).volume == pytest.approx(7 * 3 * 2)
+    thin, thick = (around(BAR, "CAPSULE", margin=margin).sizes for margin in (0, 0.5))
+    assert thick == pytest.approx(np.add(thin, (0.5, 0.5, 0)))
     inside = around(BAR, "BOX", margin=-10)
     assert 0 < inside.volume < 1e-6

@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -29,7 +30,7 @@ def test_a_corner_inside_the_solid_is_kept():
 
 
 def test_both_sides_make_up_the_whole():
-    solid = solid_of(shapes.moved(shapes.u_shape(), scale=0.25), 0)
+    solid = solid_of(changes.moved(shapes.u_shape(), scale=0.25), 0)
     cell = cell_of(solid)
     below, above = cut(solid, cell, np.array([1.0, 0.0, 0.0, -0.50001]))
     assert below.volume + above.volume == pytest.approx(cell.volume)
@@ -55,7 +56,7 @@ def test_the_error_of_a_slit_is_its_depth(depth):
         ((11, 21), (0, 20), (0, 20)),
         ((0, 21), (0, 20), (0, round(20 * (1 - depth)))),
     )
-    solid = solid_of(shapes.moved(slit, scale=2 / 21), 0)
+    solid = solid_of(changes.moved(slit, scale=2 / 21), 0)
     cell = cell_of(solid)
     # Of the slit's floor and, its own samples aside, nothing is nearer to the hull.
     expected = min(20 * depth * 2 / 21, 10 * 2 / 21)

@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -20,7 +21,7 @@ PLANE = np.array([0.0, 0.0, 1.0, -0.5])
         (shapes.table, 20 + 12),
         (lambda: shapes.sphere(3), 4 / 3 * np.pi),
         (lambda: shapes.hollow_sphere(subdivisions=3), 4 / 3 * np.pi * 7 / 8),
-        (lambda: shapes.moved(shapes.box(), rotation=shapes.any_rotation(1)), 1),
+        (lambda: changes.moved(shapes.box(), rotation=changes.any_rotation(1)), 1),
         (shapes.cup, 1 - 0.8**2 * 0.9),
         # Where shells overlap counts once.
         (
@@ -46,7 +47,7 @@ def test_chords_are_inside():
 
 
 def test_contours_have_the_inside_on_their_left():
-    mesh = shapes.moved(shapes.sphere(2), rotation=shapes.any_rotation(2))
+    mesh = changes.moved(shapes.sphere(2), rotation=changes.any_rotation(2))
     segments = contour(mesh.vertices[mesh.triangles], PLANE)
     assert segments[..., 2] == pytest.approx(0.5)
     starts, ends = segments[:, 0], segments[:, 1]

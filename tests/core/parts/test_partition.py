@@ -1,5 +1,6 @@
 from dataclasses import replace
 
+import changes
 import pytest
 import shapes
 from computed import cut_seams_of, search_part_count
@@ -9,7 +10,7 @@ from weak_convex_decomposition.core.parts.partition import Partitioner, count_pa
 
 def two_ls():
     return shapes.joined(
-        shapes.l_shape(), shapes.moved(shapes.l_shape(), offset=(20, 0, 0))
+        shapes.l_shape(), changes.moved(shapes.l_shape(), offset=(20, 0, 0))
     )
 
 

@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -33,7 +34,7 @@ def test_a_cup_is_seen_through_from_wall_to_wall(wall):
 
 def test_nothing_is_seen_through_the_open():
     outer = np.array([[0, 0.5, 0.5], [0.5, 0, 0.5]])
-    pair = shapes.joined(shapes.cup(), shapes.moved(shapes.cup(), offset=(3, 0, 0)))
+    pair = shapes.joined(shapes.cup(), changes.moved(shapes.cup(), offset=(3, 0, 0)))
     # From one cup to the other, and past the corner of one.
     assert seen_through(pair, outer, outer + np.array([4, 0, 0])) == [False] * 2
     assert seen_through(shapes.cup(), [-0.5, 0.5, 0.5], [0.5, -0.5, 0.5]) == [False]
@@ -41,13 +42,13 @@ def test_nothing_is_seen_through_the_open():
 
 def test_a_cavity_is_enclosed_however_the_shape_lies():
     assert grid_of(shapes.hollow_sphere(0.5, 1)).encloses
-    turned = shapes.moved(shapes.cup(), rotation=shapes.any_rotation(3))
+    turned = changes.moved(shapes.cup(), rotation=changes.any_rotation(3))
     assert grid_of(turned).encloses
 
 
 def test_a_gap_between_two_plates_is_open():
     plate = shapes.box(high=(1, 1, 0.05))
-    plates = shapes.joined(plate, shapes.moved(plate, offset=(0, 0, 1)))
+    plates = shapes.joined(plate, changes.moved(plate, offset=(0, 0, 1)))
     assert not grid_of(plates).encloses
 
 
@@ -55,7 +56,7 @@ def test_a_gap_between_two_plates_is_open():
     "values", [{}, {"sight": "CONE"}, {"sight": "CONE", "psi_pairs": "RAYS"}]
 )
 def test_a_cup_stays_whole(values):
-    mesh = shapes.refined(shapes.cup())
+    mesh = changes.refined(shapes.cup())
     values = {"samples": 300, "max_parts": 6, **values}
     found = decompose(mesh, Parameters(**values))
     assert found.n_parts == 1

@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -68,7 +69,7 @@ def test_the_standard_error_is_honest():
 
 
 def test_a_measurement_says_what_was_turned():
-    inside_out = rank_of(shapes.inside_out(shapes.l_prism()))
+    inside_out = rank_of(changes.inside_out(shapes.l_prism()))
     assert inside_out.notes
     assert inside_out.rank == pytest.approx(rank_of(shapes.l_prism()).rank, abs=0.05)
 

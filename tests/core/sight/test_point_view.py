@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+from changes import any_rotation, moved
 from computed import lines_of_sight, measure, prepare
 from flats import filled
-from shapes import any_rotation, box, dumbbell, l_prism, mesh_of, moved
+from shapes import box, dumbbell, l_prism, mesh_of
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.sight.point_view import point_viewer_in_steps

@@ -1,3 +1,4 @@
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -41,7 +42,7 @@ def test_a_ray_that_ends_inside_does_not_leave():
 
 
 def test_a_ray_out_of_a_hole_does_not_leave_through_a_triangle():
-    hole = shapes.without(BOX, lambda centers: centers[:, 0] > 0.99)
+    hole = changes.without(BOX, lambda centers: centers[:, 0] > 0.99)
     assert march(hole, INSIDE) == (-1, np.inf, 0)
 
 
