@@ -3,6 +3,8 @@
 import bpy
 import pytest
 import weak_convex_decomposition as package
+from edited import FAST
+from hand_made import decompose_by_hand
 
 
 @pytest.fixture(autouse=True)
@@ -17,3 +19,12 @@ def blender():
 def suzanne():
     bpy.ops.mesh.primitive_monkey_add()
     return bpy.context.active_object
+
+
+@pytest.fixture
+def monkey(suzanne):
+    """Suzanne with four bands along x as parts, the second and third ticked."""
+    decompose_by_hand(suzanne, 4, **FAST)
+    suzanne.wcd_parts[1].chosen = suzanne.wcd_parts[2].chosen = True
+    suzanne.wcd_active_part = 1
+    return suzanne

@@ -128,23 +128,12 @@ def test_whatever_has_faces_as_a_mesh_is_decomposed(add):
         bpy.ops.wcd.measure()
 
 
-def test_a_curve_without_an_outline_has_its_sentence():
+def test_a_curve_without_a_flat_outline_has_its_sentence():
     bpy.ops.curve.primitive_bezier_curve_add()
-    before = blocks()
-    with pytest.raises(
-        RuntimeError,
-        match=NO_OUTLINE,
-    ):
-        bpy.ops.wcd.decompose(**FAST)
-    assert blocks() == before
-
-
-def test_an_outline_that_is_not_flat_has_its_sentence():
-    hand_curve().data.splines[0].points[3].co.z = 1
-    before = blocks()
-    with pytest.raises(
-        RuntimeError,
-        match=NO_OUTLINE,
-    ):
-        bpy.ops.wcd.decompose(**FAST)
-    assert blocks() == before
+    for flat in (True, False):
+        if not flat:
+            hand_curve().data.splines[0].points[3].co.z = 1
+        before = blocks()
+        with pytest.raises(RuntimeError, match=NO_OUTLINE):
+            bpy.ops.wcd.decompose(**FAST)
+        assert blocks() == before

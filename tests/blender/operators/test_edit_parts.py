@@ -3,9 +3,8 @@
 import bpy
 import numpy as np
 import pytest
-from edited import check_in_step, labels_of, parts_of, record_of
+from edited import FAST, check_in_step, labels_of, parts_of, record_of
 from hand_made import (
-    decompose_by_hand,
     decomposition_of,
     in_mode,
 )
@@ -13,18 +12,7 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.mesh.selection import select_faces
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 
-# Of the visibility that edits are described by.
-FAST = {"samples": 60, "containers": "HOLLOW", "max_parts": 4}
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-
-
-@pytest.fixture
-def monkey(suzanne):
-    """Suzanne with four bands along x as parts, the second and third ticked."""
-    decompose_by_hand(suzanne, 4, **FAST)
-    suzanne.wcd_parts[1].chosen = suzanne.wcd_parts[2].chosen = True
-    suzanne.wcd_active_part = 1
-    return suzanne
 
 
 @MODES

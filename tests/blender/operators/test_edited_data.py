@@ -2,7 +2,7 @@
 
 import bpy
 import pytest
-from edited import check_in_step, labels_of, parts_of, record_of
+from edited import FAST, check_in_step, labels_of, parts_of, record_of
 from hand_made import (
     decompose_by_hand,
     give_user_data,
@@ -11,8 +11,6 @@ from hand_made import (
 )
 from snapshot import snapshot
 
-# Of the visibility that edits are described by.
-FAST = {"samples": 60, "containers": "HOLLOW", "max_parts": 4}
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 EDITS = {
     "merge_parts": {},
@@ -20,15 +18,6 @@ EDITS = {
     "smooth_seams": {"scope": "ALL", "smoothness": 20.0},
     "mirror_parts": {"direction": "TO_NEGATIVE"},
 }
-
-
-@pytest.fixture
-def monkey(suzanne):
-    """Suzanne with four bands along x as parts, the second and third ticked."""
-    decompose_by_hand(suzanne, 4, **FAST)
-    suzanne.wcd_parts[1].chosen = suzanne.wcd_parts[2].chosen = True
-    suzanne.wcd_active_part = 1
-    return suzanne
 
 
 def test_a_new_decomposition_keeps_locked_parts(monkey):
