@@ -1,10 +1,12 @@
 """Keep one cache per session, so that decomposing the same shape again is quick.
 
-It is the only state of the extension that outlives an operator. It holds arrays, no
-Blender data. Shapes are compared by content, so that no change goes unnoticed.
+It is the only state of the extension that outlives an operator. It holds arrays and a
+ray tree, and no data of the file. Shapes are compared by content, so that no change goes unnoticed.
 """
 
 from __future__ import annotations
+
+import atexit
 
 import bpy
 
@@ -48,11 +50,16 @@ def forget(*_: object) -> None:
 
 
 def register() -> None:
-    """Empty the cache whenever a file is loaded."""
+    """Empty the cache whenever a file is loaded, and when Python ends.
+
+    Blender counts its memory then, and calls a ray tree that is left over an error.
+    """
+    atexit.register(forget)
     bpy.app.handlers.load_pre.append(forget)
 
 
 def unregister() -> None:
     """Undo `register`, and empty the cache."""
     bpy.app.handlers.load_pre.remove(forget)
+    atexit.unregister(forget)
     forget()

@@ -1,8 +1,12 @@
 """The expensive half is computed once, and never for something else."""
 
+import subprocess
+import sys
+
 import bpy
 import pytest
 import weak_convex_decomposition as package
+from conftest import ROOT
 from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
@@ -100,3 +104,19 @@ def test_another_file_and_unregistering_free_it(suzanne):
     assert len(bpy.app.handlers.load_pre) == n_handlers
     bpy.ops.mesh.primitive_monkey_add()
     assert not is_seen(bpy.context.active_object)
+
+
+@pytest.mark.skipif(bpy.app.version < (5, 0), reason="Python's end crashes Blender 4.2")
+def test_a_script_that_ends_leaves_no_memory_to_blender():
+    script = (
+        "import checkout, bpy; import weak_convex_decomposition as wcd; wcd.register();"
+        "bpy.ops.mesh.primitive_monkey_add(); bpy.ops.wcd.decompose(samples=100)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        capture_output=True,
+        text=True,
+        cwd=ROOT / "tests" / "support",
+    )
+    assert done.returncode == 0, done.stderr
+    assert "Not freed" not in done.stdout + done.stderr
