@@ -1,7 +1,8 @@
 """Keep one cache per session, so that decomposing the same shape again is quick.
 
 It is the only state of the extension that outlives an operator. It holds arrays and a
-ray tree, and no data of the file. Shapes are compared by content, so that no change goes unnoticed.
+ray tree, and no data of the file. Shapes are compared by content, so that no change
+goes unnoticed.
 """
 
 from __future__ import annotations
