@@ -39,13 +39,12 @@ def decompose_in_steps(
         Keeps the prepared shape and its lines of sight for the next call.
     members : (P,) bool, optional
         Polygons, or points of a cloud, to split; all if left out. All samples lie on
-        them, which shows details such as fingers. Rays run through the whole shape.
+        them. Rays run through the whole shape.
 
     Returns
     -------
     Steps of Decomposition
-        Its labels are those of all polygons or points, or of the members in ascending
-        order. The steps yield `Progress`; `run` returns the decomposition.
+        Its labels are those of all polygons or points, or of the members in order.
 
     Raises
     ------
@@ -60,12 +59,10 @@ def decompose_in_steps(
     ready, seen, done = _ONE_LEVEL if parameters.levels == 1 else _LEVELS
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)
-    if members is not None:
-        prepared = prepared.part(members)
+    prepared = prepared if members is None else prepared.part(members)
     # Sections 3 and 5: place samples, and fill the matrix of lines of sight (eq. 3).
     memo = yield from within(cache.see(prepared, parameters), ready, seen)
-    # Section 4: embed and cluster the samples, choose the number of parts by psi
-    # (eq. 5), cut the seams (eq. 4).
+    # Section 4: embed, cluster, choose k by psi (eq. 5), cut the seams (eq. 4).
     found = yield from within(find_parts(memo, parameters), seen, done)
     # Section 5: split the latest parts further, each seen by samples of its own.
     latest, n_more = np.arange(found.n_parts), parameters.levels - 1

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from ..cache import ShapeCache
 from ..errors import DecompositionError
 from ..geometry.mesh import TriangleMesh
+from ..geometry.primitives import CollisionShape
 from ..geometry.shape import Shape
 from ..parameters.hulls import HullParameters
 from ..results import HullDecomposition
+from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
 from .best_cut import best_cut
 from .convex_hull import offset
@@ -35,7 +37,7 @@ def build_hulls_in_steps(
 ) -> Steps[HullDecomposition]:
     """Put convex collision shapes around a mesh.
 
-    The error of a hull is CoACD's concavity (Wei et al. 2022); see `Piece.error`.
+    The error of a hull is CoACD's concavity (Wei et al. 2022), see `Piece.error`.
 
     Parameters
     ----------
@@ -44,8 +46,7 @@ def build_hulls_in_steps(
     cache : ShapeCache
         Prepares the mesh and keeps it for the next call.
     labels : (P,) int, optional
-        Part of each polygon, counted from 0. Tells the part that each hull belongs to.
-        With ``pieces="PARTS"``, each part is one piece.
+        Part of each polygon, from 0; each is one piece with ``pieces="PARTS"``.
     seed : int
         Seed of the random surface samples.
 
@@ -60,44 +61,49 @@ def build_hulls_in_steps(
         If the shape is a point cloud, or cannot be normalized.
     """
     if not isinstance(shape, TriangleMesh):
-        raise DecompositionError(
-            "Hulls need faces, and a point cloud has none; give it a surface first."
-        )
+        raise DecompositionError("A cloud has no faces; give it a surface for hulls.")
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
-    mesh = prepared.solid
-    assert mesh is not None  # None for point clouds only
-    low, high = shape.bounds
-    size = float((high - low).max()) / 2
-    # The prepared mesh has diagonal 1; in CoACD's units, the longest side is 2.
-    vertices = mesh.vertices * (shape.diagonal / size)
-    yield Progress("Solid", 0.0)
-    steps = solid_of(replace(mesh, vertices=vertices), seed)
-    solid = yield from within(steps, 0.0, 0.0)
+    size = float(np.ptp(shape.bounds, axis=0).max()) / 2
+    solid = yield from _scaled_solid(prepared, shape.diagonal / size, seed)
     numbers, parts = _parts_of_triangles(shape, labels)
+    pieces = yield from _pieces_of(solid, parts, parameters)
+    shapes, rows = [], []
+    for piece in pieces:
+        yield Progress("Shapes", 1.0)
+        shapes.append(fit_shape(piece.hull, parameters, size).moved(size, shape.center))
+        rows.append(_main_part(solid, parts, piece))
+    errors = np.array([piece.error for piece in pieces])
+    ratio = _volume_ratio(shapes, float(solid.volumes.sum()) * size**3)
+    notes = (*prepared.notes, *_notes(pieces, parameters, size))
+    return HullDecomposition(tuple(shapes), errors, numbers[rows], ratio, notes)
+
+
+def _scaled_solid(prepared: PreparedShape, scale: float, seed: int) -> Steps[Solid]:
+    """Return the solid of a mesh in CoACD's units, where its longest side is 2."""
+    assert prepared.solid is not None  # None for point clouds only
+    yield Progress("Solid", 0.0)
+    vertices = prepared.solid.vertices * scale
+    steps = solid_of(replace(prepared.solid, vertices=vertices), seed)
+    return (yield from within(steps, 0.0, 0.0))
+
+
+def _pieces_of(
+    solid: Solid, parts: NDArray[np.int64], parameters: HullParameters
+) -> Steps[list[Piece]]:
+    """Return the pieces that get a hull each, the largest first."""
     if parameters.pieces == "PARTS":
-        start = [piece_of_part(solid, parts == part) for part in range(len(numbers))]
+        start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
         pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
     else:
         pieces = yield from _within_error(solid, parameters)
     # Rounded, so that pieces of equal size stay in the order they were cut in.
-    pieces.sort(key=lambda piece: -round(piece.hull.volume, 6))
-    center = (high + low) / 2
-    shapes, main_parts = [], []
-    for piece in pieces:
-        yield Progress("Shapes", 1.0)
-        shapes.append(fit_shape(piece.hull, parameters, size).moved(size, center))
-        row = _main_part(solid, parts, piece) if labels is not None else 0
-        main_parts.append(numbers[row])
-    errors = np.array([piece.error for piece in pieces])
-    volume = float(solid.volumes.sum()) * size**3
+    return sorted(pieces, key=lambda piece: -round(piece.hull.volume, 6))
+
+
+def _volume_ratio(shapes: list[CollisionShape], volume: float) -> float:
+    """Return the volume of all shapes over that of the solid; `inf` if it is flat."""
     total = sum(shape.volume for shape in shapes)
-    return HullDecomposition(
-        tuple(shapes),
-        errors,
-        np.array(main_parts),
-        total / volume if volume > 0 else np.inf,
-        (*prepared.notes, *_notes(pieces, parameters, size)),
-    )
+    return total / volume if volume > 0 else np.inf
 
 
 def _parts_of_triangles(
@@ -141,6 +147,8 @@ def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
 
 def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
     """Return the part of most of the surface samples in a piece's hull, of `parts`."""
+    if not parts.any():  # there is only part 0
+        return 0
     low, high = piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0)
     near = ((low <= solid.samples) & (solid.samples <= high)).all(axis=1)
     near[near] = piece.hull.heights(solid.samples[near]) <= 0

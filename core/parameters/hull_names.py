@@ -83,8 +83,7 @@ def hull_names(
     Raises
     ------
     DecompositionError
-        If the template cannot be filled in, or gives two hulls the same name or names
-        that are too long.
+        If the template cannot be filled in, or names are too long or not different.
     """
     chosen = next(n.template for n in NAMINGS if n.identifier == naming) or template
     try:

@@ -91,8 +91,7 @@ def cut_seams(
     seams = smoothness * unit * graph.lengths
     seams = seams * np.exp(-_CREASE * np.maximum(graph.bends, 0.0))
     cutter = _Expansion(graph.neighbors, data, seams)
-    labels = labels.copy()
-    n_labels = costs.shape[1]
+    labels, n_labels = labels.copy(), costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)
     seen = np.zeros((n_labels, len(labels)), dtype=bool)
     for sweep in range(_SWEEPS):

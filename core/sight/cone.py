@@ -48,16 +48,33 @@ def see_cones(
     Steps of PairVisibility
         Sparse matrices (N, N). Every sample sees itself.
     """
-    n_samples, marcher = len(samples), shape.marcher
+    seen, hidden = yield from _cast_cones(shape, samples, views, n_rays, opening)
+    positive = _symmetric(seen, len(samples))
+    positive.setdiag(1.0)
+    negative = _symmetric(hidden, len(samples))
+    negative = sparse.csr_array(negative - negative * positive)
+    negative.eliminate_zeros()
+    return PairVisibility(positive, positive + negative)
+
+
+def _cast_cones(
+    shape: PreparedShape,
+    samples: Samples,
+    views: Viewpoints,
+    n_rays: int,
+    opening: float,
+) -> Steps[tuple[list[NDArray[np.int64]], list[NDArray[np.int64]]]]:
+    """Return pairs of samples that see each other, and hidden pairs, as (2, M) each."""
+    marcher = shape.marcher
     if shape.plane is None:
         directions = cone_directions(samples.normals, n_rays, opening)
     else:
         directions = fan_directions(samples.normals, n_rays, opening, shape.plane)
     directions = directions.reshape(-1, 3)
-    sources = np.repeat(np.arange(n_samples), n_rays)
+    sources = np.repeat(np.arange(len(samples)), n_rays)
     # Nearest by position and normal: the two sides of a thin wall are close, but their
     # normals point away from each other.
-    scale = float(np.sqrt(marcher.area / n_samples))
+    scale = float(np.sqrt(marcher.area / len(samples)))
     tree = cKDTree(with_normals(samples.positions, samples.normals, scale))
     seen: list[NDArray[np.int64]] = []
     hidden: list[NDArray[np.int64]] = []
@@ -73,12 +90,7 @@ def see_cones(
             keys = with_normals(points, marcher.normals[triangles], scale)
             found = np.stack([sources[rays][rows], tree.query(keys)[1]])
             (hidden if order else seen).append(found)
-    positive = _symmetric(seen, n_samples)
-    positive.setdiag(1.0)
-    negative = _symmetric(hidden, n_samples)
-    negative = sparse.csr_array(negative - negative * positive)
-    negative.eliminate_zeros()
-    return PairVisibility(positive, positive + negative)
+    return seen, hidden
 
 
 def _symmetric(found: list[NDArray[np.int64]], n_samples: int) -> sparse.csr_array:

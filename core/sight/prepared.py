@@ -147,6 +147,11 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
         return (yield from _prepare_cloud(shape, make_caster))
+    return (yield from _prepare_mesh(shape, make_caster))
+
+
+def _prepare_mesh(shape: TriangleMesh, make_caster: MakeCaster) -> Steps[PreparedShape]:
+    """Prepare a mesh: walls replace a flat one, others are turned to face outwards."""
     mesh = shape.normalized()
     nodes = np.arange(mesh.n_polygons)
     frame = shape.center, shape.diagonal

@@ -119,10 +119,8 @@ class RayMarcher:
 
         Parameters
         ----------
-        origins : (M, 3) float
-            Starts of the rays, inside.
-        directions : (M, 3) float
-            Unit vectors.
+        origins, directions : (M, 3) float
+            Starts of the rays, inside, and unit vectors.
         reach : (M,) float
             Largest distance that each ray goes.
         depths : (M,) int
@@ -137,12 +135,10 @@ class RayMarcher:
         depths : (M,) int
             Number of closed shells around the end of the ray.
         """
-        n_rays = len(origins)
-        exits, distances = np.full(n_rays, -1), np.full(n_rays, np.inf)
+        going = np.arange(len(origins))
+        exits, distances = np.full(len(going), -1), np.full(len(going), np.inf)
         skipped = np.minimum(_SPLATS_AT_ENDS * self.splat_size, reach / 3)
-        reach = reach - skipped
-        travelled, depths = skipped, depths.copy()
-        going = np.arange(n_rays)
+        reach, travelled, depths = reach - skipped, skipped, depths.copy()
         for _ in range(_MOST_CROSSINGS):
             starts = origins[going] + travelled[going, None] * directions[going]
             triangles, lengths = self.caster.first_hit(
@@ -151,8 +147,7 @@ class RayMarcher:
             met = triangles >= 0
             going, triangles, lengths = going[met], triangles[met], lengths[met]
             facing = np.einsum("md,md->m", self.normals[triangles], directions[going])
-            crossings = np.sign(facing).astype(np.int64) * self.closed[triangles]
-            depths[going] -= crossings
+            depths[going] -= np.sign(facing).astype(np.int64) * self.closed[triangles]
             travelled[going] += lengths
             left = depths[going] <= 0
             exits[going[left]] = triangles[left]

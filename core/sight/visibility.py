@@ -93,20 +93,12 @@ def find_lines_of_sight(
     """
     yield Progress("Samples", 0.0)
     rng = np.random.default_rng(parameters.seed)
-    samples = take_samples(
-        shape.targets, shape.sampled, parameters.sampling, parameters.samples, rng
-    )
-    all_pairs = parameters.sight == "ALL_PAIRS"
-    if all_pairs and len(samples) > _MOST_FOR_ALL_PAIRS:
-        raise DecompositionError(
-            f"{len(samples):,} faces have too many pairs to look up all lines of"
-            " sight; choose Cone for Lines of Sight or By Area for Sampling."
-        )
+    samples = _samples_of(shape, parameters, rng)
     yield Progress("Ray tree", 0.0)
     _ = shape.marcher.caster  # takes half of the time of this stage: a separate step
     yield Progress("Ray tree", 0.01)
     views = viewpoints(shape.marcher, samples)
-    if all_pairs:
+    if parameters.sight == "ALL_PAIRS":
         pairs = yield from within(
             see_all_pairs(shape.marcher, samples, views), 0.02, 1.0
         )
@@ -122,6 +114,21 @@ def find_lines_of_sight(
         1.0,
     )
     return LinesOfSight(samples, in_cones, drawn or in_cones)
+
+
+def _samples_of(
+    shape: PreparedShape, parameters: Parameters, rng: np.random.Generator
+) -> Samples:
+    """Return samples of a shape; raise if they have too many pairs."""
+    samples = take_samples(
+        shape.targets, shape.sampled, parameters.sampling, parameters.samples, rng
+    )
+    if parameters.sight == "ALL_PAIRS" and len(samples) > _MOST_FOR_ALL_PAIRS:
+        raise DecompositionError(
+            f"{len(samples):,} faces have too many pairs to look up all lines of"
+            " sight; choose Cone for Lines of Sight or By Area for Sampling."
+        )
+    return samples
 
 
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:

@@ -71,14 +71,17 @@ def write_parts(
             replace(identity, name=group)
             for identity, group in zip(identities, restore.groups, strict=True)
         )
-    n_parts = len(identities)
-    materials = [material.name for material in obj.data.materials[-n_parts:]]
-    if is_cloud(obj):
-        materials = materials[-1:] * n_parts
+    materials = _material_names(obj, len(identities))
     write_result(obj, decomposition, parameters, identities, materials)
     write_rows(obj, identities, rows)
     show(obj, *also_shown)
     discard_unused(former)
+
+
+def _material_names(obj: bpy.types.Object, n_parts: int) -> list[str]:
+    """Return the name of each part's material. All parts of a cloud share one."""
+    names = [material.name for material in obj.data.materials[-n_parts:]]
+    return names[-1:] * n_parts if is_cloud(obj) else names
 
 
 def check_writable(obj: bpy.types.Object) -> None:
