@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -14,6 +16,9 @@ from .lines import RAYS_PER_STEP
 from .pair_visibility import PairVisibility, pair_counts
 from .prepared import PreparedShape
 from .viewpoints import Viewpoints
+
+# Pairs of samples, (2, M) each.
+Pairs: TypeAlias = list[NDArray[np.int64]]
 
 
 def see_cones(
@@ -34,10 +39,8 @@ def see_cones(
     ----------
     shape : PreparedShape
         The rays of a flat shape stay in its plane.
-    samples : Samples
-        N points on the surface.
-    views : Viewpoints
-        Viewpoints of `samples`.
+    samples, views : Samples, Viewpoints
+        N points on the surface, and their viewpoints.
     n_rays : int
         Rays r of each sample.
     opening : float
@@ -48,52 +51,48 @@ def see_cones(
     Steps of PairVisibility
         Sparse matrices (N, N). Every sample sees itself.
     """
-    seen, hidden = yield from _cast_cones(shape, samples, views, n_rays, opening)
-    positive = _symmetric(seen, len(samples))
+    n_samples, marcher = len(samples), shape.marcher
+    directions = _directions(shape, samples, n_rays, opening)
+    sources = np.repeat(np.arange(n_samples), n_rays)
+    # Nearest by position and normal: the two sides of a thin wall are close, but their
+    # normals point away from each other.
+    scale = float(np.sqrt(marcher.area / n_samples))
+    tree = cKDTree(with_normals(samples.positions, samples.normals, scale))
+    seen_and_hidden: tuple[Pairs, Pairs] = [], []
+    for start in range(0, len(sources), RAYS_PER_STEP):
+        yield Progress("Lines of sight", start / len(sources))
+        rays = slice(start, start + RAYS_PER_STEP)
+        origins, depths = views.positions[sources[rays]], views.depths[sources[rays]]
+        hits = marcher.surfaces_along(origins, directions[rays], depths)
+        for order, (rows, points, triangles) in enumerate(hits):
+            keys = with_normals(points, marcher.normals[triangles], scale)
+            found = np.stack([sources[rays][rows], tree.query(keys)[1]])
+            seen_and_hidden[order > 0].append(found)
+    return _matrices(*seen_and_hidden, n_samples)
+
+
+def _directions(
+    shape: PreparedShape, samples: Samples, n_rays: int, opening: float
+) -> NDArray[np.float64]:
+    """Return the directions of the rays, (N r, 3): in a fan for a flat shape."""
+    if shape.plane is None:
+        directions = cone_directions(samples.normals, n_rays, opening)
+    else:
+        directions = fan_directions(samples.normals, n_rays, opening, shape.plane)
+    return directions.reshape(-1, 3)
+
+
+def _matrices(seen: Pairs, hidden: Pairs, n_samples: int) -> PairVisibility:
+    """Return the positive matrix, and the known pairs: positive or negative."""
+    positive = _symmetric(seen, n_samples)
     positive.setdiag(1.0)
-    negative = _symmetric(hidden, len(samples))
+    negative = _symmetric(hidden, n_samples)
     negative = sparse.csr_array(negative - negative * positive)
     negative.eliminate_zeros()
     return PairVisibility(positive, positive + negative)
 
 
-def _cast_cones(
-    shape: PreparedShape,
-    samples: Samples,
-    views: Viewpoints,
-    n_rays: int,
-    opening: float,
-) -> Steps[tuple[list[NDArray[np.int64]], list[NDArray[np.int64]]]]:
-    """Return pairs of samples that see each other, and hidden pairs, as (2, M) each."""
-    marcher = shape.marcher
-    if shape.plane is None:
-        directions = cone_directions(samples.normals, n_rays, opening)
-    else:
-        directions = fan_directions(samples.normals, n_rays, opening, shape.plane)
-    directions = directions.reshape(-1, 3)
-    sources = np.repeat(np.arange(len(samples)), n_rays)
-    # Nearest by position and normal: the two sides of a thin wall are close, but their
-    # normals point away from each other.
-    scale = float(np.sqrt(marcher.area / len(samples)))
-    tree = cKDTree(with_normals(samples.positions, samples.normals, scale))
-    seen: list[NDArray[np.int64]] = []
-    hidden: list[NDArray[np.int64]] = []
-    for start in range(0, len(sources), RAYS_PER_STEP):
-        yield Progress("Lines of sight", start / len(sources))
-        rays = slice(start, start + RAYS_PER_STEP)
-        hits = marcher.surfaces_along(
-            views.positions[sources[rays]],
-            directions[rays],
-            views.depths[sources[rays]],
-        )
-        for order, (rows, points, triangles) in enumerate(hits):
-            keys = with_normals(points, marcher.normals[triangles], scale)
-            found = np.stack([sources[rays][rows], tree.query(keys)[1]])
-            (hidden if order else seen).append(found)
-    return seen, hidden
-
-
-def _symmetric(found: list[NDArray[np.int64]], n_samples: int) -> sparse.csr_array:
+def _symmetric(found: Pairs, n_samples: int) -> sparse.csr_array:
     """Return the symmetric matrix with 1 at each pair found and 0 elsewhere."""
     rows, columns = np.concatenate([np.zeros((2, 0), dtype=np.int64), *found], axis=1)
     matrix = pair_counts(rows, columns, n_samples)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
 from ..geometry.face_graph import FaceGraph, face_graph
-from ..geometry.flat import flat_mesh
+from ..geometry.flat import FlatMesh, flat_mesh
 from ..geometry.mesh import TriangleMesh
 from ..geometry.orientation import oriented
 from ..geometry.point_cloud import PointCloud
@@ -142,32 +142,17 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     Raises
     ------
     DecompositionError
-        If the shape cannot be normalized; see `TriangleMesh.normalized`.
+        If the surface has no area, or is too large or too small to compute with.
     """
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
         return (yield from _prepare_cloud(shape, make_caster))
-    return (yield from _prepare_mesh(shape, make_caster))
-
-
-def _prepare_mesh(shape: TriangleMesh, make_caster: MakeCaster) -> Steps[PreparedShape]:
-    """Prepare a mesh: walls replace a flat one, others are turned to face outwards."""
     mesh = shape.normalized()
     nodes = np.arange(mesh.n_polygons)
     frame = shape.center, shape.diagonal
     yield Progress("Surface", 0.3)
     if flat := flat_mesh(mesh):
-        return PreparedShape(
-            *frame,
-            flat.walls,
-            RayMarcher(flat.walls, make_caster),
-            len(nodes),
-            nodes,
-            flat.graph,
-            mesh,
-            flat.notes,
-            plane=flat.normal,
-        )
+        return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
     yield Progress("Surface", 0.4)
     shells = find_shells(mesh)
     yield Progress("Surface", 0.6)
@@ -186,6 +171,27 @@ def _prepare_mesh(shape: TriangleMesh, make_caster: MakeCaster) -> Steps[Prepare
         lambda: face_graph(mesh),
         mesh,
         notes,
+    )
+
+
+def _prepare_flat(
+    flat: FlatMesh,
+    nodes: NDArray[np.int64],
+    make_caster: MakeCaster,
+    center: NDArray[np.float64],
+    diagonal: float,
+) -> PreparedShape:
+    """Prepare a flat mesh: walls along its outline carry the samples."""
+    return PreparedShape(
+        center,
+        diagonal,
+        flat.walls,
+        RayMarcher(flat.walls, make_caster),
+        len(nodes),
+        nodes,
+        flat.graph,
+        notes=flat.notes,
+        plane=flat.normal,
     )
 
 
