@@ -25,6 +25,18 @@ class ShapeCache:
     ----------
     make_caster : callable
         Takes a `TriangleMesh` and returns a `RayCaster` for it.
+
+    Examples
+    --------
+    >>> import weak_convex_decomposition as wcd
+    >>> vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> triangles = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> mesh = wcd.TriangleMesh(vertices, triangles, [0, 1, 2, 3])
+    >>> cache = wcd.ShapeCache(wcd.choose_ray_caster())
+    >>> one = wcd.run(wcd.decompose_in_steps(mesh, wcd.Parameters(parts=1), cache))
+    >>> two = wcd.run(wcd.decompose_in_steps(mesh, wcd.Parameters(parts=2), cache))
+    >>> one.n_parts, two.n_parts
+    (1, 2)
     """
 
     def __init__(self, make_caster: MakeCaster) -> None:

@@ -38,6 +38,14 @@ class Decomposition:
         Sentences to the user.
     normals : (P, 3) float or None
         Outward unit normals of a point cloud, if they had to be found or corrected.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition import decompose
+    >>> vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> decompose(vertices, faces, samples=400).labels.tolist()
+    [0, 0, 0, 0]
     """
 
     labels: NDArray[np.int64]
@@ -76,6 +84,14 @@ class Measurement:
         Number of samples.
     notes : tuple of str
         Sentences to the user.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition import measure
+    >>> vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> measure(vertices, faces, samples=400)
+    Measurement(rank 1.000, 400 samples)
     """
 
     rank: float
@@ -108,6 +124,15 @@ class HullDecomposition:
         `inf` for a shape without an inside.
     notes : tuple of str
         Sentences to the user.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition import build_hulls
+    >>> vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> hulls = build_hulls(vertices, faces)
+    >>> round(hulls.shapes[0].volume, 3)
+    0.167
     """
 
     shapes: tuple[CollisionShape, ...]

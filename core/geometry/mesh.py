@@ -44,6 +44,14 @@ class TriangleMesh:
         If an array has a wrong shape, there are no triangles, coordinates are not
         finite, indices are out of range, or `polygons` does not give a number to each
         triangle.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition import TriangleMesh
+    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    >>> square = TriangleMesh(corners, [(0, 1, 2), (0, 2, 3)], [0, 0])
+    >>> square.n_polygons
+    1
     """
 
     vertices: NDArray[np.float64]

@@ -38,6 +38,15 @@ class PointCloud:
         If an array has a wrong shape, if there are too few points, if all lie at one
         place or in a line, or too far apart or too near to compute with, if there is
         not one normal per point, or if values are not finite or normals zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from weak_convex_decomposition import PointCloud
+    >>> normals = np.random.default_rng(0).normal(size=(100, 3))
+    >>> normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    >>> PointCloud(2 * normals, normals).points.shape
+    (100, 3)
     """
 
     points: NDArray[np.float64]

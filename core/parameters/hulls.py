@@ -20,6 +20,12 @@ class HullParameters:
     DecompositionError
         If a value is out of its bounds or not one of its choices, or if the template
         cannot be filled in.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition import HullParameters
+    >>> HullParameters(shape="BOX", max_hulls=8).max_error
+    0.05
     """
 
     shape: str = parameter(

@@ -29,6 +29,12 @@ class Parameters:
     DecompositionError
         If a value is out of its bounds or not one of its choices, if `min_parts` is
         above `max_parts`, or if there are more `parts` than `samples`.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition import Parameters
+    >>> Parameters(parts=6, alpha=1.0).samples
+    1200
     """
 
     parts: int = parameter(

@@ -42,6 +42,15 @@ def run(steps: Steps[T]) -> T:
     -------
     value
         The return value of the steps.
+
+    Examples
+    --------
+    >>> from weak_convex_decomposition.core.steps.progress import Progress, run
+    >>> def count():
+    ...     yield Progress("Counting", 0.0)
+    ...     return 3
+    >>> run(count())
+    3
     """
     while True:
         try:
