@@ -9,13 +9,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .core.cache import ShapeCache
-    from .core.decomposition import decompose_in_steps
+    from .core import (
+        ShapeCache,
+        build_hulls_in_steps,
+        decompose_in_steps,
+        measure_in_steps,
+    )
     from .core.errors import DecompositionError
     from .core.geometry.mesh import TriangleMesh
     from .core.geometry.point_cloud import PointCloud
-    from .core.hulls.build import build_hulls_in_steps
-    from .core.measurement import measure_in_steps
     from .core.parameters.hulls import HullParameters
     from .core.parameters.parts import Parameters
     from .core.results import Decomposition, HullDecomposition, Measurement
@@ -45,7 +47,7 @@ __all__ = [
     "unregister",
 ]
 
-# Module that defines each public name.
+# Module that each public name comes from. `core` has its own table of where.
 _HOMES = {
     "Decomposition": "core.results",
     "DecompositionError": "core.errors",
@@ -54,15 +56,15 @@ _HOMES = {
     "Measurement": "core.results",
     "Parameters": "core.parameters.parts",
     "PointCloud": "core.geometry.point_cloud",
-    "ShapeCache": "core.cache",
+    "ShapeCache": "core",
     "TriangleMesh": "core.geometry.mesh",
     "build_hulls": "operators.scripting",
-    "build_hulls_in_steps": "core.hulls.build",
+    "build_hulls_in_steps": "core",
     "choose_ray_caster": "operators.bridge.rays.choice",
     "decompose": "operators.scripting",
-    "decompose_in_steps": "core.decomposition",
+    "decompose_in_steps": "core",
     "measure": "operators.scripting",
-    "measure_in_steps": "core.measurement",
+    "measure_in_steps": "core",
     "run": "core.steps.progress",
 }
 

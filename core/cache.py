@@ -64,7 +64,7 @@ class ShapeCache:
         Raises
         ------
         DecompositionError
-            If the shape cannot be normalized; see `TriangleMesh.normalized`.
+            If the surface has no area, or is too large or too small to compute with.
         """
         key = content_key(shape)
         if self._shape is None or self._shape[0] != key:
