@@ -106,7 +106,6 @@ def test_another_file_and_unregistering_free_it(suzanne):
     assert not is_seen(bpy.context.active_object)
 
 
-@pytest.mark.skipif(bpy.app.version < (5, 0), reason="Python's end crashes Blender 4.2")
 def test_a_script_that_ends_leaves_no_memory_to_blender():
     script = (
         "import checkout, bpy; import weak_convex_decomposition as wcd; wcd.register();"
@@ -118,5 +117,8 @@ def test_a_script_that_ends_leaves_no_memory_to_blender():
         text=True,
         cwd=ROOT / "tests" / "support",
     )
-    assert done.returncode == 0, done.stderr
-    assert "Not freed" not in done.stdout + done.stderr
+    printed = done.stdout + done.stderr
+    assert "parts, psi" in printed
+    assert "Not freed" not in printed
+    if bpy.app.version >= (5, 0):  # Blender 4.2 crashes at the end of any such script
+        assert done.returncode == 0, done.stderr
