@@ -8,11 +8,11 @@ from typing import Any
 
 import bpy
 
-from .attempts import Attempts
-from .decompose_file import decompose_file
 from .report import save_report
 from .request.options import Request, parse
-from .results import InputResult
+from .run.attempts import Attempts
+from .run.decompose_file import decompose_file
+from .run.results import InputResult
 from .screen import Screen, StreamError, open_closed_streams, stop_printing, write
 from .write.render_engine import EngineTrial
 

@@ -11,7 +11,7 @@ from typing import Any
 from ...core.parameters.parts import Parameters
 from ..bridge.stored.notes import version
 from .atomic import explaining, replacing
-from .results import InputResult, ObjectResult
+from .run.results import InputResult, ObjectResult
 
 
 def save_report(

@@ -26,7 +26,7 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
-from weak_convex_decomposition.operators.headless.read.models import load
+from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write.picture import save_picture
 from weak_convex_decomposition.operators.headless.write.render_engine import (
     EngineTrial,

@@ -15,7 +15,7 @@ import numpy as np
 import simulation
 import weak_convex_decomposition as package
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
-from weak_convex_decomposition.operators.headless.read.models import load
+from weak_convex_decomposition.operators.headless.read.load import load
 
 SECONDS = 40
 HEADING = ("model", "hulls", "error", "speed", "deepest", "balls", "lowest", "highest")

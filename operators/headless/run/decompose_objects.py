@@ -7,14 +7,14 @@ from collections.abc import Sequence
 
 import bpy
 
-from ...core.errors import DecompositionError
-from ...core.parameters.parts import Parameters
-from ..bridge.mesh.points import is_cloud
-from ..bridge.parts.write import write_parts
-from ..bridge.stored.record import record_of
-from ..bridge.work.computing import decompose_object, summary
+from ....core.errors import DecompositionError
+from ....core.parameters.parts import Parameters
+from ...bridge.mesh.points import is_cloud
+from ...bridge.parts.write import write_parts
+from ...bridge.stored.record import record_of
+from ...bridge.work.computing import decompose_object, summary
+from ..screen import Screen
 from .results import ObjectResult
-from .screen import Screen
 
 
 def decompose_objects(

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import bpy
 
-from ...core.errors import DecompositionError
-from ..bridge.hulls.hull_objects import write_hulls
-from ..bridge.stored.record import record_of
-from ..bridge.work.computing import build_hulls_of, hull_summary
-from .request.options import Request
+from ....core.errors import DecompositionError
+from ...bridge.hulls.hull_objects import write_hulls
+from ...bridge.stored.record import record_of
+from ...bridge.work.computing import build_hulls_of, hull_summary
+from ..request.options import Request
+from ..screen import Screen
 from .results import ObjectResult
-from .screen import Screen
 
 
 def build_hulls(

@@ -5,19 +5,19 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+from ..formats import USUAL_UP
+from ..read.load import load
+from ..request.options import Request
+from ..request.outputs import Targets
+from ..screen import Screen
+from ..write.hull_files import save_hulls
+from ..write.model_files import save
+from ..write.picture import save_picture
+from ..write.render_engine import EngineTrial
 from .attempts import Attempts
 from .build_hulls import build_hulls, with_hull_records
 from .decompose_objects import decompose_objects
-from .formats import USUAL_UP
-from .read.load import load
-from .request.options import Request
-from .request.outputs import Targets
 from .results import InputResult
-from .screen import Screen
-from .write.hull_files import save_hulls
-from .write.model_files import save
-from .write.picture import save_picture
-from .write.render_engine import EngineTrial
 
 
 def decompose_file(

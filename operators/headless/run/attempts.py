@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from ...core.errors import DecompositionError
-from .screen import Screen
+from ....core.errors import DecompositionError
+from ..screen import Screen
 
 T = TypeVar("T")
 

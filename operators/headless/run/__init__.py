@@ -1,0 +1,1 @@
+"""A run of the command line: each input, its objects, and what became of them."""
