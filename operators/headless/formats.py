@@ -16,6 +16,10 @@ READ_ENDINGS = (
     ".glb",
     ".gltf",
     ".fbx",
+    ".usd",
+    ".usda",
+    ".usdc",
+    ".usdz",
     ".blend",
 )
 MODEL_ENDINGS = (".blend", ".glb", ".ply", ".obj")

@@ -52,7 +52,7 @@ def _object_entry(result: ObjectResult) -> dict[str, Any]:
     return {
         "name": result.name,
         "error": result.error,
-        "notes": list(result.notes),
         "seconds": round(result.seconds, 3),
         **(result.record or {}),
+        "notes": list(result.notes),
     }

@@ -97,6 +97,19 @@ class Screen:
             self._line = ""
 
 
+def progress_title(title: str, number: int, total: int) -> str:
+    """Return the title of an object's progress, which of them it is if there are many.
+
+    Parameters
+    ----------
+    title : str
+    number : int
+        Counted from 1.
+    total : int
+    """
+    return f"{title} (object {number:,} of {total:,})" if total > 1 else title
+
+
 def write(stream: TextIO, text: str) -> None:
     """Write text; escape characters that the stream cannot encode.
 

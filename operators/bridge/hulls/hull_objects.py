@@ -35,9 +35,20 @@ def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
 
 
 def write_hulls(
-    obj: bpy.types.Object, found: HullDecomposition, parameters: HullParameters
+    obj: bpy.types.Object,
+    found: HullDecomposition,
+    parameters: HullParameters,
+    meshes: Sequence[bpy.types.Mesh] | None = None,
 ) -> list[bpy.types.Object]:
     """Make objects of the hulls of an object, in place of earlier ones; return them.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    found : HullDecomposition
+    parameters : HullParameters
+    meshes : sequence of Mesh, optional
+        Those of equal hulls around an object of the same scale, to be shared.
 
     Raises
     ------
@@ -61,7 +72,11 @@ def write_hulls(
     hulls = []
     for row, name in enumerate(names):
         material = materials[colors[row]]
-        hull = _hull_object(name, found.shapes[row], scale, material)
+        if meshes:
+            mesh = meshes[row]
+        else:
+            mesh = _hull_mesh(name, found.shapes[row], scale, material)
+        hull = _hull_object(name, mesh, material)
         hull[HULL_TAG] = json.dumps(_figures(found, row))
         hull.parent = obj
         collection.objects.link(hull)
@@ -103,16 +118,23 @@ def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> Non
         )
 
 
-def _hull_object(
+def _hull_mesh(
     name: str, shape: CollisionShape, scale: np.ndarray, material: bpy.types.Material
-) -> bpy.types.Object:
-    """Return an object with the mesh of a shape."""
+) -> bpy.types.Mesh:
+    """Return the mesh of a shape."""
     outline = core.outline_of(shape)
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(
         (outline.vertices / scale).tolist(), [], outline.triangles.tolist()
     )
     mesh.materials.append(material)
+    return mesh
+
+
+def _hull_object(
+    name: str, mesh: bpy.types.Mesh, material: bpy.types.Material
+) -> bpy.types.Object:
+    """Return an object with the mesh of a hull."""
     hull = bpy.data.objects.new(name, mesh)
     hull.color = material.diffuse_color
     hull.show_wire = True

@@ -18,7 +18,13 @@ from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
 from ..stored.identity import Identity, usual_identities
 from ..stored.names import COLOR_LAYER, LAYERS, MATERIAL_LAYER, NORMAL_LAYER, PART_LAYER
-from ..stored.record import check_records, write_result
+from ..stored.record import (
+    check_records,
+    identities_of,
+    record_of,
+    share_result,
+    write_result,
+)
 from ..stored.restore import Restore, write_restore
 from .erase import erase_parts
 from .face_sets_and_colors import show, shown
@@ -76,6 +82,21 @@ def write_parts(
     write_rows(obj, identities, rows)
     show(obj, *also_shown)
     discard_unused(former)
+
+
+def share_parts(first: bpy.types.Object, obj: bpy.types.Object) -> None:
+    """Note the parts of `first` on another object that has its mesh.
+
+    Parameters
+    ----------
+    first : bpy.types.Object
+        An object that `write_parts` wrote to.
+    obj : bpy.types.Object
+        Its own measurements and hulls stay noted.
+    """
+    record = record_of(first)
+    share_result(record, obj)
+    write_rows(obj, identities_of(record), {})
 
 
 def _material_names(obj: bpy.types.Object, n_parts: int) -> list[str]:

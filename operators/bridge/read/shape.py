@@ -92,3 +92,27 @@ def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
     if scale.max() - scale.min() <= _SAME_SCALE * scale.max():
         return np.ones(3)
     return scale
+
+
+def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
+    """Return whether two objects with one mesh look alike but for their sizes.
+
+    Raises
+    ------
+    DecompositionError
+        If a factor of their scales is zero or not finite.
+    """
+    factors, others = stretch(obj), stretch(other)
+    return np.allclose(factors / factors.max(), others / others.max(), _SAME_SCALE)
+
+
+def have_equal_shapes(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
+    """Return whether `read_shape` gives the same for two objects.
+
+    Raises
+    ------
+    DecompositionError
+        If a factor of their scales is zero or not finite.
+    """
+    same_data = obj.data == other.data
+    return same_data and np.allclose(stretch(obj), stretch(other), _SAME_SCALE)

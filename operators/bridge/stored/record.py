@@ -121,6 +121,13 @@ def write_result(
     write_note(obj, RESULT, {**result, **beside})
 
 
+def share_result(record: dict[str, Any], obj: bpy.types.Object) -> None:
+    """Note the parts of another object's record; measurements and hulls are its own."""
+    others = {_MEASURED, _SELECTION, _HULLS}
+    parts = {key: value for key, value in record.items() if key not in others}
+    write_note(obj, RESULT, {**parts, **_beside_parts(obj)})
+
+
 def write_measurement(
     obj: bpy.types.Object,
     measurement: Measurement,

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 import struct
+import zipfile
 from pathlib import Path
 
 from ....core.errors import DecompositionError
@@ -19,6 +20,10 @@ _SIGNATURES = {
     ".ply": (b"ply",),
     ".glb": (b"glTF",),
     ".fbx": (b"Kaydara FBX Binary", b";"),
+    ".usd": (b"#usda", b"PXR-USDC"),
+    ".usda": (b"#usda", b"PXR-USDC"),
+    ".usdc": (b"PXR-USDC",),
+    ".usdz": (b"PK",),
     ".blend": (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b"),
 }
 # Bytes of binary .stl.
@@ -67,6 +72,8 @@ def _check_content(path: Path, ending: str) -> None:
         _check_stl(path, head, tail, size)
     if ending == ".ply":
         _check_ply(path)
+    if ending == ".usdz" and not zipfile.is_zipfile(path):
+        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if ending == ".obj":
         _check_last_line(path, tail)
         _check_obj_corners(path)

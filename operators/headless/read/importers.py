@@ -15,6 +15,7 @@ import bpy
 
 from ...bridge.mesh.points import set_points
 from ..formats import axes
+from .numbering import number_in_order
 from .off_files import read_off
 from .ply_files import import_ply
 from .xyz_files import read_points
@@ -66,6 +67,20 @@ def _fbx(path: Path, _up: str) -> set[str]:
     return set(bpy.ops.import_scene.fbx(filepath=str(path)))
 
 
+def _usd(path: Path, _up: str) -> set[str]:
+    """Import .usd, .usda, .usdc or .usdz.
+
+    Blender numbers objects of one name in any order, and keeps the prototypes of
+    instances in a hidden collection.
+    """
+    result = set(bpy.ops.wm.usd_import(filepath=str(path)))
+    bpy.context.view_layer.update()
+    for child in bpy.context.view_layer.layer_collection.children:
+        child.exclude = child.collection.hide_viewport
+    number_in_order(bpy.data.objects)
+    return result
+
+
 def _blend(path: Path, _up: str) -> set[str]:
     """Open .blend in place of the empty file; its scripts do not run."""
     return set(
@@ -99,5 +114,9 @@ IMPORTERS: dict[str, Callable[[Path, str], set[str]]] = {
     ".glb": _gltf,
     ".gltf": _gltf,
     ".fbx": _fbx,
+    ".usd": _usd,
+    ".usda": _usd,
+    ".usdc": _usd,
+    ".usdz": _usd,
     ".blend": _blend,
 }

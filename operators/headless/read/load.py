@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -14,12 +15,37 @@ from ..current_file import mesh_objects, open_empty_file
 from ..formats import USUAL_UP
 from ..quiet import quiet_blender
 from .damage_checks import check_file
+from .evaluated import apply_modifiers
 from .finite_checks import check_finite
 from .importers import IMPORTERS
+from .instances import check_libraries, make_all_local, realize_instances
+
+
+@dataclass(frozen=True)
+class LoadedFile:
+    """What a file holds.
+
+    Attributes
+    ----------
+    objects : list of Object
+        Its meshes and point clouds, by name.
+    notes : dict of str
+        What was done to an object so that it could be read, by its name.
+    """
+
+    objects: list[bpy.types.Object]
+    notes: dict[str, str]
 
 
 def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
-    """Load `path` into an empty scene and return its mesh objects, by name.
+    """Load `path` and return its mesh objects, by name; see `load_file`."""
+    return load_file(path, up).objects
+
+
+def load_file(
+    path: Path, up: str | None = None, with_modifiers: bool = False
+) -> LoadedFile:
+    """Load `path` into an empty scene; instances become objects, links local.
 
     Parameters
     ----------
@@ -28,6 +54,8 @@ def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
     up : {'Y', 'Z'}, optional
         Axis that points up in the file, for formats that do not state it; None for
         the usual one.
+    with_modifiers : bool, optional
+        Apply the modifiers and shape keys of all objects.
 
     Raises
     ------
@@ -46,6 +74,17 @@ def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
         raise _unreadable(path, str(error)) from error
     if result != {"FINISHED"}:
         raise _unreadable(path, "the importer gave up")
+    check_libraries(path)
+    with quiet_blender():
+        make_all_local()
+        notes = realize_instances(with_modifiers)
+        if with_modifiers:
+            notes |= apply_modifiers(mesh_objects())
+    return LoadedFile(_objects_with_shape(path), notes)
+
+
+def _objects_with_shape(path: Path) -> list[bpy.types.Object]:
+    """Return the objects of the file, or raise if none has faces or points."""
     objects = mesh_objects()
     if not objects:
         raise DecompositionError(f"{path.name} has no meshes or point clouds.")

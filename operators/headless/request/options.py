@@ -33,6 +33,8 @@ class Request:
     report : Path or None
     up : {'Y', 'Z'} or None
         Axis that points up in the inputs; None for the usual one of each format.
+    apply_modifiers : bool
+        Decompose meshes as Blender shows them.
     quiet : bool
     parameters : Parameters
     hull_parameters : HullParameters
@@ -42,6 +44,7 @@ class Request:
     targets: tuple[Targets, ...]
     report: Path | None
     up: str | None
+    apply_modifiers: bool
     quiet: bool
     parameters: Parameters
     hull_parameters: HullParameters
@@ -77,6 +80,7 @@ def parse(arguments: list[str], program: str) -> Request:
             ),
             report=options.report,
             up=options.up,
+            apply_modifiers=options.apply_modifiers,
             quiet=options.quiet,
             parameters=chosen.parameters(**_given(options, Parameters)),
             hull_parameters=HullParameters(**_given(options, HullParameters)),
@@ -163,6 +167,12 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
         help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files that are"
         " read or written (default: Y in .obj and .off, Z in the others; the output"
         " keeps the axes of the input)",
+    )
+    files.add_argument(
+        "--apply-modifiers",
+        action="store_true",
+        help="decompose, and write, meshes with their modifiers and shape keys applied"
+        " (default: meshes without them)",
     )
 
 

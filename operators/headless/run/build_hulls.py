@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import bpy
 
 from ....core.errors import DecompositionError
+from ....core.results import HullDecomposition
 from ...bridge.hulls.hull_objects import write_hulls
+from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing import build_hulls_of, hull_summary
 from ..request.options import Request
-from ..screen import Screen
+from ..screen import Screen, progress_title
 from .results import ObjectResult
 
 
@@ -29,12 +31,26 @@ def build_hulls(
     DecompositionError
         If the hulls of one object cannot be built.
     """
-    return [
-        hull
+    decomposed = [
+        obj
         for obj, result in zip(objects, results, strict=True)
         if result.record is not None
-        for hull in _hulls_of(obj, request, screen)
     ]
+    known: list[_Built] = []
+    return [
+        hull
+        for place, obj in enumerate(decomposed, start=1)
+        for hull in _hulls_of(obj, known, request, screen, (place, len(decomposed)))
+    ]
+
+
+@dataclass(frozen=True)
+class _Built:
+    """The hulls of an object; others with its mesh and scale get the same."""
+
+    owner: bpy.types.Object
+    found: HullDecomposition
+    hulls: list[bpy.types.Object]
 
 
 def with_hull_records(
@@ -48,18 +64,35 @@ def with_hull_records(
 
 
 def _hulls_of(
-    obj: bpy.types.Object, request: Request, screen: Screen
+    obj: bpy.types.Object,
+    known: list[_Built],
+    request: Request,
+    screen: Screen,
+    place: tuple[int, int],
 ) -> list[bpy.types.Object]:
-    """Build the hulls of one object and show its result."""
+    """Build the hulls of one object and show its result; add them to `known`.
+
+    `place` is the number of the object, and how many there are.
+    """
     title = f"{obj.name_full}, hulls"
     parameters = request.hull_parameters
     try:
-        steps = build_hulls_of(obj, request.parameters, parameters)
-        found = screen.follow(title, steps)
-        hulls = write_hulls(obj, found, parameters)
+        built = next(
+            (each for each in known if have_equal_shapes(each.owner, obj)), None
+        )
+        if built is None:
+            steps = build_hulls_of(obj, request.parameters, parameters)
+            found = screen.follow(progress_title(title, *place), steps)
+            hulls = write_hulls(obj, found, parameters)
+            known.append(_Built(obj, found, hulls))
+        else:
+            found = built.found
+            meshes = [hull.data for hull in built.hulls]
+            hulls = write_hulls(obj, found, parameters, meshes)
     except DecompositionError as error:
         raise DecompositionError(f"{title}: {error}") from error
-    for note in found.notes:
-        screen.warning(f"{title}: {note}")
+    if built is None:
+        for note in found.notes:
+            screen.warning(f"{title}: {note}")
     screen.result(f"{title}: {hull_summary(found)}")
     return hulls

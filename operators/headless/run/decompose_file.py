@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from ..formats import USUAL_UP
-from ..read.load import load
+from ..read.load import LoadedFile, load_file
 from ..request.options import Request
 from ..request.outputs import Targets
 from ..screen import Screen
@@ -34,8 +34,11 @@ def decompose_file(
     """
     started = time.perf_counter()
     attempts = Attempts(screen)
-    objects = attempts.value(lambda: load(path, request.up)) or []
-    results = decompose_objects(path.name, objects, request.parameters, screen)
+    loaded = attempts.value(
+        lambda: load_file(path, request.up, request.apply_modifiers)
+    ) or LoadedFile([], {})
+    objects = loaded.objects
+    results = decompose_objects(path.name, loaded, request.parameters, screen)
     if not any(result.record for result in results):
         targets = Targets()  # there is nothing to write
 

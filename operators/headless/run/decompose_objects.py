@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from dataclasses import replace
 
 import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ...bridge.mesh.points import is_cloud
-from ...bridge.parts.write import write_parts
+from ...bridge.parts.write import share_parts, write_parts
+from ...bridge.read.shape import has_proportions_of
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing import decompose_object, summary
-from ..screen import Screen
+from ..read.load import LoadedFile
+from ..screen import Screen, progress_title
 from .results import ObjectResult
 
 
 def decompose_objects(
-    file_name: str,
-    objects: Sequence[bpy.types.Object],
-    parameters: Parameters,
-    screen: Screen,
+    file_name: str, loaded: LoadedFile, parameters: Parameters, screen: Screen
 ) -> tuple[ObjectResult, ...]:
     """Decompose each object, write its parts to it and show its result.
 
@@ -31,22 +30,48 @@ def decompose_objects(
         One for each object, in their order. Objects without faces are left as they
         are; objects that share a mesh are decomposed once.
     """
-    done: dict[bpy.types.ID, str] = {}
+    done: dict[bpy.types.ID, tuple[bpy.types.Object, ObjectResult]] = {}
     results = []
-    for obj in objects:
+    for place, obj in enumerate(loaded.objects, start=1):
         if not (is_cloud(obj) or obj.data.polygons):
             note = "It has no faces and was left as it is."
             result = ObjectResult(obj.name_full, notes=(note,))
         elif obj.data in done:
-            note = f"It shares the mesh of {done[obj.data]}, and so its parts."
-            result = ObjectResult(obj.name_full, notes=(note,))
+            result = _shared(obj, *done[obj.data])
         else:
-            done[obj.data] = obj.name_full
-            title = f"{file_name}, {obj.name_full}"
+            title = progress_title(
+                f"{file_name}, {obj.name_full}", place, len(loaded.objects)
+            )
             result = _decompose(title, obj, parameters, screen)
+            if not result.error:
+                done[obj.data] = obj, result
+        if obj.name_full in loaded.notes:
+            notes = (loaded.notes[obj.name_full], *result.notes)
+            result = replace(result, notes=notes)
         _show(file_name, result, screen)
         results.append(result)
     return tuple(results)
+
+
+def _shared(
+    obj: bpy.types.Object, first: bpy.types.Object, result: ObjectResult
+) -> ObjectResult:
+    """Return the result of an object that has the mesh, and so the parts, of `first`.
+
+    Parts were found for the proportions of the first object.
+    """
+    notes: tuple[str, ...] = ()
+    try:
+        if not has_proportions_of(obj, first):
+            notes = (
+                f"It shares the mesh of {first.name_full}, and so its parts, which"
+                " were found for the proportions of that one.",
+            )
+    except DecompositionError as error:
+        return ObjectResult(obj.name_full, error=str(error))
+    share_parts(first, obj)
+    summary = f"{result.summary}, with the mesh of {first.name_full}"
+    return ObjectResult(obj.name_full, record_of(obj), summary, notes)
 
 
 def _decompose(

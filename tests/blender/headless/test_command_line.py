@@ -194,12 +194,13 @@ def test_every_object_is_decomposed_once(tmp_path, capfd):
     assert run(tmp_path / "a.blend", "--report", report, "--quiet", *QUICK) == 1
     out, err = capfd.readouterr()
     assert out == ""
-    assert "Twin: It shares the mesh of Suzanne" in err
+    assert "Suzanne: 2 objects share this mesh" in err
     assert "Wire: It has no faces" in err
     assert "error: a.blend, Flat: " in err
     objects = json.loads(report.read_text())["inputs"][0]["objects"]
     assert [obj["name"] for obj in objects] == ["Flat", "Suzanne", "Twin", "Wire"]
     assert [bool(obj["error"]) for obj in objects] == [True, False, False, False]
+    assert objects[1]["parts"] == objects[2]["parts"]
 
 
 def test_picture_option(tmp_path, model):

@@ -43,6 +43,10 @@ def write_wedge(path):
         ".glb": lambda: scenes.gltf(**name),
         ".gltf": lambda: scenes.gltf(**name, export_format="GLTF_SEPARATE"),
         ".fbx": lambda: scenes.fbx(**name),
+        ".usd": lambda: files.usd_export(**name),
+        ".usda": lambda: files.usd_export(**name),
+        ".usdc": lambda: files.usd_export(**name),
+        ".usdz": lambda: files.usd_export(**name),
         ".blend": lambda: files.save_as_mainfile(**name, copy=True),
     }
     with warnings.catch_warnings():
