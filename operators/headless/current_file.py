@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..bridge.hulls.hull_objects import is_hull
+from ..bridge.mesh.points import count_points, is_cloud
 from .quiet import quiet_blender
 
 
@@ -31,3 +32,8 @@ def mesh_objects() -> list[bpy.types.Object]:
         if obj.type in {"MESH", "POINTCLOUD"} and not is_hull(obj)
     }
     return sorted(found, key=lambda obj: obj.name_full)
+
+
+def has_shape(obj: bpy.types.Object) -> bool:
+    """Return whether one of `mesh_objects` has faces, or is a cloud with points."""
+    return bool(count_points(obj) if is_cloud(obj) else obj.data.polygons)

@@ -118,9 +118,9 @@ def realize_instances(with_modifiers: bool) -> dict[str, str]:
     _add_objects(found)
     notes = {}
     for instancer, own in instancers.items():
-        _stop(instancer, own.is_shown)
         if own.mesh:
             notes[instancer.name_full] = give_mesh(instancer, own.mesh)
+        _stop(instancer, own.is_shown)
     for scene in bpy.data.scenes:
         for layer in scene.view_layers:
             layer.update()  # computes where the new objects are
@@ -263,14 +263,16 @@ def _move(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object) ->
 
 
 def _stop(instancer: bpy.types.Object, is_shown: bool) -> None:
-    """Let an object make no more instances; leave it out if it is not shown itself."""
+    """Let an object make no more instances; leave it out if they are all it shows.
+
+    Points are where instances go, and not a point cloud.
+    """
     instancer.instance_type = "NONE"
     instancer.instance_collection = None
-    if instancer.type == "MESH":
-        _remove(instancer, {"PARTICLE_SYSTEM"})
-    else:
-        _remove(instancer, {"NODES"})
-    if instancer.type == "POINTCLOUD" or not is_shown:
+    is_mesh = instancer.type == "MESH"
+    _remove(instancer, {"PARTICLE_SYSTEM"} if is_mesh else {"NODES"})
+    only_points = is_mesh and not instancer.data.polygons
+    if only_points or instancer.type == "POINTCLOUD" or not is_shown:
         for collection in instancer.users_collection:
             collection.objects.unlink(instancer)
 

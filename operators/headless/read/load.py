@@ -9,9 +9,8 @@ from pathlib import Path
 import bpy
 
 from ....core.errors import DecompositionError
-from ...bridge.mesh.points import is_cloud
 from ..atomic import explaining
-from ..current_file import mesh_objects, open_empty_file
+from ..current_file import has_shape, mesh_objects, open_empty_file
 from ..formats import USUAL_UP
 from ..quiet import quiet_blender
 from .damage_checks import check_file
@@ -88,9 +87,12 @@ def _objects_with_shape(path: Path) -> list[bpy.types.Object]:
     objects = mesh_objects()
     if not objects:
         raise DecompositionError(f"{path.name} has no meshes or point clouds.")
-    if not any(is_cloud(obj) or obj.data.polygons for obj in objects):
+    if not any(map(has_shape, objects)):
+        has_edges = any(getattr(obj.data, "edges", None) for obj in objects)
         raise DecompositionError(
             f"{path.name} has edges but no faces; wires cannot be decomposed."
+            if has_edges
+            else f"{path.name} has objects, but no faces or points in them."
         )
     return objects
 

@@ -37,11 +37,24 @@ def build_hulls(
         if result.record is not None
     ]
     known: list[_Built] = []
-    return [
+    hulls = [
         hull
         for place, obj in enumerate(decomposed, start=1)
         for hull in _hulls_of(obj, known, request, screen, (place, len(decomposed)))
     ]
+    _show(hulls)
+    return hulls
+
+
+def _show(hulls: Sequence[bpy.types.Object]) -> None:
+    """Put hulls into the scene that are in hidden collections or other scenes.
+
+    Blender's exporters write what can be selected.
+    """
+    bpy.context.view_layer.update()
+    for hull in hulls:
+        if not hull.visible_get():
+            bpy.context.scene.collection.objects.link(hull)
 
 
 @dataclass(frozen=True)

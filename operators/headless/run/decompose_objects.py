@@ -9,11 +9,11 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ...bridge.mesh.points import is_cloud
 from ...bridge.parts.write import share_parts, write_parts
 from ...bridge.read.shape import has_proportions_of
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing import decompose_object, summary
+from ..current_file import has_shape
 from ..read.load import LoadedFile
 from ..screen import Screen, progress_title
 from .results import ObjectResult
@@ -33,7 +33,7 @@ def decompose_objects(
     done: dict[bpy.types.ID, tuple[bpy.types.Object, ObjectResult]] = {}
     results = []
     for place, obj in enumerate(loaded.objects, start=1):
-        if not (is_cloud(obj) or obj.data.polygons):
+        if not has_shape(obj):
             note = "It has no faces and was left as it is."
             result = ObjectResult(obj.name_full, notes=(note,))
         elif obj.data in done:
