@@ -9,7 +9,7 @@ import bpy
 
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
-from ..stored.record import identities_of, record_of, write_record
+from ..stored.record import identities_of, record_of, share_result, write_record
 from ..stored.restore import read_restore, write_restore
 from .materials import discard_unused, is_ours, renamed_material
 
@@ -40,7 +40,19 @@ def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
     entry["name"] = name
     _rename_material(obj, entry, replace(identities_of(record)[index], name=name))
     write_record(obj, record)
+    _tell_sharers(obj, record, index, name)
     return name
+
+
+def _tell_sharers(
+    obj: bpy.types.Object, record: dict[str, Any], index: int, name: str
+) -> None:
+    """Note a part's new name on the other objects that have the mesh and its parts."""
+    for other in bpy.data.objects:
+        shares = other.data == obj.data and other != obj and other.is_editable
+        if shares and index < len(other.wcd_parts):
+            share_result(record, other)
+            other.wcd_parts[index].name = name
 
 
 def _rename_material(

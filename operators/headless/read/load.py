@@ -103,6 +103,7 @@ def _unreadable(path: Path, message: str) -> DecompositionError:
     # Tracebacks of importers in Python end with the place that called bpy.ops.
     lines = [line for line in lines if not line.startswith("Location:")]
     reason = lines[-1].removeprefix("Error: ").rstrip(".") if lines else "no reason"
+    reason = reason.removesuffix(", see console for detail")
     if path.name in reason:  # the reason itself follows the path
         reason = reason.rpartition(": ")[2].strip("'")
         reason = re.sub(rf"\S*{re.escape(path.name)}", f'"{path.name}', reason)

@@ -27,12 +27,17 @@ def number_in_order(objects: Iterable[bpy.types.Object]) -> None:
         if len(group) == 1:
             continue
         group.sort(key=_place)
-        for obj in group:
-            obj.name = "."  # frees the names
-        for number, obj in enumerate(group):
-            obj.name = f"{name}.{number:03d}" if number else name
-            if obj.data and obj.data.users == 1:
-                obj.data.name = obj.name
+        named = [[obj, *_data_of(obj)] for obj in group]
+        for owner in (owner for owners in named for owner in owners):
+            owner.name = "."  # frees the names
+        for number, owners in enumerate(named):
+            for owner in owners:
+                owner.name = f"{name}.{number:03d}" if number else name
+
+
+def _data_of(obj: bpy.types.Object) -> list[bpy.types.ID]:
+    """Return the data of an object, unless it has none or shares it."""
+    return [obj.data] if obj.data and obj.data.users == 1 else []
 
 
 def plain_name(owner: bpy.types.ID) -> str:

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from weak_convex_decomposition.core.steps.progress import Progress
-from weak_convex_decomposition.operators.headless.screen import Screen
+from weak_convex_decomposition.operators.headless.screen import Screen, progress_title
 
 CHECKOUT = Path(__file__).parents[3]
 
@@ -34,6 +34,11 @@ def test_progress_is_sparse_in_a_log():
     for stage in ("Samples", "Sight", "Sight", "Sight"):
         screen.progress("a", Progress(stage, 0.5))
     assert err.getvalue() == "a: Samples (50%)\na: Sight (50%)\n"
+
+
+def test_progress_says_which_object_of_many_it_is():
+    assert progress_title("a, Ring", 3, 1000) == "a, Ring (object 3 of 1,000)"
+    assert progress_title("a, Ring", 1, 1) == "a, Ring"
 
 
 def test_what_an_encoding_lacks_is_spelled_out():

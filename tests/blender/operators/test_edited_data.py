@@ -35,6 +35,17 @@ def test_a_new_decomposition_keeps_locked_parts(monkey):
     check_in_step(monkey)
 
 
+def test_a_new_name_reaches_the_objects_that_share_the_mesh(monkey):
+    twin, other = monkey.copy(), bpy.data.objects.new("Other", monkey.data)
+    monkey.wcd_parts[1].name = "Ear.L"
+    assert twin.wcd_parts[1].name == record_of(twin)["parts"][1]["name"] == "Ear.L"
+    assert record_of(twin)["parts"] == record_of(monkey)["parts"]
+    assert "wcd" not in other
+    twin.wcd_parts[1].name = "Horn"
+    assert "Horn" in monkey.vertex_groups
+    check_in_step(monkey)
+
+
 def test_without_locks_names_and_colors_begin_anew(monkey):
     monkey.wcd_parts[0].name = "Left"
     bpy.ops.wcd.decompose(**FAST, parts=2)
