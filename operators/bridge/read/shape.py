@@ -103,16 +103,28 @@ def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
         If a factor of their scales is zero or not finite.
     """
     factors, others = stretch(obj), stretch(other)
-    return np.allclose(factors / factors.max(), others / others.max(), _SAME_SCALE)
+    return np.allclose(factors / factors.max(), others / others.max(), _SAME_SCALE, 0.0)
 
 
-def have_equal_shapes(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
+def have_equal_shapes(
+    obj: bpy.types.Object, other: bpy.types.Object, of_equal_size: bool = False
+) -> bool:
     """Return whether `read_shape` gives the same for two objects.
+
+    Parameters
+    ----------
+    obj, other : bpy.types.Object
+    of_equal_size : bool, optional
+        Whether they must have the same size in the scene, too.
 
     Raises
     ------
     DecompositionError
         If a factor of their scales is zero or not finite.
     """
-    same_data = obj.data == other.data
-    return same_data and np.allclose(stretch(obj), stretch(other), _SAME_SCALE)
+    if obj.data != other.data:
+        return False
+    factors, others = stretch(obj), stretch(other)
+    if of_equal_size:
+        factors, others = (np.abs(o.matrix_world.to_scale()) for o in (obj, other))
+    return np.allclose(factors, others, _SAME_SCALE, 0.0)

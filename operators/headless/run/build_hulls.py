@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import bpy
 
 from ....core.errors import DecompositionError
+from ....core.parameters.hulls import HullParameters
 from ....core.results import HullDecomposition
 from ...bridge.hulls.hull_objects import write_hulls
 from ...bridge.read.shape import have_equal_shapes
@@ -66,6 +67,12 @@ class _Built:
     hulls: list[bpy.types.Object]
 
 
+def _serves(built: _Built, obj: bpy.types.Object, parameters: HullParameters) -> bool:
+    """Return whether an object gets hulls that were built for another one."""
+    in_lengths = getattr(parameters, "error_unit", "RELATIVE") == "SCENE"
+    return have_equal_shapes(built.owner, obj, in_lengths)
+
+
 def with_hull_records(
     objects: Sequence[bpy.types.Object], results: Sequence[ObjectResult]
 ) -> tuple[ObjectResult, ...]:
@@ -90,9 +97,7 @@ def _hulls_of(
     title = f"{obj.name_full}, hulls"
     parameters = request.hull_parameters
     try:
-        built = next(
-            (each for each in known if have_equal_shapes(each.owner, obj)), None
-        )
+        built = next((each for each in known if _serves(each, obj, parameters)), None)
         if built is None:
             steps = build_hulls_of(obj, request.parameters, parameters)
             found = screen.follow(progress_title(title, *place), steps)
