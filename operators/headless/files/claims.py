@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ....core.errors import DecompositionError
 from ..atomic import is_stream
-from ..formats import FOLDER_ENDINGS
+from ..formats import SIMULATOR_ENDINGS
 from .output_folders import folder_of, owned_names
 
 _MATERIALS_LINE = re.compile(rb"^mtllib (.+?)\r?$", re.MULTILINE)
@@ -26,7 +26,7 @@ def companion_of(path: Path, is_model: bool) -> Path | None:
         Whether it is a model; hulls have no materials.
     """
     ending = path.suffix.lower()
-    if ending in FOLDER_ENDINGS:
+    if ending in SIMULATOR_ENDINGS:
         return folder_of(path)
     return path.with_suffix(".mtl") if is_model and ending == ".obj" else None
 
@@ -41,7 +41,7 @@ def check_companion(path: Path, companion: Path) -> None:
     DecompositionError
         If something of the user's would be lost.
     """
-    if path.suffix.lower() in FOLDER_ENDINGS:
+    if path.suffix.lower() in SIMULATOR_ENDINGS:
         owned_names(path)
         return
     if not companion.exists():

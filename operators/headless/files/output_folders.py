@@ -1,8 +1,8 @@
 """Folders of meshes beside .urdf and .xml files: whose they are, and what is ours.
 
 `replacing_with_folder` gives a place for the file and for its meshes, and puts both in
-place of the old ones. The folder of z.urdf is z_urdf. A manifest in it tells which files
-we wrote: these alone are ever replaced or removed.
+place of the old ones. The folder of z.urdf is z_urdf. A manifest in it tells which
+files we wrote: these alone are ever replaced or removed.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from pathlib import Path
 
 from ....core.errors import DecompositionError
 from ..atomic import replacing
-from .swap import Move
 
 MANIFEST = "wcd_manifest.json"
 # Files of a user with such endings may have a name that we are about to write.
@@ -107,7 +106,8 @@ def _read_manifest(manifest: Path, output: str) -> dict[str, str]:
     try:
         content = json.loads(manifest.read_bytes())
         belongs_to = content["belongs_to"]
-        ours = {str(name): str(each["sha256"]) for name, each in content["files"].items()}
+        listed = content["files"].items()
+        ours = {str(name): str(each["sha256"]) for name, each in listed}
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         belongs_to, ours = None, {}
     if belongs_to != output:

@@ -91,20 +91,26 @@ def _resolved(
 
 def _check_writable(file: Path) -> None:
     """Raise if `file` cannot be created or replaced; its folder may be missing."""
-    with suppress(FileNotFoundError):
+    with suppress(FileNotFoundError, NotADirectoryError):
         file.stat()  # links in a circle, and names that are too long, are errors
     if is_stream(file):
         return
     if file.is_dir():
         raise DecompositionError(f"{file} is a folder; name a file in it.")
-    if file.exists() and not os.access(file, os.W_OK):
+    if file.exists() and not _may(file, os.W_OK):
         raise DecompositionError(f"{file} cannot be written: it is read-only.")
     folder = next(each for each in file.resolve().parents if each.exists())
     if not folder.is_dir():
         raise DecompositionError(
             f"{file} cannot be written: {folder} is a file, not a folder."
         )
-    if not os.access(folder, os.W_OK | os.X_OK):
+    if not _may(folder, os.W_OK | os.X_OK):
         raise DecompositionError(
             f"{file} cannot be written: the folder {folder} is read-only."
         )
+
+
+def _may(path: Path, mode: int) -> bool:
+    """Return whether this process has rights to a path."""
+    effective = os.access in os.supports_effective_ids
+    return os.access(path, mode, effective_ids=effective)

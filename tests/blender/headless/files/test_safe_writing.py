@@ -10,6 +10,7 @@ from pathlib import Path
 
 import bpy
 import pytest
+from command import QUICK, content
 from full_disk import file_limit, full_disk
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.atomic import replacing
@@ -18,7 +19,6 @@ from weak_convex_decomposition.operators.headless.files.swap import Move, swap
 from weak_convex_decomposition.operators.headless.files.whole import check_whole
 from weak_convex_decomposition.operators.headless.write.picture import save_picture
 
-QUICK = ["--samples=100", "--parts=2", "--max-hulls=3", "--quiet"]
 OPTIONS = {
     "output": (".blend", ".glb", ".ply", ".obj"),
     "hulls": (".glb", ".obj", ".stl", ".usd", ".urdf", ".xml"),
@@ -41,13 +41,7 @@ def model(tmp_path):
 
 
 def run(*arguments):
-    return main([str(argument) for argument in (*arguments, *QUICK)])
-
-
-def content(folder):
-    """Return the bytes of all files in a folder, by path."""
-    files = (file for file in folder.rglob("*") if file.is_file())
-    return {str(file.relative_to(folder)): file.read_bytes() for file in files}
+    return main([str(argument) for argument in (*arguments, *QUICK, "--quiet")])
 
 
 @pytest.mark.parametrize(("option", "ending"), CASES)
