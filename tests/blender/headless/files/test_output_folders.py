@@ -2,27 +2,13 @@
 
 import json
 
-import bpy
 import pytest
-from command import QUICK, content
+from command import content
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.files.output_folders import (
     MANIFEST,
     replacing_with_folder,
 )
-
-
-@pytest.fixture
-def model(tmp_path):
-    bpy.ops.mesh.primitive_monkey_add()
-    (tmp_path / "in").mkdir()
-    bpy.ops.wm.ply_export(filepath=str(tmp_path / "in" / "monkey.ply"))
-    return tmp_path / "in" / "monkey.ply"
-
-
-def run(*arguments):
-    return main([str(argument) for argument in (*arguments, *QUICK, "--quiet")])
 
 
 def write(path, **meshes):
@@ -33,7 +19,7 @@ def write(path, **meshes):
             (folder / f"{name}.obj").write_text(f"{text}\n")
 
 
-def test_two_simulator_files_have_folders_of_their_own(tmp_path, model):
+def test_two_simulator_files_have_folders_of_their_own(tmp_path, model, run):
     assert run(model, "--hulls", tmp_path / "z.urdf") == 0
     robot = content(tmp_path)
     assert run(model, "--hulls", tmp_path / "z.xml", "--max-hulls=2") == 0
@@ -78,7 +64,7 @@ def test_fewer_meshes_replace_more_and_notes_stay(tmp_path):
     ],
 )
 def test_what_is_the_users_is_refused_beforehand(
-    tmp_path, model, capfd, change, sentence
+    tmp_path, model, capfd, change, sentence, run
 ):
     write(tmp_path / "z.urdf", **{"001": "a", "002": "b"})
     change(tmp_path / "z_urdf")
@@ -92,7 +78,7 @@ def test_what_is_the_users_is_refused_beforehand(
     assert content(tmp_path) == before
 
 
-def test_a_folder_of_the_users_is_refused(tmp_path, model, capfd):
+def test_a_folder_of_the_users_is_refused(tmp_path, model, capfd, run):
     (tmp_path / "z_xml").mkdir()
     (tmp_path / "z_xml" / "001.obj").write_text("mine")
     assert run(model, "--hulls", tmp_path / "z.xml") == 2
@@ -139,7 +125,7 @@ def test_a_failure_leaves_file_and_folder(tmp_path):
         assert content(tmp_path) == before
 
 
-def test_outputs_that_collide_are_refused(tmp_path, model, capfd):
+def test_outputs_that_collide_are_refused(tmp_path, model, capfd, run):
     (tmp_path / "link.json").symlink_to(tmp_path / "r.glb")
     cases = [
         (("--output={}/a.glb", "--hulls={}/A.GLB"), "differ in upper and lower case"),
@@ -148,8 +134,8 @@ def test_outputs_that_collide_are_refused(tmp_path, model, capfd):
         (("--hulls={}/z.xml", "--report={}/z_xml"), "would be written twice"),
         (("--hulls={}/z.xml", "--output={}/Z_xml/001.obj"), "is in {}/z_xml, which"),
         (("--hulls={}/z.xml", "--report={}/z.xml/r.json"), "is in {}/z.xml, which"),
-        (("--hulls={}/in/monkey.ply/z.xml",), "monkey.ply is a file, not a folder"),
-        (("--output={}/in/../in/monkey.ply",), "is an input, too"),
+        (("--hulls={}/in/ring.ply/z.xml",), "ring.ply is a file, not a folder"),
+        (("--output={}/in/../in/ring.ply",), "is an input, too"),
     ]
     before = content(tmp_path)
     for options, sentence in cases:
@@ -159,7 +145,7 @@ def test_outputs_that_collide_are_refused(tmp_path, model, capfd):
     assert content(tmp_path) == before
 
 
-def test_an_input_in_a_folder_that_is_replaced(tmp_path, model, capfd):
+def test_an_input_in_a_folder_that_is_replaced(tmp_path, model, capfd, run):
     write(tmp_path / "z.urdf", a="v 0 0 0")
     words = [tmp_path / "z_urdf" / "a.obj", "--hulls", tmp_path / "z.urdf"]
     assert run(*words) == 2
