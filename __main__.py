@@ -5,15 +5,41 @@ INPUT …`; in the folder of a checkout, `python . INPUT …`. All need the modu
 """
 
 import os
-import shutil
+import signal
 import sys
-from importlib import import_module
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
-from types import ModuleType
-from typing import NoReturn
 
 _PACKAGE = "weak_convex_decomposition"
+_INTERRUPTED = 130  # what shells report after Ctrl-C
+
+
+def _end_at_once(number: int, frame: object) -> None:
+    """End a program that is only starting, and has written nothing.
+
+    An exception would not do: what is being imported may catch it or print it.
+    """
+    os.write(2, b"error: Interrupted.\n")
+    _end(_INTERRUPTED)
+
+
+def _end(status: int) -> None:
+    """End the process without the steps of Python and Blender for that."""
+    bpy = sys.modules.get("bpy")
+    folder = getattr(getattr(bpy, "app", None), "tempdir", "")
+    if folder:  # Blender removes it when it shuts down
+        from shutil import rmtree
+
+        rmtree(folder, ignore_errors=True)
+    os._exit(status)
+
+
+def _on_interrupts(handler: object) -> None:
+    """Set what Ctrl-C and a request to end do; what is ignored stays so."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, handler)
+
+
+_on_interrupts(_end_at_once)  # before all imports that take time
 
 
 def main(program: str) -> int:
@@ -29,6 +55,8 @@ def main(program: str) -> int:
     int
         Exit status; 2 if the module bpy is missing.
     """
+    from importlib import import_module
+
     try:
         import_module("bpy")  # first, because it provides mathutils
     except ModuleNotFoundError:
@@ -43,23 +71,28 @@ def main(program: str) -> int:
     package.register()
     command_line = import_module(".operators.headless.command_line", package.__name__)
     status = command_line.main(sys.argv[1:], program=program)
+    _on_interrupts(signal.SIG_IGN)  # all is done
     package.unregister()
     return status
 
 
-def _checkout() -> ModuleType:
+def _checkout() -> object:
     """Load this folder as the package, whatever the folder's name."""
-    root = Path(__file__).resolve().parent
+    from importlib.util import module_from_spec, spec_from_file_location
+
+    root = os.path.dirname(os.path.realpath(__file__))
     spec = spec_from_file_location(
-        _PACKAGE, root / "__init__.py", submodule_search_locations=[str(root)]
+        _PACKAGE, os.path.join(root, "__init__.py"), submodule_search_locations=[root]
     )
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{root} cannot be loaded")
     package = module_from_spec(spec)
     sys.modules[_PACKAGE] = package
     spec.loader.exec_module(package)
     return package
 
 
-def leave(status: int) -> NoReturn:
+def leave(status: int) -> None:
     """End the process with `status`, without shutting down the interpreter.
 
     The bpy wheel of Blender 4.2 may crash when the interpreter shuts down, for example
@@ -70,15 +103,12 @@ def leave(status: int) -> NoReturn:
     status : int
         Exit status.
     """
-    bpy = sys.modules.get("bpy")
-    if bpy is not None:
-        shutil.rmtree(bpy.app.tempdir, ignore_errors=True)  # Blender removes it at exit
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(status)
+    _end(status)
 
 
-def wcd() -> NoReturn:
+def wcd() -> None:
     """Run the command `wcd`, which pip installs, and end the process."""
     leave(main("wcd"))
 

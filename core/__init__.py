@@ -7,6 +7,8 @@ second to import, and enabling the add-on must not wait for them.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .errors import missing_library
+
 if TYPE_CHECKING:
     from .cache import ShapeCache as ShapeCache
     from .clouds.splats import thinned_splats as thinned_splats
@@ -50,9 +52,16 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    """Import the module that defines `name`, and return the object of that name."""
+    """Import the module that defines `name`, and return the object of that name.
+
+    A library that is missing is an error for the user, as in Blender from pip.
+    """
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    try:
+        module = import_module(f".{_HOMES[name]}", __name__)
+    except ImportError as error:
+        raise missing_library(error) from error
+    value = getattr(module, name)
     globals()[name] = value
     return value

@@ -2,32 +2,129 @@
 
 from __future__ import annotations
 
-import os
+import re
+import shutil
+import stat
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ...core.errors import DecompositionError
+from .files.swap import Move, swap
+from .files.whole import check_whole, raise_cause
+
+# Paths that stand for an open stream, whatever they are when they are looked at.
+_STREAMS = ("/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/")
+# What Python and Blender put before the cause, and what comes after it.
+_NOISE = re.compile(r"^(Error: |\w*Error: |\[Errno \d+\] )+|: '[^']*'$|\.$")
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """Give the path of a new file beside `path`; rename it to `path` at the end.
+def replacing(
+    path: Path,
+    *companions: Path,
+    owned: Callable[[], frozenset[str]] = frozenset,
+) -> Iterator[Path]:
+    """Give the path of a new file; put that in the place of `path` if it is whole.
 
-    If the block raises, the new file is removed and `path` stays as it was. If `path`
-    is a link, the file that it points to is replaced.
+    The new file has the name of `path` and is in a folder of its own until then. If
+    the block raises, or the file is not whole, everything stays as it was. Folders
+    that are missing are made. Links stay: what they point to is replaced. A pipe or a
+    device is written to.
+
+    Parameters
+    ----------
+    path : Path
+    *companions : Path
+        Files or folders that the block may write beside the new file, under their own
+        names. All are replaced together.
+    owned : callable, optional
+        Returns the names in an old folder that are ours and may go. It is called when
+        all is written, and may raise.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written, or is not whole.
     """
-    path = path.resolve()
-    handle, name = tempfile.mkstemp(prefix=".wcd-", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    unfinished = Path(name)
-    unfinished.unlink()  # some exporters ask before they overwrite
+    stream = is_stream(path)
+    goals = [_goal(each) for each in companions]
+    goals += [] if stream else [_goal(path)]
+    with _new_folders(goals), _stage(goals[-1] if goals else None) as stage:
+        unfinished = stage / path.name
+        try:
+            yield unfinished
+        except RuntimeError:  # of Blender, which often does not know why
+            raise_cause(unfinished)
+            raise
+        made = [stage / each.name for each in companions] + [unfinished]
+        _check_all(unfinished, made)
+        names = owned()
+        swap(
+            [
+                Move(new, goal, names)
+                for new, goal in zip(made, goals, strict=False)
+                if new.exists()
+            ]
+        )
+        if stream:
+            with unfinished.open("rb") as new, path.open("wb") as old:
+                shutil.copyfileobj(new, old)
+
+
+def _check_all(unfinished: Path, made: list[Path]) -> None:
+    """Check that all new files are whole; those of a folder, too."""
+    check_whole(unfinished)
+    for each in made:
+        for file in (each, *each.rglob("*")):
+            if file.is_file() and file != unfinished:
+                check_whole(file)
+
+
+def _goal(path: Path) -> Path:
+    """Return what `path` stands for, with links followed; it may be missing."""
+    with suppress(FileNotFoundError):
+        path.stat()  # links in a circle are an error
+    return path.resolve()
+
+
+def is_stream(path: Path) -> bool:
+    """Return whether `path` is written to, not replaced: a pipe, a device, a stream."""
+    if str(path.absolute()).startswith(_STREAMS):
+        return True
     try:
-        yield unfinished
-        unfinished.replace(path)
+        mode = path.stat().st_mode
+    except OSError:
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+@contextmanager
+def _new_folders(goals: list[Path]) -> Iterator[None]:
+    """Make the folders of `goals`; remove those that are new if the block fails."""
+    made: list[Path] = []
+    try:
+        for goal in goals:
+            missing = [each for each in goal.parents if not each.exists()]
+            made = [*missing, *made]  # the innermost first
+            goal.parent.mkdir(parents=True, exist_ok=True)
+        yield
+    except BaseException:
+        for folder in made:
+            with suppress(OSError):  # somebody else may use it by now
+                folder.rmdir()
+        raise
+
+
+@contextmanager
+def _stage(goal: Path | None) -> Iterator[Path]:
+    """Make a folder beside `goal`, on its disk; remove it at the end."""
+    folder = Path(tempfile.mkdtemp(prefix=".wcd-", dir=goal.parent if goal else None))
+    try:
+        yield folder
     finally:
-        unfinished.unlink(missing_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextmanager
@@ -43,6 +140,15 @@ def explaining(path: Path, action: str) -> Iterator[None]:
         yield
     except (RuntimeError, OSError) as error:
         # The text of an OSError would name the unfinished file.
-        reason = getattr(error, "strerror", None) or str(error)
-        reason = reason.strip().splitlines()[-1].removeprefix("Error: ")
+        reason = getattr(error, "strerror", None) or _last_reason(str(error))
         raise DecompositionError(f"{path} cannot be {action} ({reason}).") from error
+
+
+def _last_reason(text: str) -> str:
+    """Return the cause in the text of one of Blender's errors.
+
+    Operators in Python give a traceback, and after it the place that called them.
+    """
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    lines = [line for line in lines if not line.startswith("Location:")]
+    return _NOISE.sub("", lines[-1]) if lines else "Blender gives no reason"

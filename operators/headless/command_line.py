@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import sys
-from contextlib import closing
+from contextlib import closing, suppress
 from typing import Any
 
 import bpy
 
+from ...core.errors import DecompositionError
+from ...core.steps.progress import run
+from ..bridge.work.libraries import load_libraries
+from .interrupts import interruptible
 from .report import save_report
 from .request.options import Request, parse
+from .request.outputs import STANDARD_STREAM
 from .run.attempts import Attempts
 from .run.decompose_file import decompose_file
 from .run.results import InputResult
@@ -18,6 +23,7 @@ from .write.render_engine import EngineTrial
 
 _COMMAND = "wcd"
 _FAILED = 1
+_NOTHING_DONE = 2
 _INTERRUPTED = 130  # what shells report after Ctrl-C
 
 # Blender's handle of our command; `unregister` needs it.
@@ -49,15 +55,20 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
     -------
     int
         Exit status: 0 if everything was done, 1 if something failed and the rest was
-        done, or if nothing can be printed any more, 2 if the arguments are wrong, 130
-        after Ctrl-C.
+        done, or if nothing can be printed any more, 2 if the arguments are wrong or
+        SciPy is missing, 130 after Ctrl-C.
     """
     open_closed_streams()
     try:
-        return _run(arguments, program)
+        with interruptible():
+            return _run(arguments, program)
     except StreamError as error:
         stop_printing(error)
         return _FAILED
+    except KeyboardInterrupt:
+        with suppress(StreamError):
+            write(sys.stderr, "error: Interrupted.\n")
+        return _INTERRUPTED
 
 
 def _run(arguments: list[str], program: str) -> int:
@@ -67,26 +78,36 @@ def _run(arguments: list[str], program: str) -> int:
     except SystemExit as stop:  # from argparse: --help, --version or wrong usage
         write(sys.stdout, "")  # flush the help
         return int(stop.code or 0)
-    screen = Screen(sys.stdout, sys.stderr, request.quiet)
+    report_is_printed = request.report == STANDARD_STREAM
+    out = sys.stderr if report_is_printed else sys.stdout
+    screen = Screen(out, sys.stderr, request.quiet)
+    results: list[InputResult] = []
+    interrupted = False
     try:
-        results = _decompose_files(request, screen)
+        run(load_libraries())
+        _decompose_files(request, screen, results)
+    except DecompositionError as error:  # a library is missing
+        screen.error(str(error))
+        return _NOTHING_DONE
     except KeyboardInterrupt:
         screen.error("Interrupted.")
-        return _INTERRUPTED
+        interrupted = True
+    left = request.inputs[len(results) :]
     attempts = Attempts(screen)
     attempts.written(
-        request.report, lambda file: save_report(file, results, request.parameters)
+        request.report,
+        lambda file: save_report(file, results, request.parameters, left),
     )
     failed = attempts.errors or any(result.failed for result in results)
-    return _FAILED if failed else 0
+    return _INTERRUPTED if interrupted else _FAILED if failed else 0
 
 
-def _decompose_files(request: Request, screen: Screen) -> list[InputResult]:
-    """Decompose all inputs, one after the other."""
+def _decompose_files(
+    request: Request, screen: Screen, results: list[InputResult]
+) -> None:
+    """Decompose all inputs, one after the other; add what became of each."""
     with closing(EngineTrial()) as trial:
         if any(targets.picture for targets in request.targets):
             trial.start()  # it runs while the first input is decomposed
-        return [
-            decompose_file(path, targets, request, trial, screen)
-            for path, targets in zip(request.inputs, request.targets, strict=True)
-        ]
+        for path, targets in zip(request.inputs, request.targets, strict=True):
+            results.append(decompose_file(path, targets, request, trial, screen))

@@ -34,6 +34,8 @@ HULL_FORMATS = {
     "mjcf": ".xml",
 }
 HULL_ENDINGS = tuple(HULL_FORMATS.values())
+# Hull files with masses, whose meshes lie in a folder beside them.
+SIMULATOR_ENDINGS = (".urdf", ".xml")
 
 # The usual up axis of mesh formats whose files do not state one.
 USUAL_UP = {".obj": "Y", ".off": "Y", ".ply": "Z", ".stl": "Z"}

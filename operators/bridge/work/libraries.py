@@ -8,12 +8,14 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any, TypeVar
 
+from ....core.errors import missing_library
 from ....core.steps.progress import Progress, Steps
 
 Result = TypeVar("Result")  # of any kind that has notes
 
 # In the order in which they import one another.
 _LIBRARIES = (
+    "threadpoolctl",
     "scipy.linalg",
     "scipy.spatial",
     "scipy.optimize",
@@ -28,11 +30,19 @@ def load_libraries() -> Steps[None]:
     """Load the libraries of the core, one per step, so that the window responds.
 
     They take a second to load, which enabling the extension must not.
+
+    Raises
+    ------
+    DecompositionError
+        If one is missing, as in a plain Blender from pip, or broken.
     """
     for name in _LIBRARIES:
         if name not in sys.modules:
             yield Progress("Libraries", 0.0)
-            import_module(name)
+            try:
+                import_module(name)
+            except ImportError as error:
+                raise missing_library(error) from error
 
 
 def with_libraries(notes: Iterable[str], steps: Steps[Result]) -> Steps[Result]:

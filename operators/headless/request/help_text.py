@@ -32,9 +32,15 @@ formats of HULLS ({" ".join(HULL_ENDINGS)}):
   .glb .obj .usd  one object for each hull
   .stl            all hulls in one mesh
   .urdf .xml      for simulators (.xml is MuJoCo's MJCF); each hull is an .obj file in
-                  the folder HULLS_hulls beside it
+                  a folder beside it: z_urdf for z.urdf
+
+files that exist:
+  They are replaced once the new ones are complete. Links are followed; pipes and
+  devices are written to. Missing folders are made. In the folder of a simulator file
+  only files that this program wrote are replaced or removed.
 
 exit status:
   0  everything was done
   1  something failed; the rest was done
-  2  the options are wrong; nothing was done"""
+  2  the options are wrong; nothing was done
+  130  interrupted; the report tells of what was finished"""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
@@ -15,10 +15,19 @@ from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ...bridge.stored.notes import version
 from ..formats import HULL_FORMATS
 from .help_text import DESCRIPTION, EPILOG
+from .input_list import all_inputs
 from .outputs import Targets, targets_for
 from .parameter_options import HelpFormatter, add_option
 
 _DEFAULT_PRESET = PRESETS[0].identifier
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong with the arguments in two lines, without the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        """Show an error and end with status 2."""
+        self.exit(2, f"error: {message}\nAll options: {self.prog} --help\n")
 
 
 @dataclass(frozen=True)
@@ -31,6 +40,7 @@ class Request:
     targets : tuple of Targets
         The files to write for each input.
     report : Path or None
+        ``-`` is standard output.
     up : {'Y', 'Z'} or None
         Axis that points up in the inputs; None for the usual one of each format.
     apply_modifiers : bool
@@ -69,10 +79,11 @@ def parse(arguments: list[str], program: str) -> Request:
     options = parser.parse_args(arguments)
     chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
     try:
+        inputs = all_inputs(options.inputs)
         return Request(
-            inputs=tuple(options.inputs),
+            inputs=inputs,
             targets=targets_for(
-                options.inputs,
+                inputs,
                 options.output,
                 options.picture,
                 options.report,
@@ -107,9 +118,9 @@ def _hull_file(hulls: str | None, hulls_format: str | None) -> str | None:
     return hulls if hulls.lower().endswith(ending) else hulls + ending
 
 
-def _parser(program: str) -> argparse.ArgumentParser:
+def _parser(program: str) -> _Parser:
     """Return the parser of the command line."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog=program,
         usage="%(prog)s INPUT [INPUT ...] [options]",
         description=DESCRIPTION,
@@ -133,7 +144,11 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
     """Add the inputs and the files to write."""
     files = parser.add_argument_group("files")
     files.add_argument(
-        "inputs", metavar="INPUT", nargs="+", type=Path, help="models to decompose"
+        "inputs",
+        metavar="INPUT",
+        nargs="+",
+        type=Path,
+        help="models to decompose; - reads their paths from standard input, one a line",
     )
     files.add_argument(
         "--output", metavar="OUTPUT", help="write the model with its parts"
@@ -158,7 +173,7 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
         metavar="FILE.json",
         type=Path,
         help="write the parameters and the parts with their areas and convexity ranks"
-        " as JSON",
+        " as JSON; - prints it to standard output, and results to standard error",
     )
     files.add_argument(
         "--up",

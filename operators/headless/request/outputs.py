@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..atomic import explaining
+from ..atomic import explaining, is_stream
+from ..files.claims import check_companion, check_distinct, companion_of
 from ..formats import HULL_ENDINGS, MODEL_ENDINGS, PICTURE_ENDINGS
 
 _NAME = "{name}"
+# Standard input among the inputs, standard output for the report.
+STANDARD_STREAM = Path("-")
 
 
 @dataclass(frozen=True)
@@ -49,15 +53,20 @@ def targets_for(
     pictures = _resolved(inputs, picture, "--picture", PICTURE_ENDINGS)
     hull_files = _resolved(inputs, hulls, "--hulls", HULL_ENDINGS)
     files = [file for file in (*outputs, *pictures, *hull_files, report) if file]
-    files += [
-        file.with_suffix(".mtl")  # written beside the .obj file
-        for file in outputs
-        if file and file.suffix.lower() == ".obj"
-    ]
+    files = [file for file in files if file != STANDARD_STREAM]
+    companions = {
+        file: companion
+        for some, is_model in ((outputs, True), (hull_files, False))
+        for file in some
+        if file and (companion := companion_of(file, is_model))
+    }
     for file in files:
         with explaining(file, "written"):
             _check_writable(file)
-    _check_distinct(files, inputs)
+    check_distinct([*files, *companions.values()], inputs)
+    for file, companion in companions.items():
+        with explaining(companion, "written"):
+            check_companion(file, companion)
     return tuple(map(Targets, outputs, pictures, hull_files))
 
 
@@ -81,36 +90,27 @@ def _resolved(
 
 
 def _check_writable(file: Path) -> None:
-    """Raise if `file` cannot be created or replaced."""
+    """Raise if `file` cannot be created or replaced; its folder may be missing."""
+    with suppress(FileNotFoundError, NotADirectoryError):
+        file.stat()  # links in a circle, and names that are too long, are errors
+    if is_stream(file):
+        return
     if file.is_dir():
         raise DecompositionError(f"{file} is a folder; name a file in it.")
-    if file.exists() and not file.is_file():
-        raise DecompositionError(
-            f"{file} is a device or a pipe; name a file that can be replaced."
-        )
-    folder = file.resolve().parent  # links are followed
+    if file.exists() and not _may(file, os.W_OK):
+        raise DecompositionError(f"{file} cannot be written: it is read-only.")
+    folder = next(each for each in file.resolve().parents if each.exists())
     if not folder.is_dir():
         raise DecompositionError(
-            f"{file} cannot be written: there is no folder {folder}."
+            f"{file} cannot be written: {folder} is a file, not a folder."
         )
-    if not os.access(folder, os.W_OK):
+    if not _may(folder, os.W_OK | os.X_OK):
         raise DecompositionError(
             f"{file} cannot be written: the folder {folder} is read-only."
         )
 
 
-def _check_distinct(files: Sequence[Path], inputs: Sequence[Path]) -> None:
-    """Raise if a file would be written twice, or over an input."""
-    seen: set[Path] = set()
-    read = {path.resolve() for path in inputs}
-    for file in files:
-        if file.resolve() in read:
-            raise DecompositionError(
-                f"{file} is an input, too; give the output another name."
-            )
-        if file.resolve() in seen:
-            raise DecompositionError(
-                f"{file} would be written twice; give inputs and outputs distinct"
-                " names."
-            )
-        seen.add(file.resolve())
+def _may(path: Path, mode: int) -> bool:
+    """Return whether this process has rights to a path."""
+    effective = os.access in os.supports_effective_ids
+    return os.access(path, mode, effective_ids=effective)

@@ -8,6 +8,8 @@ from pathlib import Path
 import bpy
 
 from ..atomic import explaining, replacing
+from ..files.output_folders import replacing_with_folder
+from ..files.whole import check_obj
 from ..formats import axes
 from ..quiet import quiet_blender
 from .collider_marks import mark_glb, mark_usd
@@ -18,7 +20,7 @@ def save_hulls(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
     """Write hulls to `path` in the format of its ending.
 
     For simulators each hull becomes an .obj file in a folder beside `path`, and
-    `path` refers to them.
+    `path` refers to them. The folder is that of `replacing_with_folder`.
 
     Parameters
     ----------
@@ -35,12 +37,14 @@ def save_hulls(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
     """
     ending = path.suffix.lower()
     bpy.context.view_layer.update()
-    with explaining(path, "written"), replacing(path) as unfinished:
+    with explaining(path, "written"):
         if ending in _SIMULATORS:
-            meshes = _save_each(hulls, path.with_name(f"{path.stem}_hulls"))
-            _SIMULATORS[ending](unfinished, path.stem, meshes)
+            with replacing_with_folder(path) as (unfinished, folder):
+                meshes = _save_each(hulls, folder)
+                _SIMULATORS[ending](unfinished, path.stem, meshes)
         else:
-            _export(_EXPORTERS[ending], unfinished, hulls, up)
+            with replacing(path) as unfinished:
+                _export(_EXPORTERS[ending], unfinished, hulls, up)
 
 
 def _save_each(hulls: Sequence[bpy.types.Object], folder: Path) -> dict[str, str]:
@@ -49,7 +53,6 @@ def _save_each(hulls: Sequence[bpy.types.Object], folder: Path) -> dict[str, str
     Z is up, as in simulators. The files are numbered: the name of an object may
     contain characters that the name of a file may not.
     """
-    folder.mkdir(exist_ok=True)
     files = {}
     for number, hull in enumerate(hulls, start=1):
         file = folder / f"{number:03d}.obj"
@@ -94,6 +97,8 @@ def _obj(path: Path, up: str) -> None:
         export_uv=False,
         **axes(up),
     )
+    hulls = bpy.context.selected_objects
+    check_obj(path, sum(len(hull.data.polygons) for hull in hulls))
 
 
 def _stl(path: Path, up: str) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import bpy
 
 from ..atomic import explaining, replacing
+from ..files.claims import check_companion, companion_of
+from ..files.whole import check_obj
 from ..formats import USUAL_UP, axes
 from ..quiet import quiet_blender
 from .ply_copies import ply_copies
@@ -32,22 +33,13 @@ def save(path: Path, up: str | None) -> None:
         If the file cannot be written.
     """
     ending = path.suffix.lower()
-    with explaining(path, "written"), replacing(path) as unfinished:
-        with quiet_blender():
+    companion = companion_of(path, is_model=True)
+    companions = [companion] if companion else []
+    with explaining(path, "written"):
+        if companion:
+            check_companion(path, companion)
+        with replacing(path, *companions) as unfinished, quiet_blender():
             _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
-        if ending == ".obj":
-            _move_materials(unfinished, path)
-
-
-def _move_materials(unfinished: Path, path: Path) -> None:
-    """Give the .mtl file of an .obj file its final name, also inside the .obj file."""
-    materials = unfinished.with_suffix(".mtl")
-    final = path.with_suffix(".mtl")
-    text = unfinished.read_bytes()
-    old, new = (f"mtllib {p.name}".encode() for p in (materials, final))
-    unfinished.write_bytes(text.replace(old, new, 1))
-    with replacing(final) as target:  # perhaps on another disk, by a link
-        shutil.move(materials, target)
 
 
 def _blend(path: Path, _up: str) -> None:
@@ -72,6 +64,14 @@ def _obj(path: Path, up: str) -> None:
         export_material_groups=True,
         **axes(up),
     )
+    # Others than these are written too, such as curves.
+    check_obj(path, sum(len(obj.data.polygons) for obj in _visible_meshes()))
+
+
+def _visible_meshes() -> list[bpy.types.Object]:
+    """Return the meshes that exporters take."""
+    objects = bpy.context.view_layer.objects
+    return [obj for obj in objects if obj.type == "MESH" and obj.visible_get()]
 
 
 def _ply(path: Path, up: str) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..atomic import explaining, replacing
+from ..files.whole import check_whole
 from ..quiet import quiet_blender
 from .picture_scene import aim_camera, face_points, picture_scene, set_up_engine
 from .render_engine import RenderEngine
@@ -71,6 +72,7 @@ def _render(
         for turn in _VIEWS:
             aim_camera(scene, turn, points)
             bpy.ops.render.render(write_still=True, scene=scene.name)
+            check_whole(view)
             views.append(_read_png(view))
         return views
 

@@ -185,6 +185,7 @@ def test_links_stay_and_what_they_point_to_is_replaced(tmp_path, parted):
     for ending in (*MODEL_ENDINGS, ".mtl"):
         (there / f"b{ending}").write_text("earlier")
         (tmp_path / f"a{ending}").symlink_to(there / f"b{ending}")
+    (there / "b.obj").write_text("mtllib a.mtl\n")
     for ending in MODEL_ENDINGS:
         save(tmp_path / f"a{ending}", None)
     for ending in (*MODEL_ENDINGS, ".mtl"):
@@ -201,9 +202,10 @@ def test_errors_name_the_file_that_was_asked_for(tmp_path):
     assert str(caught.value) == f"{path} cannot be written (Permission denied)."
 
 
-def test_a_folder_that_is_gone(tmp_path, parted):
+def test_a_folder_that_cannot_be_made(tmp_path, parted):
+    (tmp_path / "file").write_text("text")
     for ending in MODEL_ENDINGS:
-        path = tmp_path / "gone" / f"a{ending}"
+        path = tmp_path / "file" / f"a{ending}"
         with pytest.raises(DecompositionError, match=rf"a\{ending} cannot be written"):
             save(path, None)
 

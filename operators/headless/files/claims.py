@@ -1,0 +1,109 @@
+"""What an output writes beside itself, and what it must not be written over."""
+
+from __future__ import annotations
+
+import os
+import re
+import unicodedata
+from collections.abc import Sequence
+from pathlib import Path
+
+from ....core.errors import DecompositionError
+from ..atomic import is_stream
+from ..formats import SIMULATOR_ENDINGS
+from .output_folders import folder_of, owned_names
+
+_MATERIALS_LINE = re.compile(rb"^mtllib (.+?)\r?$", re.MULTILINE)
+
+
+def companion_of(path: Path, is_model: bool) -> Path | None:
+    """Return the file or folder that is written beside `path`, None if there is none.
+
+    Parameters
+    ----------
+    path : Path
+    is_model : bool
+        Whether it is a model; hulls have no materials.
+    """
+    ending = path.suffix.lower()
+    if ending in SIMULATOR_ENDINGS:
+        return folder_of(path)
+    return path.with_suffix(".mtl") if is_model and ending == ".obj" else None
+
+
+def check_companion(path: Path, companion: Path) -> None:
+    """Check that what is at the place of a companion of `path` is ours to replace.
+
+    An .mtl file is, if the .obj file that is replaced with it names it.
+
+    Raises
+    ------
+    DecompositionError
+        If something of the user's would be lost.
+    """
+    if path.suffix.lower() in SIMULATOR_ENDINGS:
+        owned_names(path)
+        return
+    if not companion.exists():
+        return
+    names = _MATERIALS_LINE.findall(path.read_bytes()) if path.is_file() else []
+    if not companion.is_file() or os.fsencode(companion.name) not in names:
+        raise DecompositionError(
+            f"{companion} does not belong to {path.name}, whose materials would replace"
+            " it; rename one of them."
+        )
+
+
+def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+    """Check that no output is written twice, over an input, or within another.
+
+    Parameters
+    ----------
+    outputs : sequence of Path
+        With their companions.
+    inputs : sequence of Path
+
+    Raises
+    ------
+    DecompositionError
+    """
+    read = {path.resolve() for path in inputs}
+    taken: dict[str, Path] = {}
+    for output in outputs:
+        place = _place(output)
+        if place in read:
+            raise DecompositionError(
+                f"{output} is an input, too; give the output another name."
+            )
+        other = taken.setdefault(_key(place), output)
+        if other is not output:
+            raise DecompositionError(_twice(output, other))
+    for path in (*outputs, *inputs):
+        for folder in _place(path).parents:
+            if _key(folder) in taken:
+                raise DecompositionError(
+                    f"{path} is in {taken[_key(folder)]}, which is written as a whole;"
+                    " choose another place for one of them."
+                )
+
+
+def _place(output: Path) -> Path:
+    """Return where an output is in the end; a stream has no other place."""
+    return output.absolute() if is_stream(output) else output.resolve()
+
+
+def _key(place: Path) -> str:
+    """Return what is equal for paths that some disks take for one."""
+    return unicodedata.normalize("NFC", str(place)).casefold()
+
+
+def _twice(output: Path, other: Path) -> str:
+    """Return the sentence for two outputs in one place."""
+    if _place(output) == _place(other):
+        return (
+            f"{output} would be written twice; give inputs and outputs distinct names."
+        )
+    return (
+        f"{output} and {other} differ in upper and lower case alone, and are one file"
+        " on some disks; give them distinct names."
+    )

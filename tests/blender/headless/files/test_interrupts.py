@@ -1,0 +1,101 @@
+"""Ctrl-C and SIGTERM, at the start and in the middle: what is done is reported."""
+
+import json
+import os
+import shutil
+import signal
+import time
+from pathlib import Path
+
+import bpy
+import pytest
+from command import QUICK, content, start
+from weak_convex_decomposition.operators.headless import command_line
+from weak_convex_decomposition.operators.headless.command_line import main
+
+
+@pytest.fixture
+def model(tmp_path):
+    bpy.ops.mesh.primitive_cube_add()
+    (tmp_path / "in").mkdir()
+    bpy.ops.wm.ply_export(filepath=str(tmp_path / "in" / "a.ply"))
+    for name in ("b", "c"):
+        shutil.copy(tmp_path / "in" / "a.ply", tmp_path / "in" / f"{name}.ply")
+    return tmp_path / "in" / "a.ply"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_report_has_what_was_finished(tmp_path, model, monkeypatch, capfd, number):
+    decompose_file = command_line.decompose_file
+
+    def interrupted(path, *rest):
+        if path.stem == "b":
+            os.kill(os.getpid(), number)
+            time.sleep(10)
+        return decompose_file(path, *rest)
+
+    monkeypatch.setattr(command_line, "decompose_file", interrupted)
+    handlers = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
+    inputs = [str(model.with_stem(name)) for name in "abc"]
+    outputs = ["--output", f"{tmp_path}/{{name}}.glb", "--report", f"{tmp_path}/r.json"]
+    capfd.readouterr()
+    assert main([*inputs, *outputs, *QUICK, "--quiet"]) == 130
+    assert capfd.readouterr().err == "error: Interrupted.\n"
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["interrupted"] is True
+    assert report["not_done"] == inputs[1:]
+    assert [entry["input"] for entry in report["inputs"]] == inputs[:1]
+    assert sorted(content(tmp_path)) == sorted(
+        ["a.glb", "r.json", "in/a.ply", "in/b.ply", "in/c.ply"]
+    )
+    after = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
+    assert after == handlers
+
+
+def test_a_report_of_all_is_not_interrupted(tmp_path, model):
+    report = tmp_path / "r.json"
+    assert main([str(model), "--report", str(report), *QUICK, "--quiet"]) == 0
+    found = json.loads(report.read_text())
+    assert (found["interrupted"], found["not_done"]) == (False, [])
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_while_a_library_is_imported(tmp_path, model, name):
+    """The signal comes exactly there, on every computer."""
+    (tmp_path / "slow").mkdir()
+    (tmp_path / "slow" / "bpy.py").write_text(
+        "import os, signal, time\n"
+        "try:\n"
+        f"    os.kill(os.getpid(), signal.{name})\n"
+        "    time.sleep(10)\n"
+        "except BaseException as error:\n"
+        "    raise ImportError('the interrupt is lost') from error\n"
+    )
+    process = start(model, environment={"PYTHONPATH": str(tmp_path / "slow")})
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (130, "", "error: Interrupted.\n")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_while_blender_is_loaded(tmp_path, model, number):
+    words = [model, "--output", tmp_path / "a.glb", *QUICK, "--quiet"]
+    process = start(*words)
+    while "site-packages/bpy/" not in Path(f"/proc/{process.pid}/maps").read_text():
+        time.sleep(0.005)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (130, "", "error: Interrupted.\n")
+    assert sorted(content(tmp_path)) == ["in/a.ply", "in/b.ply", "in/c.ply"]
+
+
+def test_an_interrupt_that_is_ignored_stays_so(tmp_path, model):
+    words = [model, "--report", tmp_path / "r.json", *QUICK]
+    process = start(
+        *words, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)
+    )
+    while process.poll() is None:
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.1)
+    assert process.returncode == 0, process.communicate()
+    process.communicate()
+    assert (tmp_path / "r.json").exists()

@@ -1,0 +1,152 @@
+"""A folder of meshes belongs to one output, and what is not ours stays."""
+
+import json
+
+import pytest
+from command import content
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.headless.files.output_folders import (
+    MANIFEST,
+    replacing_with_folder,
+)
+
+
+def write(path, **meshes):
+    """Write a file with its folder of meshes."""
+    with replacing_with_folder(path) as (unfinished, folder):
+        unfinished.write_text(f"<robot meshes='{len(meshes)}'/>")
+        for name, text in meshes.items():
+            (folder / f"{name}.obj").write_text(f"{text}\n")
+
+
+def test_two_simulator_files_have_folders_of_their_own(tmp_path, model, run):
+    assert run(model, "--hulls", tmp_path / "z.urdf") == 0
+    robot = content(tmp_path)
+    assert run(model, "--hulls", tmp_path / "z.xml", "--max-hulls=2") == 0
+    both = content(tmp_path)
+    assert robot.items() <= both.items()
+    for name in ("z_urdf", "z_xml"):
+        manifest = json.loads(both[f"{name}/{MANIFEST}"])
+        assert manifest["belongs_to"] == name.replace("_", ".")
+        meshes = {f for f in both if f.startswith(f"{name}/")} - {f"{name}/{MANIFEST}"}
+        assert {f"{name}/{each}" for each in manifest["files"]} == meshes
+        for mesh, entry in manifest["files"].items():
+            assert entry["bytes"] == len(both[f"{name}/{mesh}"])
+            assert f"{name}/{mesh}" in both[name.replace("_", ".")].decode()
+
+
+def test_fewer_meshes_replace_more_and_notes_stay(tmp_path):
+    path = tmp_path / "z.urdf"
+    write(path, a="a", b="b", c="c")
+    (tmp_path / "z_urdf" / "notes.txt").write_text("mine")
+    (tmp_path / "z_urdf" / "more").mkdir()
+    (tmp_path / "z_urdf" / "more" / "a.obj").write_text("mine, too")
+    write(path, a="new")
+    found = content(tmp_path)
+    del found[f"z_urdf/{MANIFEST}"]
+    assert found == {
+        "z.urdf": b"<robot meshes='1'/>",
+        "z_urdf/a.obj": b"new\n",
+        "z_urdf/more/a.obj": b"mine, too",
+        "z_urdf/notes.txt": b"mine",
+    }
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda f: (f / "001.obj").write_text("mine"), "001.obj was changed since"),
+        (lambda f: (f / "mine.OBJ").write_text("mine"), "mine.OBJ was not written by"),
+        (lambda f: (f / MANIFEST).unlink(), "z_urdf was not written by us"),
+        (lambda f: (f / MANIFEST).write_text("{}"), "z_urdf was not written by us"),
+        (lambda f: (f / MANIFEST).write_text("[1"), "z_urdf was not written by us"),
+        (lambda f: f.rename(f.with_name("y_urdf")), "y_urdf belongs to z.urdf"),
+    ],
+)
+def test_what_is_the_users_is_refused_beforehand(
+    tmp_path, model, capfd, change, sentence, run
+):
+    write(tmp_path / "z.urdf", **{"001": "a", "002": "b"})
+    change(tmp_path / "z_urdf")
+    name = "y" if (tmp_path / "y_urdf").exists() else "z"
+    before = content(tmp_path)
+    capfd.readouterr()
+    assert run(model, "--hulls", tmp_path / f"{name}.urdf") == 2
+    error = capfd.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 2
+    assert content(tmp_path) == before
+
+
+def test_a_folder_of_the_users_is_refused(tmp_path, model, capfd, run):
+    (tmp_path / "z_xml").mkdir()
+    (tmp_path / "z_xml" / "001.obj").write_text("mine")
+    assert run(model, "--hulls", tmp_path / "z.xml") == 2
+    assert "was not written by us" in capfd.readouterr().err
+    (tmp_path / "z_xml" / "001.obj").unlink()
+    (tmp_path / "z_xml").rmdir()
+    (tmp_path / "z_xml").write_text("mine")
+    assert run(model, "--hulls", tmp_path / "z.xml") == 2
+    assert "z_xml is a file" in capfd.readouterr().err
+    (tmp_path / "z_xml").unlink()
+    (tmp_path / "z_xml").mkdir()  # an empty folder is nobody's
+    assert run(model, "--hulls", tmp_path / "z.xml") == 0
+
+
+def test_what_appears_meanwhile_stays(tmp_path):
+    path = tmp_path / "z.urdf"
+    write(path, a="a")
+    before = content(tmp_path)
+
+    def write_meanwhile():
+        with replacing_with_folder(path) as (unfinished, folder):
+            unfinished.write_text("<robot/>")
+            (folder / "a.obj").write_text("new\n")
+            (tmp_path / "z_urdf" / "a.obj").write_text("mine")
+
+    with pytest.raises(DecompositionError, match="changed since"):
+        write_meanwhile()
+    assert content(tmp_path) == {**before, "z_urdf/a.obj": b"mine"}
+
+
+def test_a_failure_leaves_file_and_folder(tmp_path):
+    path = tmp_path / "z.urdf"
+    write(path, a="a", b="b")
+    before = content(tmp_path)
+
+    def write_half(text, mesh):
+        with replacing_with_folder(path) as (unfinished, folder):
+            unfinished.write_text(text)
+            (folder / "a.obj").write_text(mesh)
+
+    for text, mesh in (("<robot", "whole\n"), ("<robot/>", "a line without end")):
+        with pytest.raises(OSError, match="in part only"):
+            write_half(text, mesh)
+        assert content(tmp_path) == before
+
+
+def test_outputs_that_collide_are_refused(tmp_path, model, capfd, run):
+    (tmp_path / "link.json").symlink_to(tmp_path / "r.glb")
+    cases = [
+        (("--output={}/a.glb", "--hulls={}/A.GLB"), "differ in upper and lower case"),
+        (("--output={}/w.obj", "--report={}/w.mtl"), "would be written twice"),
+        (("--output={}/r.glb", "--report={}/link.json"), "would be written twice"),
+        (("--hulls={}/z.xml", "--report={}/z_xml"), "would be written twice"),
+        (("--hulls={}/z.xml", "--output={}/Z_xml/001.obj"), "is in {}/z_xml, which"),
+        (("--hulls={}/z.xml", "--report={}/z.xml/r.json"), "is in {}/z.xml, which"),
+        (("--hulls={}/in/ring.ply/z.xml",), "ring.ply is a file, not a folder"),
+        (("--output={}/in/../in/ring.ply",), "is an input, too"),
+    ]
+    before = content(tmp_path)
+    for options, sentence in cases:
+        capfd.readouterr()
+        assert run(model, *(o.format(tmp_path) for o in options)) == 2, options
+        assert sentence.format(tmp_path) in capfd.readouterr().err, options
+    assert content(tmp_path) == before
+
+
+def test_an_input_in_a_folder_that_is_replaced(tmp_path, model, capfd, run):
+    write(tmp_path / "z.urdf", a="v 0 0 0")
+    words = [tmp_path / "z_urdf" / "a.obj", "--hulls", tmp_path / "z.urdf"]
+    assert run(*words) == 2
+    assert "which is written as a whole" in capfd.readouterr().err

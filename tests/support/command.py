@@ -1,0 +1,31 @@
+"""The command line in a process of its own, as a user starts it."""
+
+import os
+import subprocess
+import sys
+
+from checkout import ROOT
+
+QUICK = ["--samples=100", "--parts=2", "--max-hulls=3"]
+
+
+def start(*arguments, **options):
+    """Start `python .` with arguments; return the process, whose output is piped."""
+    # Set by bpy in this process; another bpy would say that it found it.
+    environment = {k: v for k, v in os.environ.items() if k != "OCIO"}
+    environment |= options.pop("environment", {})
+    return subprocess.Popen(
+        [sys.executable, str(ROOT), *map(str, arguments)],
+        env=environment,
+        stdin=options.pop("stdin", subprocess.DEVNULL),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **options,
+    )
+
+
+def content(folder):
+    """Return the bytes of all files in a folder, by path."""
+    files = (file for file in folder.rglob("*") if file.is_file())
+    return {str(file.relative_to(folder)): file.read_bytes() for file in files}
