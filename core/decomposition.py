@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from .cache import ShapeCache
 from .geometry.shape import Shape
 from .parameters.parts import Parameters
+from .parts.convex_whole import as_one_part, stays_whole
 from .parts.find import find_parts
 from .parts.levels import with_pieces
 from .results import Decomposition
@@ -60,6 +61,8 @@ def decompose_in_steps(
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)
     prepared = prepared if members is None else prepared.part(members)
+    if stays_whole(prepared, parameters):
+        return as_one_part(prepared)
     # Sections 3 and 5: place samples, and fill the matrix of lines of sight (eq. 3).
     memo = yield from within(cache.see(prepared, parameters), ready, seen)
     # Section 4: embed, cluster, choose k by psi (eq. 5), cut the seams (eq. 4).
