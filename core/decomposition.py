@@ -39,8 +39,7 @@ def decompose_in_steps(
     cache : ShapeCache
         Keeps the prepared shape and its lines of sight for the next call.
     members : (P,) bool, optional
-        Polygons, or points of a cloud, to split; all if left out. All samples lie on
-        them. Rays run through the whole shape.
+        Polygons, or points, to split; all if left out. Rays cross the whole shape.
 
     Returns
     -------
@@ -50,8 +49,7 @@ def decompose_in_steps(
     Raises
     ------
     DecompositionError
-        If the shape cannot be normalized, for example because it has no area, or if
-        faces are the samples and there are too many.
+        If the shape has no area, or faces are the samples and there are too many.
 
     References
     ----------
@@ -71,8 +69,8 @@ def decompose_in_steps(
     latest, n_more = np.arange(found.n_parts), parameters.levels - 1
     for level in range(n_more):
         parts = {part: prepared.part(found.labels == part) for part in latest.tolist()}
-        splitting = within_turn(_split_each(parts, parameters, cache), level, n_more)
-        pieces = yield from within(splitting, done, 1.0)
+        steps = within_turn(_split_each(parts, parameters, cache), level, n_more)
+        pieces = yield from within(steps, done, 1.0)
         found, latest = with_pieces(memo.visibility, found, pieces, parameters)
     return found
 
