@@ -75,7 +75,10 @@ def _run(arguments: list[str], program: str) -> int:
         return _INTERRUPTED
     attempts = Attempts(screen)
     attempts.written(
-        request.report, lambda file: save_report(file, results, request.parameters)
+        request.report,
+        lambda file: save_report(
+            file, results, request.parameters, request.hull_parameters
+        ),
     )
     failed = attempts.errors or any(result.failed for result in results)
     return _FAILED if failed else 0
