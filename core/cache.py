@@ -8,6 +8,7 @@ from dataclasses import fields
 from .geometry.shape import Shape, content_key
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
+from .parts.convex_whole import stays_whole
 from .parts.part_memo import PartMemo
 from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_march import MakeCaster
@@ -104,7 +105,9 @@ class ShapeCache:
         return memo
 
     def has_seen(self, shape: Shape, parameters: Parameters) -> bool:
-        """Return whether the cache holds the visibility of a shape.
+        """Return whether the parts of a shape need no new lines of sight.
+
+        The cache then holds its visibility, or the shape is known to be one part.
 
         Parameters
         ----------
@@ -116,10 +119,11 @@ class ShapeCache:
         -------
         bool
         """
-        if self._shape is None or self._seen is None:
+        if self._shape is None or self._shape[0] != content_key(shape):
             return False
-        known = self._shape[0], self._seen[0]
-        return known == (content_key(shape), _sight_key(parameters))
+        if stays_whole(self._shape[1], parameters):
+            return True
+        return self._seen is not None and self._seen[0] == _sight_key(parameters)
 
 
 def _sight_key(parameters: Parameters) -> Hashable:

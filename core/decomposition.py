@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from .cache import ShapeCache
 from .geometry.shape import Shape
 from .parameters.parts import Parameters
+from .parts.convex_whole import as_one_part, stays_whole
 from .parts.find import find_parts
 from .parts.levels import with_pieces
 from .results import Decomposition
@@ -38,8 +39,7 @@ def decompose_in_steps(
     cache : ShapeCache
         Keeps the prepared shape and its lines of sight for the next call.
     members : (P,) bool, optional
-        Polygons, or points of a cloud, to split; all if left out. All samples lie on
-        them. Rays run through the whole shape.
+        Polygons, or points, to split; all if left out. Rays cross the whole shape.
 
     Returns
     -------
@@ -49,8 +49,7 @@ def decompose_in_steps(
     Raises
     ------
     DecompositionError
-        If the shape cannot be normalized, for example because it has no area, or if
-        faces are the samples and there are too many.
+        If the shape has no area, or faces are the samples and there are too many.
 
     References
     ----------
@@ -60,6 +59,8 @@ def decompose_in_steps(
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)
     prepared = prepared if members is None else prepared.part(members)
+    if stays_whole(prepared, parameters):
+        return as_one_part(prepared)
     # Sections 3 and 5: place samples, and fill the matrix of lines of sight (eq. 3).
     memo = yield from within(cache.see(prepared, parameters), ready, seen)
     # Section 4: embed, cluster, choose k by psi (eq. 5), cut the seams (eq. 4).
@@ -68,8 +69,8 @@ def decompose_in_steps(
     latest, n_more = np.arange(found.n_parts), parameters.levels - 1
     for level in range(n_more):
         parts = {part: prepared.part(found.labels == part) for part in latest.tolist()}
-        splitting = within_turn(_split_each(parts, parameters, cache), level, n_more)
-        pieces = yield from within(splitting, done, 1.0)
+        steps = within_turn(_split_each(parts, parameters, cache), level, n_more)
+        pieces = yield from within(steps, done, 1.0)
         found, latest = with_pieces(memo.visibility, found, pieces, parameters)
     return found
 

@@ -2,6 +2,7 @@
 
 import ast
 import importlib.util
+import json
 import re
 from dataclasses import fields
 
@@ -126,6 +127,16 @@ def test_the_page_of_parameters_asks_for_every_table(hooks):
     filled = hooks.on_page_markdown(page)
     assert "<!--" not in filled
     assert "| `smallest_part` |" in filled
+
+
+def test_the_page_of_the_report_has_every_field_of_its_schema(hooks):
+    schema = json.loads((DOCS / "report.schema.json").read_text(encoding="utf-8"))
+    filled = hooks.on_page_markdown(PAGES[DOCS / "report.md"])
+    assert "<!--" not in filled
+    told = [schema, *schema["$defs"].values()]
+    names = {name for each in told for name in each["properties"]}
+    assert len(names) > 40
+    assert [name for name in sorted(names) if f"`{name}`" not in filled] == []
 
 
 def test_the_layout_tells_of_every_file_of_core_and_ui():

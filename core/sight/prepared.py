@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
+from ..geometry.convexity import is_convex
 from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import FlatMesh, flat_mesh
 from ..geometry.mesh import TriangleMesh
@@ -55,6 +56,8 @@ class PreparedShape:
         Outward normals of the points of a cloud that had none, or wrong ones.
     plane : (3,) float or None
         Unit normal of the plane of a flat mesh, None for other shapes.
+    convex : bool
+        Whether it is the whole surface of a convex solid.
     """
 
     center: NDArray[np.float64]
@@ -68,6 +71,7 @@ class PreparedShape:
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
     plane: NDArray[np.float64] | None = None
+    convex: bool = False
 
     @cached_property
     def graph(self) -> FaceGraph:
@@ -121,6 +125,7 @@ class PreparedShape:
             nodes=places[self.nodes[members]],
             make_graph=lambda: self.graph.part(kept),
             normals=None if self.normals is None else self.normals[members],
+            convex=False,
         )
 
 
@@ -171,6 +176,7 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
         lambda: face_graph(mesh),
         mesh,
         notes,
+        convex=is_convex(mesh, shells),
     )
 
 

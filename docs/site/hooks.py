@@ -1,13 +1,15 @@
 """What MkDocs asks while it builds the site: pages and tables made at build time.
 
 Pages of the checkout's root become pages of the site, so that nothing is written
-twice. The tables of `parameters.md` are made from the fields of the parameters.
+twice. The tables of `parameters.md` are made from the fields of the parameters, and
+those of `report.md` from the schema of reports.
 """
 
 from __future__ import annotations
 
 import importlib
 import importlib.util
+import json
 import math
 import re
 import sys
@@ -55,7 +57,9 @@ def site_links(markdown: str) -> str:
 
 
 def table(name: str) -> str:
-    """Return one of the tables `parts`, `hulls` and `presets` in Markdown."""
+    """Return a table, such as `parts`, `presets` or `report_run`, in Markdown."""
+    if name.startswith("report_"):
+        return _report_table(name.removeprefix("report_"))
     parameters = _load("core.parameters.parts").Parameters
     if name == "parts":
         return parameter_table(fields(parameters))
@@ -107,6 +111,31 @@ def _preset_table(parameters: type) -> str:
             f" | {'<br>'.join(changes) or 'nothing'} |"
         )
     return "\n".join(lines)
+
+
+def _report_table(name: str) -> str:
+    """Return a row for each field of an object of the report; `run` is the whole."""
+    schema = json.loads((ROOT / "docs/report.schema.json").read_text(encoding="utf-8"))
+    of = schema if name == "run" else schema["$defs"][name]
+    rows = ["| field | type | what it is |", "|---|---|---|"]
+    for field, told in of["properties"].items():
+        found = (
+            schema["$defs"][told["$ref"].rsplit("/")[-1]] if "$ref" in told else told
+        )
+        text = told.get("description") or found["description"]
+        rows.append(f"| `{field}` | {_type_of(found)} | {text} |")
+    return "\n".join(rows)
+
+
+def _type_of(told: dict[str, Any]) -> str:
+    """Return the type that a schema asks for, in words."""
+    if "anyOf" in told:
+        return "object, null"
+    if "const" in told or "enum" in told:
+        values = told.get("enum", [told.get("const")])
+        return "<br>".join(f"`{value}`" for value in values)
+    types = [told["type"]] if isinstance(told["type"], str) else told["type"]
+    return ", ".join(types)
 
 
 def _shown(info: Any, value: float | str) -> str:

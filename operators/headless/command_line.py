@@ -96,7 +96,7 @@ def _run(arguments: list[str], program: str) -> int:
     attempts = Attempts(screen)
     attempts.written(
         request.report,
-        lambda file: save_report(file, results, request.parameters, left),
+        lambda file: save_report(file, results, request, left),
     )
     failed = attempts.errors or any(result.failed for result in results)
     return _INTERRUPTED if interrupted else _FAILED if failed else 0

@@ -1,26 +1,34 @@
-"""Writes the report of a run (--report): parameters and results, as JSON."""
+"""Writes the report of a run (--report): parameters and results, as JSON.
+
+`docs/report.schema.json` describes it. Whoever changes what a field means raises
+`SCHEMA_VERSION`; a new field needs none.
+"""
 
 from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ...core.parameters.parts import Parameters
 from ..bridge.stored.notes import version
 from .atomic import explaining, replacing
+from .request.options import Request
 from .request.outputs import STANDARD_STREAM
+from .run.memory import peak_memory
 from .run.results import InputResult, ObjectResult
+from .run.stages import Stage
 from .screen import write
+
+SCHEMA_VERSION = 1
 
 
 def save_report(
     path: Path,
     results: Sequence[InputResult],
-    parameters: Parameters,
+    request: Request,
     not_done: Sequence[Path] = (),
 ) -> None:
     """Write the report of a run.
@@ -31,7 +39,7 @@ def save_report(
         A file; ``-`` is standard output.
     results : sequence of InputResult
         Of the inputs that are finished.
-    parameters : Parameters
+    request : Request
     not_done : sequence of Path, optional
         The inputs that are not, because the run was interrupted.
 
@@ -41,17 +49,21 @@ def save_report(
         If the file cannot be written.
     """
     report = {
+        "schema_version": SCHEMA_VERSION,
         "version": version(),
-        "parameters": asdict(parameters),
         "interrupted": bool(not_done),
+        "parameters": asdict(request.parameters),
+        "hull_parameters": asdict(request.hull_parameters),
+        "seconds": round(sum(result.seconds for result in results), 3),
+        "peak_memory": peak_memory(),
         "inputs": [_input_entry(result) for result in results],
         "not_done": [str(path) for path in not_done],
     }
     if path == STANDARD_STREAM:
         # In ASCII: the stream may have any encoding.
-        write(sys.stdout, json.dumps(report, indent=2) + "\n")
+        write(sys.stdout, json.dumps(report, indent=2, allow_nan=False) + "\n")
         return
-    text = json.dumps(report, indent=2, ensure_ascii=False) + "\n"
+    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     with explaining(path, "written"), replacing(path) as unfinished:
         # A path that is not Unicode becomes escapes, which JSON has too.
         unfinished.write_text(text, encoding="utf-8", errors="backslashreplace")
@@ -66,16 +78,38 @@ def _input_entry(result: InputResult) -> dict[str, Any]:
         "hulls": str(result.hulls) if result.hulls else None,
         "errors": list(result.errors),
         "seconds": round(result.seconds, 3),
+        "stages": _stages_entry(result.stages),
         "objects": [_object_entry(obj) for obj in result.objects],
+    }
+
+
+def _stages_entry(stages: Mapping[str, Stage]) -> dict[str, Any]:
+    """Return seconds and memory of each stage, None for those that were not needed."""
+    return {
+        name: {"seconds": round(stage.seconds, 3), "peak_memory": stage.peak_memory}
+        if stage.seconds
+        else None
+        for name, stage in stages.items()
     }
 
 
 def _object_entry(result: ObjectResult) -> dict[str, Any]:
     """Return what the report says of one object; its record is part of it."""
+    record = result.record or {}
+    hulls = _hulls_entry(record["hulls"], result) if result.hulls else None
     return {
         "name": result.name,
-        "error": result.error,
         "seconds": round(result.seconds, 3),
-        **(result.record or {}),
-        "notes": list(result.notes),
+        "parts": None,
+        **record,
+        "error": result.error,
+        "notes": list(dict.fromkeys((*result.notes, *record.get("notes", ())))),
+        "hulls": hulls,
     }
+
+
+def _hulls_entry(noted: Mapping[str, Any], result: ObjectResult) -> dict[str, Any]:
+    """Return what the report says of the hulls of one object."""
+    unit = noted["parameters"].get("error_unit", "RELATIVE")
+    hulls = [{**hull, "error_unit": unit} for hull in result.hulls]
+    return {**noted, "hulls": hulls}

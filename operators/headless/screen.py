@@ -10,6 +10,7 @@ from contextlib import suppress
 from typing import TextIO, TypeVar
 
 from ...core.steps.progress import Progress, Steps, mapped, run
+from .run.stages import Stages
 
 T = TypeVar("T")
 
@@ -33,6 +34,11 @@ class Screen:
         Show warnings and errors only.
     clock : callable, optional
         Returns seconds; tests pass their own.
+
+    Attributes
+    ----------
+    stages : Stages
+        Counts the time of the computations that are followed.
     """
 
     def __init__(
@@ -42,6 +48,7 @@ class Screen:
         quiet: bool,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
+        self.stages = Stages()
         self._out = out
         self._err = err
         self._quiet = quiet
@@ -73,7 +80,7 @@ class Screen:
             self.progress(title, progress)
             return progress
 
-        return run(mapped(steps, show))
+        return run(mapped(self.stages.watched(steps), show))
 
     def progress(self, title: str, progress: Progress) -> None:
         """Show where a computation stands, unless something was just shown."""

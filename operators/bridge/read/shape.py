@@ -67,11 +67,12 @@ def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     keys = getattr(obj.data, "shape_keys", None)  # point clouds have none
     if keys and any(key.value for key in keys.key_blocks):
         notes.append("The mesh was read in its Basis shape, without shape keys.")
-    sharers = sum(other.data == obj.data for other in bpy.data.objects)
-    if sharers > 1:
-        notes.append(
-            f"{sharers} objects share this mesh: the parts show on all of them."
-        )
+    if obj.data.users > 1:  # objects are counted only then: files have thousands
+        sharers = sum(other.data == obj.data for other in bpy.data.objects)
+        if sharers > 1:
+            notes.append(
+                f"{sharers} objects share this mesh: the parts show on all of them."
+            )
     return tuple(notes)
 
 

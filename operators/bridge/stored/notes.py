@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import tomllib
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from ....core.errors import DecompositionError
 _MANIFEST = Path(__file__).parents[3] / "blender_manifest.toml"
 
 
+@cache
 def version() -> str:
     """Return the version of the extension."""
     manifest = tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))

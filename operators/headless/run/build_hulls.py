@@ -1,9 +1,11 @@
-"""Builds collision hulls for the objects that were decomposed."""
+"""Builds collision hulls for the objects of a file."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import bpy
 
@@ -11,6 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.results import HullDecomposition
 from ...bridge.hulls.hull_objects import write_hulls
+from ...bridge.hulls.placed import placed
 from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing import build_hulls_of, hull_summary
@@ -24,27 +27,38 @@ def build_hulls(
     results: Sequence[ObjectResult],
     request: Request,
     screen: Screen,
-) -> list[bpy.types.Object]:
-    """Build the hulls of each object that was decomposed; return the hulls.
+) -> tuple[list[bpy.types.Object], tuple[ObjectResult, ...]]:
+    """Build the hulls of each object that has a record, if an empty one.
 
-    Raises
-    ------
-    DecompositionError
-        If the hulls of one object cannot be built.
+    Returns
+    -------
+    hulls : list of Object
+    results : tuple of ObjectResult
+        With the hulls, or the error, of each object.
     """
-    decomposed = [
-        obj
-        for obj, result in zip(objects, results, strict=True)
-        if result.record is not None
-    ]
-    known: list[_Built] = []
-    hulls = [
-        hull
-        for place, obj in enumerate(decomposed, start=1)
-        for hull in _hulls_of(obj, known, request, screen, (place, len(decomposed)))
-    ]
+    with_hulls = [result.record is not None for result in results]
+    n_objects, n_begun = sum(with_hulls), 0
+    known: dict[bpy.types.ID, list[_Built]] = {}
+    hulls: list[bpy.types.Object] = []
+    told = []
+    for obj, result, is_asked in zip(objects, results, with_hulls, strict=True):
+        if not is_asked:
+            told.append(result)
+            continue
+        started = time.perf_counter()
+        n_begun += 1
+        try:
+            built = known.setdefault(obj.data, [])
+            new, figures = _hulls_of(obj, built, request, screen, (n_begun, n_objects))
+            hulls += new
+            result = replace(result, record=record_of(obj), hulls=figures)
+        except DecompositionError as error:
+            screen.error(f"{_title(obj)}: {error}")
+            result = replace(result, error=str(error))
+        seconds = result.seconds + time.perf_counter() - started
+        told.append(replace(result, seconds=seconds))
     _show(hulls)
-    return hulls
+    return hulls, tuple(told)
 
 
 def _show(hulls: Sequence[bpy.types.Object]) -> None:
@@ -73,14 +87,9 @@ def _serves(built: _Built, obj: bpy.types.Object, parameters: HullParameters) ->
     return have_equal_shapes(built.owner, obj, in_lengths)
 
 
-def with_hull_records(
-    objects: Sequence[bpy.types.Object], results: Sequence[ObjectResult]
-) -> tuple[ObjectResult, ...]:
-    """Return `results` with the records that the objects have now, hulls included."""
-    return tuple(
-        replace(result, record=record_of(obj)) if result.record is not None else result
-        for obj, result in zip(objects, results, strict=True)
-    )
+def _title(obj: bpy.types.Object) -> str:
+    """Return what the user sees before the progress and result of hulls."""
+    return f"{obj.name_full}, hulls"
 
 
 def _hulls_of(
@@ -89,28 +98,30 @@ def _hulls_of(
     request: Request,
     screen: Screen,
     place: tuple[int, int],
-) -> list[bpy.types.Object]:
-    """Build the hulls of one object and show its result; add them to `known`.
+) -> tuple[list[bpy.types.Object], tuple[dict[str, Any], ...]]:
+    """Build the hulls of one object and show its result; return figures, too.
 
+    `known` has what was built for objects of the same mesh, and gets what is new.
     `place` is the number of the object, and how many there are.
     """
-    title = f"{obj.name_full}, hulls"
-    parameters = request.hull_parameters
-    try:
-        built = next((each for each in known if _serves(each, obj, parameters)), None)
-        if built is None:
-            steps = build_hulls_of(obj, request.parameters, parameters)
-            found = screen.follow(progress_title(title, *place), steps)
-            hulls = write_hulls(obj, found, parameters)
-            known.append(_Built(obj, found, hulls))
-        else:
-            found = built.found
-            meshes = [hull.data for hull in built.hulls]
-            hulls = write_hulls(obj, found, parameters, meshes)
-    except DecompositionError as error:
-        raise DecompositionError(f"{title}: {error}") from error
+    title, parameters = _title(obj), request.hull_parameters
+    built = next((each for each in known if _serves(each, obj, parameters)), None)
     if built is None:
+        steps = build_hulls_of(obj, request.parameters, parameters)
+        found = screen.follow(progress_title(title, *place), steps)
         for note in found.notes:
             screen.warning(f"{title}: {note}")
+    else:
+        found = built.found
+    with screen.stages.during("hulls"):
+        meshes = [hull.data for hull in built.hulls] if built else None
+        hulls = write_hulls(obj, found, parameters, meshes)
+        noted = record_of(obj)["hulls"]["hulls"]
+        figures = tuple(
+            {**figure, **placed(shape, obj)}
+            for figure, shape in zip(noted, found.shapes, strict=True)
+        )
+    if built is None:
+        known.append(_Built(obj, found, hulls))
     screen.result(f"{title}: {hull_summary(found)}")
-    return hulls
+    return hulls, figures

@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+import bpy
+
 from ..formats import USUAL_UP
 from ..read.load import LoadedFile, load_file
 from ..request.options import Request
@@ -15,9 +17,11 @@ from ..write.model_files import save
 from ..write.picture import save_picture
 from ..write.render_engine import EngineTrial
 from .attempts import Attempts
-from .build_hulls import build_hulls, with_hull_records
+from .build_hulls import build_hulls
 from .decompose_objects import decompose_objects
+from .list_objects import list_objects, needs_parts
 from .results import InputResult
+from .stages import Stages
 
 
 def decompose_file(
@@ -33,27 +37,35 @@ def decompose_file(
     engine renders the picture.
     """
     started = time.perf_counter()
-    attempts = Attempts(screen)
-    loaded = attempts.value(
-        lambda: load_file(path, request.up, request.apply_modifiers)
-    ) or LoadedFile([], {})
+    attempts, stages = Attempts(screen), Stages()
+    screen.stages = stages
+    with stages.during("read"):
+        loaded = attempts.value(
+            lambda: load_file(path, request.up, request.apply_modifiers)
+        ) or LoadedFile([], {})
     objects = loaded.objects
-    results = decompose_objects(path.name, loaded, request.parameters, screen)
-    if not any(result.record for result in results):
+    if needs_parts(targets, request):
+        results = decompose_objects(path.name, loaded, request.parameters, screen)
+    else:
+        results = list_objects(objects)
+    hull_objects: list[bpy.types.Object] = []
+    if all(result.record is None for result in results):
         targets = Targets()  # there is nothing to write
 
     up = request.up or USUAL_UP.get(path.suffix.lower())
-    output = attempts.written(targets.output, lambda file: save(file, up))
-    picture = attempts.written(
-        targets.picture, lambda file: save_picture(file, objects, trial.engine())
-    )
-    hulls = attempts.written(
-        targets.hulls,
-        lambda file: save_hulls(
-            file, build_hulls(objects, results, request, screen), up or "Z"
-        ),
-    )
-    if hulls:
-        results = with_hull_records(objects, results)
+    with stages.during("write"):
+        output = attempts.written(targets.output, lambda file: save(file, up))
+        picture = attempts.written(
+            targets.picture, lambda file: save_picture(file, objects, trial.engine())
+        )
+    if targets.hulls:
+        hull_objects, results = build_hulls(objects, results, request, screen)
+    with stages.during("write"):
+        hulls = attempts.written(
+            targets.hulls if hull_objects else None,
+            lambda file: save_hulls(file, hull_objects, up or "Z"),
+        )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
-    return InputResult(path, results, errors, output, picture, hulls, seconds)
+    return InputResult(
+        path, results, errors, output, picture, hulls, seconds, stages.stages
+    )

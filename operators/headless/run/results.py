@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .stages import Stage
+
 
 @dataclass(frozen=True)
 class ObjectResult:
@@ -16,15 +18,17 @@ class ObjectResult:
     name : str
         Name of the object in the file.
     record : dict or None
-        The record stored on the object, None if it was not decomposed.
+        The record stored on the object, None if nothing was computed of it.
     summary : str
         Its figures in one line, empty if it was not decomposed.
     notes : tuple of str
         Warnings; none of them stopped the work.
     error : str or None
-        Why the object could not be decomposed.
+        Why the object could not be decomposed, or got no hulls.
     seconds : float
-        Time for the decomposition.
+        Time for the decomposition, and for its hulls.
+    hulls : tuple of dict
+        What the report says of each hull.
     """
 
     name: str
@@ -33,6 +37,7 @@ class ObjectResult:
     notes: tuple[str, ...] = ()
     error: str | None = None
     seconds: float = 0.0
+    hulls: tuple[dict[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -51,6 +56,8 @@ class InputResult:
         The files that were written.
     seconds : float
         Time for everything.
+    stages : dict of str to Stage
+        Time and memory by stage.
     """
 
     path: Path
@@ -60,6 +67,7 @@ class InputResult:
     picture: Path | None
     hulls: Path | None
     seconds: float
+    stages: dict[str, Stage]
 
     @property
     def failed(self) -> bool:

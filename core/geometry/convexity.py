@@ -1,0 +1,79 @@
+"""Whether a closed mesh is convex: then no ray and no sample is needed."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from .frames import heights_above
+from .mesh import TriangleMesh
+from .shells import Shells
+
+# Heights that count as rounding, in diagonals: vertices are in single precision. Rays
+# start a thousand times deeper below the surface.
+_ROUNDING = 1e-6
+# Share of the volume that counts as rounding.
+_SAME_VOLUME = 1e-5
+# Largest number of heights above planes that are computed at a time.
+_MOST_HEIGHTS = 1_000_000
+
+
+def is_convex(mesh: TriangleMesh, shells: Shells) -> bool:
+    """Return whether a mesh is the surface of one convex solid, but for rounding.
+
+    It is if it is one closed shell, no edge is concave, all vertices lie on its convex
+    hull, and it encloses the volume of the hull. Every two of its points then see each
+    other. Most other meshes have a concave edge, which is found quickly.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Oriented: closed shells face outwards.
+    shells : Shells
+        Shells of `mesh`.
+
+    Returns
+    -------
+    bool
+    """
+    one_closed = len(shells.closed) == 1 and bool(shells.closed[0])
+    if not one_closed or shells.crowded or _has_concave_edge(mesh):
+        return False
+    corners = mesh.vertices[mesh.triangles]
+    try:
+        hull = ConvexHull(np.unique(corners.reshape(-1, 3), axis=0))
+    except QhullError:  # it is flat
+        return False
+    a, b, c = np.moveaxis(corners - mesh.center, 1, 0)
+    volume = float(np.einsum("td,td->", a, np.cross(b, c))) / 6
+    if abs(volume - hull.volume) > _SAME_VOLUME * hull.volume:
+        return False
+    within = np.setdiff1d(np.arange(len(hull.points)), hull.vertices)
+    return _on_planes(hull.points[within], hull.equations, _ROUNDING * mesh.diagonal)
+
+
+def _has_concave_edge(mesh: TriangleMesh) -> bool:
+    """Return whether a triangle has a neighbor that rises above it.
+
+    Every edge of the mesh has exactly two triangles.
+    """
+    order = np.argsort(mesh.edge_keys, kind="stable")
+    one, other = order.reshape(-1, 2).T  # sides, three for each triangle
+    # Side i of a triangle runs from corner i to the next: corner i + 2 lies opposite.
+    opposite = mesh.triangles[other // 3, (other + 2) % 3]
+    starts = mesh.triangles[one // 3, one % 3]
+    offsets = mesh.vertices[opposite] - mesh.vertices[starts]
+    heights = np.einsum("ed,ed->e", offsets, mesh.normals[one // 3])
+    return bool(heights.max() > _ROUNDING * mesh.diagonal)
+
+
+def _on_planes(
+    points: NDArray[np.float64], planes: NDArray[np.float64], rounding: float
+) -> bool:
+    """Return whether each point within planes lies on one of them."""
+    step = max(1, _MOST_HEIGHTS // len(planes))
+    return all(
+        bool((heights_above(planes, some).max(axis=1) >= -rounding).all())
+        for some in (points[i : i + step] for i in range(0, len(points), step))
+    )

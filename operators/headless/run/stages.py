@@ -1,0 +1,118 @@
+"""Seconds and memory of the stages of a run, for the report."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TypeVar
+
+from ....core.steps.progress import Steps
+from .memory import peak_memory
+
+T = TypeVar("T")
+
+# The stages of the report, in their order.
+STAGES = (
+    "read",
+    "prepare",
+    "lines_of_sight",
+    "clusters",
+    "seams",
+    "hulls",
+    "write",
+)
+# The stage of the report for each stage that progress names; "hulls" for all others.
+STAGE_OF = {
+    "Starting": "prepare",
+    "Libraries": "prepare",
+    "Surface": "prepare",
+    "Normals": "prepare",
+    "Splats": "prepare",
+    "Samples": "lines_of_sight",
+    "Ray tree": "lines_of_sight",
+    "Lines of sight": "lines_of_sight",
+    "Containers": "lines_of_sight",
+    "Number of parts": "clusters",
+    "Symmetry": "clusters",
+    "Seams": "seams",
+}
+
+
+@dataclass
+class Stage:
+    """What a stage took.
+
+    Attributes
+    ----------
+    seconds : float
+        Of all objects together.
+    peak_memory : int or None
+        The most bytes that the process had held by the end of the stage.
+    """
+
+    seconds: float = 0.0
+    peak_memory: int | None = None
+
+
+class Stages:
+    """Seconds and memory by stage.
+
+    Parameters
+    ----------
+    clock : callable, optional
+        Returns seconds; tests pass their own.
+
+    Attributes
+    ----------
+    stages : dict of str to Stage
+        By the names in `STAGES`, in their order.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+        self.stages = {name: Stage() for name in STAGES}
+        self._clock = clock
+
+    @contextmanager
+    def during(self, name: str) -> Iterator[None]:
+        """Count the time within a `with` block to a stage."""
+        started = self._clock()
+        try:
+            yield
+        finally:
+            self._add(name, started)
+
+    def watched(self, steps: Steps[T]) -> Steps[T]:
+        """Run `steps`; count the time after each report to the stage it names.
+
+        Parameters
+        ----------
+        steps : Steps
+
+        Returns
+        -------
+        Steps
+            With the same reports and value.
+        """
+        name, started = "prepare", self._clock()
+        try:
+            while True:
+                try:
+                    progress = next(steps)
+                except StopIteration as stop:
+                    value: T = stop.value
+                    return value
+                finally:
+                    self._add(name, started)
+                yield progress
+                name = STAGE_OF.get(progress.stage, "hulls")
+                started = self._clock()
+        finally:
+            steps.close()
+
+    def _add(self, name: str, started: float) -> None:
+        """Add the time since `started` to a stage."""
+        stage = self.stages[name]
+        stage.seconds += self._clock() - started
+        stage.peak_memory = peak_memory()
