@@ -154,6 +154,8 @@ def explaining(path: Path, action: str) -> Iterator[None]:
     except (RuntimeError, OSError) as error:
         # The text of an OSError would name the unfinished file.
         reason = getattr(error, "strerror", None) or _last_reason(str(error))
+        if reason == KeyboardInterrupt.__name__:  # of an exporter in Python
+            raise KeyboardInterrupt from error
         raise DecompositionError(f"{path} cannot be {action} ({reason}).") from error
 
 
