@@ -13,6 +13,7 @@ from pathlib import Path
 from ...core.errors import DecompositionError
 from .files.swap import Move, swap
 from .files.whole import check_whole, raise_cause
+from .formats import SIMULATOR_ENDINGS
 
 # Paths that stand for an open stream, whatever they are when they are looked at.
 _STREAMS = ("/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/")
@@ -28,17 +29,18 @@ def replacing(
 ) -> Iterator[Path]:
     """Give the path of a new file; put that in the place of `path` if it is whole.
 
-    The new file has the name of `path` and is in a folder of its own until then. If
-    the block raises, or the file is not whole, everything stays as it was. Folders
-    that are missing are made. Links stay: what they point to is replaced. A pipe or a
-    device is written to.
+    The new file is beside the old one, so that paths in it are right. If the block
+    raises, or the file is not whole, everything stays as it was. Folders that are
+    missing are made. Links stay: what they point to is replaced. A pipe or a device is
+    written to.
 
     Parameters
     ----------
     path : Path
     *companions : Path
-        Files or folders that the block may write beside the new file, under their own
-        names. All are replaced together.
+        What else is replaced with `path`, if the block writes it: a folder beside the
+        new file under its own name, or a file that differs from the new file in its
+        ending, as exporters of .obj write materials.
     owned : callable, optional
         Returns the names in an old folder that are ours and may go. It is called when
         all is written, and may raise.
@@ -52,25 +54,32 @@ def replacing(
     goals = [_goal(each) for each in companions]
     goals += [] if stream else [_goal(path)]
     with _new_folders(goals), _stage(goals[-1] if goals else None) as stage:
-        unfinished = stage / path.name
+        has_folder = path.suffix.lower() in SIMULATOR_ENDINGS
+        unfinished = _unfinished(stage, path, has_folder)
         try:
             yield unfinished
         except RuntimeError:  # of Blender, which often does not know why
             raise_cause(unfinished)
             raise
-        made = [stage / each.name for each in companions] + [unfinished]
+        made = [_unfinished(stage, each, has_folder) for each in companions]
+        made.append(unfinished)
         _check_all(unfinished, made)
+        pairs = [pair for pair in zip(made, goals, strict=False) if pair[0].exists()]
         names = owned()
-        swap(
-            [
-                Move(new, goal, names)
-                for new, goal in zip(made, goals, strict=False)
-                if new.exists()
-            ]
-        )
+        swap([Move(new, goal, names) for new, goal in pairs])
         if stream:
             with unfinished.open("rb") as new, path.open("wb") as old:
                 shutil.copyfileobj(new, old)
+
+
+def _unfinished(stage: Path, path: Path, has_folder: bool) -> Path:
+    """Return where the new one for `path` is written.
+
+    Files that name a folder beside them, and that folder, keep their names.
+    """
+    if has_folder or len(path.suffix) < 2:
+        return stage / path.name
+    return stage.with_name(stage.name + path.suffix)
 
 
 def _check_all(unfinished: Path, made: list[Path]) -> None:
@@ -119,12 +128,16 @@ def _new_folders(goals: list[Path]) -> Iterator[None]:
 
 @contextmanager
 def _stage(goal: Path | None) -> Iterator[Path]:
-    """Make a folder beside `goal`, on its disk; remove it at the end."""
+    """Make a folder beside `goal`; remove it, and files of its name, at the end."""
     folder = Path(tempfile.mkdtemp(prefix=".wcd-", dir=goal.parent if goal else None))
     try:
         yield folder
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        for each in folder.parent.glob(f"{folder.name}*"):  # also of Blender's own
+            if each.is_dir():
+                shutil.rmtree(each, ignore_errors=True)
+            else:
+                each.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -141,6 +154,8 @@ def explaining(path: Path, action: str) -> Iterator[None]:
     except (RuntimeError, OSError) as error:
         # The text of an OSError would name the unfinished file.
         reason = getattr(error, "strerror", None) or _last_reason(str(error))
+        if reason == KeyboardInterrupt.__name__:  # of an exporter in Python
+            raise KeyboardInterrupt from error
         raise DecompositionError(f"{path} cannot be {action} ({reason}).") from error
 
 

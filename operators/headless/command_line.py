@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from contextlib import closing, suppress
 from typing import Any
 
@@ -11,7 +12,7 @@ import bpy
 from ...core.errors import DecompositionError
 from ...core.steps.progress import run
 from ..bridge.work.libraries import load_libraries
-from .interrupts import interruptible
+from .interrupts import Interrupts, interruptible
 from .report import save_report
 from .request.options import Request, parse
 from .request.outputs import STANDARD_STREAM
@@ -60,8 +61,8 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
     """
     open_closed_streams()
     try:
-        with interruptible():
-            return _run(arguments, program)
+        with interruptible() as interrupts:
+            return _run(arguments, program, interrupts)
     except StreamError as error:
         stop_printing(error)
         return _FAILED
@@ -71,7 +72,7 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
         return _INTERRUPTED
 
 
-def _run(arguments: list[str], program: str) -> int:
+def _run(arguments: list[str], program: str, interrupts: Interrupts) -> int:
     """Run the command line; return the exit status."""
     try:
         request = parse(arguments, program)
@@ -85,7 +86,9 @@ def _run(arguments: list[str], program: str) -> int:
     interrupted = False
     try:
         run(load_libraries())
-        _decompose_files(request, screen, results)
+        for result in _decompose_files(request, screen):
+            interrupts.check()
+            results.append(result)
     except DecompositionError as error:  # a library is missing
         screen.error(str(error))
         return _NOTHING_DONE
@@ -102,12 +105,10 @@ def _run(arguments: list[str], program: str) -> int:
     return _INTERRUPTED if interrupted else _FAILED if failed else 0
 
 
-def _decompose_files(
-    request: Request, screen: Screen, results: list[InputResult]
-) -> None:
-    """Decompose all inputs, one after the other; add what became of each."""
+def _decompose_files(request: Request, screen: Screen) -> Iterator[InputResult]:
+    """Decompose all inputs, one after the other; yield what became of each."""
     with closing(EngineTrial()) as trial:
         if any(targets.picture for targets in request.targets):
             trial.start()  # it runs while the first input is decomposed
         for path, targets in zip(request.inputs, request.targets, strict=True):
-            results.append(decompose_file(path, targets, request, trial, screen))
+            yield decompose_file(path, targets, request, trial, screen)

@@ -11,15 +11,36 @@ from types import FrameType
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
+class Interrupts:
+    """Whether the user or the system wants the run to end."""
+
+    def __init__(self) -> None:
+        self._came = False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        """Handle a signal."""
+        self._came = True
+        raise KeyboardInterrupt
+
+    def check(self) -> None:
+        """Raise KeyboardInterrupt if a signal came.
+
+        Blender turns that of an exporter in Python into an error of its own.
+        """
+        if self._came:
+            raise KeyboardInterrupt
+
+
 @contextmanager
-def interruptible() -> Iterator[None]:
+def interruptible() -> Iterator[Interrupts]:
     """Raise KeyboardInterrupt in the block when the user or the system ends the run.
 
     Blender has a handler of its own for Ctrl-C, which ends the process at once. A
     signal that is ignored from the start stays ignored, as after `nohup`.
     """
+    interrupts = Interrupts()
     if threading.current_thread() is not threading.main_thread():
-        yield  # only the main thread receives signals
+        yield interrupts  # only the main thread receives signals
         return
     before = {
         number: signal.getsignal(number)
@@ -28,14 +49,9 @@ def interruptible() -> Iterator[None]:
     }
     try:
         for number in before:
-            signal.signal(number, _interrupt)
-        yield
+            signal.signal(number, interrupts)
+        yield interrupts
     finally:
         for number, handler in before.items():
             # None: a handler that Python does not know, and cannot set again.
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:
-    """End the run in order."""
-    raise KeyboardInterrupt

@@ -68,10 +68,11 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     DecompositionError
     """
     read = {path.resolve() for path in inputs}
+    same = {_identity(path) for path in inputs} - {None}
     taken: dict[str, Path] = {}
     for output in outputs:
         place = _place(output)
-        if place in read:
+        if place in read or _identity(output) in same:
             raise DecompositionError(
                 f"{output} is an input, too; give the output another name."
             )
@@ -90,6 +91,15 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
 def _place(output: Path) -> Path:
     """Return where an output is in the end; a stream has no other place."""
     return output.absolute() if is_stream(output) else output.resolve()
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    """Return what is equal for two names of one file, as `A.obj` and `a.obj` may be."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 def _key(place: Path) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -40,6 +41,15 @@ def save(path: Path, up: str | None) -> None:
             check_companion(path, companion)
         with replacing(path, *companions) as unfinished, quiet_blender():
             _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
+            if companion:
+                _name_materials(unfinished, companion.name)
+
+
+def _name_materials(unfinished: Path, name: str) -> None:
+    """Give the .mtl file its final name in an .obj file."""
+    text = unfinished.read_bytes()
+    before = f"mtllib {unfinished.stem}.mtl".encode()
+    unfinished.write_bytes(text.replace(before, b"mtllib " + os.fsencode(name), 1))
 
 
 def _blend(path: Path, _up: str) -> None:

@@ -12,6 +12,8 @@ import pytest
 from command import QUICK, content, start
 from weak_convex_decomposition.operators.headless import command_line
 from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.read import load
+from weak_convex_decomposition.operators.headless.write import model_files
 
 
 @pytest.fixture
@@ -50,6 +52,29 @@ def test_the_report_has_what_was_finished(tmp_path, model, monkeypatch, capfd, n
     )
     after = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
     assert after == handlers
+
+
+class WCD_OT_interrupted(bpy.types.Operator):
+    bl_idname = "wcd.interrupted"
+    bl_label = "Exporter in Python that the user stops"
+
+    def execute(self, context):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(10)
+        return {"FINISHED"}
+
+
+@pytest.mark.parametrize("module", [model_files, load])
+def test_an_operator_in_python_does_not_lose_it(tmp_path, model, monkeypatch, module):
+    bpy.utils.register_class(WCD_OT_interrupted)
+    known = module.IMPORTERS if module is load else module._EXPORTERS
+    monkeypatch.setitem(known, ".ply", lambda path, up: bpy.ops.wcd.interrupted())
+    words = [str(model), "b.ply", f"--output={tmp_path}/out/{{name}}.ply", "--quiet"]
+    report = tmp_path / "r.json"
+    assert main([*words, f"--report={report}", *QUICK]) == 130
+    bpy.utils.unregister_class(WCD_OT_interrupted)
+    assert json.loads(report.read_text())["not_done"] == [str(model), "b.ply"]
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_report_of_all_is_not_interrupted(tmp_path, model):

@@ -4,10 +4,12 @@ import os
 import threading
 from pathlib import Path
 
+import bpy
 import pytest
 from command import content
 from full_disk import full_disk
 from weak_convex_decomposition.operators.headless.files.whole import check_whole
+from weak_convex_decomposition.operators.headless.write.model_files import save
 
 FEW = [("output", ".glb"), ("output", ".obj"), ("hulls", ".xml"), ("report", ".json")]
 
@@ -76,3 +78,36 @@ def test_a_device_stays_a_device(tmp_path, model, capfd, run):
     assert run(model, "--report", link) == 1
     assert "(No space left on device)" in capfd.readouterr().err
     assert Path("/dev/full").is_char_device()
+
+
+def test_textures_are_found_from_where_the_file_is(tmp_path, suzanne):
+    """Paths in a file are relative to its own folder."""
+    image = bpy.data.images.new("Paint", 8, 8)
+    image.filepath_raw = str(tmp_path / "out" / "textures" / "paint.png")
+    image.file_format = "PNG"
+    image.save()
+    material = bpy.data.materials.new("Paint")
+    if not material.node_tree:
+        material.use_nodes = True  # Blender 4.2
+    nodes = material.node_tree.nodes
+    node = nodes.new("ShaderNodeTexImage")
+    node.image = image
+    shader = next(each for each in nodes if each.type == "BSDF_PRINCIPLED")
+    material.node_tree.links.new(node.outputs[0], shader.inputs["Base Color"])
+    suzanne.data.materials.append(material)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"))
+    bpy.ops.file.make_paths_relative()
+    save(tmp_path / "out" / "a.obj", None)
+    materials = (tmp_path / "out" / "a.mtl").read_text()
+    assert "\nmap_Kd textures/paint.png\n" in materials
+    save(tmp_path / "out" / "a.blend", None)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "a.blend"))
+    assert bpy.data.images["Paint"].filepath == "//textures/paint.png"
+
+
+def test_another_name_of_an_input(tmp_path, model, capfd, run):
+    (tmp_path / "other.ply").hardlink_to(model)
+    before = content(tmp_path)
+    assert run(model, "--output", tmp_path / "other.ply") == 2
+    assert "is an input, too" in capfd.readouterr().err
+    assert content(tmp_path) == before

@@ -35,6 +35,22 @@ def test_two_simulator_files_have_folders_of_their_own(tmp_path, model, run):
             assert f"{name}/{mesh}" in both[name.replace("_", ".")].decode()
 
 
+def test_names_with_dots_and_blanks(tmp_path, model, run):
+    assert run(model, "--hulls", tmp_path / "a. b.c.URDF") == 0
+    (name,) = {name.partition("/")[0] for name in content(tmp_path)} - {
+        "in",
+        "a. b.c.URDF",
+    }
+    assert name == "a. b.c_urdf"
+    assert f'"{name}/' in (tmp_path / "a. b.c.URDF").read_text()
+    assert (
+        run(model, "--report", tmp_path / "report", "--hulls", tmp_path / "x.y.xml")
+        == 0
+    )
+    assert json.loads((tmp_path / "report").read_text())["inputs"]
+    assert not list(tmp_path.glob(".wcd*"))
+
+
 def test_fewer_meshes_replace_more_and_notes_stay(tmp_path):
     path = tmp_path / "z.urdf"
     write(path, a="a", b="b", c="c")
