@@ -18,7 +18,9 @@ READ_ENDINGS = (
     ".fbx",
     ".blend",
 )
-MODEL_ENDINGS = (".blend", ".glb", ".ply", ".obj")
+MODEL_ENDINGS = (".blend", ".glb", ".ply", ".obj", ".usd", ".fbx")
+# The models that can hold hulls as well (--with-hulls).
+HULLS_WITHIN_ENDINGS = (".blend", ".glb", ".usd", ".fbx")
 PICTURE_ENDINGS = (".png",)
 # The names of hull formats, as in --hulls-format, and the ending of each.
 HULL_FORMATS = {
@@ -30,6 +32,8 @@ HULL_FORMATS = {
     "mjcf": ".xml",
 }
 HULL_ENDINGS = tuple(HULL_FORMATS.values())
+# Hull files with masses, whose meshes lie in a folder beside them.
+SIMULATOR_ENDINGS = (".urdf", ".xml")
 
 # The usual up axis of mesh formats whose files do not state one.
 USUAL_UP = {".obj": "Y", ".off": "Y", ".ply": "Z", ".stl": "Z"}

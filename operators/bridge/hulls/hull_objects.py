@@ -61,8 +61,9 @@ def write_hulls(
     hulls = []
     for row, name in enumerate(names):
         material = materials[colors[row]]
-        hull = _hull_object(name, found.shapes[row], scale, material)
-        hull[HULL_TAG] = json.dumps(_figures(found, row))
+        shape = found.shapes[row]
+        hull = _hull_object(name, shape, scale, material)
+        hull[HULL_TAG] = json.dumps(_figures(found, row) | _pose(shape, scale))
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
@@ -129,4 +130,19 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
         "volume": float(shape.volume),
         "part": int(found.parts[row]) if found.has_parts else None,
         "vertices": len(core.outline_of(shape).vertices),
+    }
+
+
+def _pose(shape: CollisionShape, scale: np.ndarray) -> dict[str, Any]:
+    """Return center, axes and sizes of a primitive; axes as rows, in object space.
+
+    Object space is not scaled yet: where the scale differs by axis, the axes have other
+    lengths than 1 there. Sizes are multiples of them.
+    """
+    if shape.kind == "HULL":
+        return {}
+    return {
+        "center": (shape.center / scale).tolist(),
+        "axes": (shape.axes / scale).tolist(),
+        "sizes": shape.sizes.tolist(),
     }

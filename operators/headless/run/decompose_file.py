@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
+
+import bpy
 
 from ..formats import USUAL_UP
 from ..read.load import load
@@ -40,17 +43,24 @@ def decompose_file(
         targets = Targets()  # there is nothing to write
 
     up = request.up or USUAL_UP.get(path.suffix.lower())
-    output = attempts.written(targets.output, lambda file: save(file, up))
+    built: list[bpy.types.Object] = []
+    if request.with_hulls and targets.output:
+        made = attempts.value(lambda: build_hulls(objects, results, request, screen))
+        built = made or []
+        if made is None:  # a model without its hulls is not what was asked for
+            targets = replace(targets, output=None, hulls=None)
+    output = attempts.written(targets.output, lambda file: save(file, up, built))
     picture = attempts.written(
         targets.picture, lambda file: save_picture(file, objects, trial.engine())
     )
-    hulls = attempts.written(
-        targets.hulls,
-        lambda file: save_hulls(
-            file, build_hulls(objects, results, request, screen), up or "Z"
-        ),
-    )
-    if hulls:
+
+    def write_hulls(file: Path) -> None:
+        found = built or build_hulls(objects, results, request, screen)
+        for note in save_hulls(file, found, up or "Z", request.body_parameters):
+            screen.warning(f"{path.name}, hulls: {note}")
+
+    hulls = attempts.written(targets.hulls, write_hulls)
+    if hulls or built:
         results = with_hull_records(objects, results)
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     return InputResult(path, results, errors, output, picture, hulls, seconds)

@@ -1,20 +1,26 @@
-"""Writes the model with its parts: .blend .glb .ply .obj."""
+"""Writes the model with its parts, and its hulls: .blend .glb .ply .obj .usd .fbx."""
 
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
 
 from ..atomic import explaining, replacing
+from ..current_file import mesh_objects
 from ..formats import USUAL_UP, axes
 from ..quiet import quiet_blender
+from .collider_marks import mark_glb
+from .fbx_files import write_fbx
+from .obj_files import restore_digits
 from .ply_copies import ply_copies
+from .usd_files import write_usd
 
 
-def save(path: Path, up: str | None) -> None:
+def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> None:
     """Write the scene to `path` in the format of its ending.
 
     An existing file is replaced once the new one is complete.
@@ -25,6 +31,8 @@ def save(path: Path, up: str | None) -> None:
         File with one of `MODEL_ENDINGS`.
     up : {'Y', 'Z'} or None
         Axis that points up in .obj and .ply; None for the usual one of the format.
+    hulls : sequence of Object, optional
+        Hulls in the scene, which belong into the file.
 
     Raises
     ------
@@ -32,9 +40,13 @@ def save(path: Path, up: str | None) -> None:
         If the file cannot be written.
     """
     ending = path.suffix.lower()
+    bpy.context.view_layer.update()
     with explaining(path, "written"), replacing(path) as unfinished:
         with quiet_blender():
-            _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
+            if ending in _WITH_HULLS:
+                _WITH_HULLS[ending](unfinished, hulls)
+            else:
+                _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
         if ending == ".obj":
             _move_materials(unfinished, path)
 
@@ -50,17 +62,41 @@ def _move_materials(unfinished: Path, path: Path) -> None:
         shutil.move(materials, target)
 
 
-def _blend(path: Path, _up: str) -> None:
-    """Save a copy as .blend."""
+def _blend(path: Path, _hulls: Sequence[bpy.types.Object]) -> None:
+    """Save a copy as .blend; hulls are in the scene."""
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
 
 
-def _glb(path: Path, _up: str) -> None:
-    """Export .glb."""
+def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
+    """Export .glb; hulls are marked as colliders."""
     # The extras hold the record, which is the custom property "wcd" of each object.
-    bpy.ops.export_scene.gltf(
-        filepath=str(path), export_format="GLB", export_extras=True
-    )
+    with _smooth(hulls):
+        bpy.ops.export_scene.gltf(
+            filepath=str(path), export_format="GLB", export_extras=True
+        )
+    if hulls:
+        mark_glb(path)
+
+
+@contextmanager
+def _smooth(hulls: Sequence[bpy.types.Object]) -> Iterator[None]:
+    """Shade hulls smooth while they are written, flat again at the end.
+
+    Flat faces have normals of their own: .glb would have a vertex for each corner.
+    """
+    meshes = {hull.data for hull in hulls}
+    for mesh in meshes:
+        mesh.shade_smooth()
+    try:
+        yield
+    finally:
+        for mesh in meshes:
+            mesh.shade_flat()
+
+
+def _usd(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
+    """Write .usd."""
+    write_usd(path, mesh_objects(), hulls)
 
 
 def _obj(path: Path, up: str) -> None:
@@ -72,6 +108,7 @@ def _obj(path: Path, up: str) -> None:
         export_material_groups=True,
         **axes(up),
     )
+    restore_digits(path, up)
 
 
 def _ply(path: Path, up: str) -> None:
@@ -86,9 +123,11 @@ def _ply(path: Path, up: str) -> None:
         )
 
 
-_EXPORTERS: dict[str, Callable[[Path, str], None]] = {
+_EXPORTERS: dict[str, Callable[[Path, str], None]] = {".ply": _ply, ".obj": _obj}
+# One for each of `HULLS_WITHIN_ENDINGS`.
+_WITH_HULLS: dict[str, Callable[[Path, Sequence[bpy.types.Object]], None]] = {
     ".blend": _blend,
     ".glb": _glb,
-    ".ply": _ply,
-    ".obj": _obj,
+    ".usd": _usd,
+    ".fbx": write_fbx,
 }

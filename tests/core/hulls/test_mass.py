@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 import shapes
 import trimesh
-from weak_convex_decomposition.core.geometry.mass import (
-    combined,
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.hulls.mass import (
+    combined_mass,
     mass_of_mesh,
     mass_of_surface,
 )
-from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 
 DENSITY = 7.0
 SOLIDS = {
@@ -106,7 +106,7 @@ def test_as_trimesh(name):
 def test_parts_together_are_the_whole():
     halves = [shapes.box((0, 0, 0), (1, 1, 1)), shapes.box((1, 0, 0), (4, 1, 1))]
     whole = mass_of_mesh(shapes.box((0, 0, 0), (4, 1, 1)), DENSITY)
-    assert_same(combined([mass_of_mesh(half, DENSITY) for half in halves]), whole)
+    assert_same(combined_mass([mass_of_mesh(half, DENSITY) for half in halves]), whole)
 
 
 def test_turns_scales_and_mirrors():

@@ -8,37 +8,17 @@ Terms of its Vertex Coordinates", J. of Mathematics and Statistics 1(1), 2005.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import TriangleMesh
-from .orientation import oriented
-from .shells import find_shells
+from ..geometry.mesh import TriangleMesh
+from ..geometry.orientation import oriented
+from ..geometry.shells import find_shells
+from ..results import MassProperties
 
 # A solid with less volume, in cubed diagonals, is a sheet with two sides.
 _LEAST_VOLUME = 1e-9
-
-
-@dataclass(frozen=True, eq=False)
-class MassProperties:
-    """Mass, center of mass and inertia of a rigid body.
-
-    Attributes
-    ----------
-    mass : float
-        In kilograms if the density is in kilograms per cubed unit.
-    center : (3,) float
-        Center of mass, in units.
-    inertia : (3, 3) float
-        Inertia tensor about the center of mass, mass times squared units. Products of
-        inertia are negative: I_xy = -∫ x y dm.
-    """
-
-    mass: float
-    center: NDArray[np.float64]
-    inertia: NDArray[np.float64]
 
 
 def mass_of_surface(
@@ -82,7 +62,7 @@ def mass_of_surface(
     return MassProperties(mass, center + middle, inertia)
 
 
-def combined(bodies: Sequence[MassProperties]) -> MassProperties:
+def combined_mass(bodies: Sequence[MassProperties]) -> MassProperties:
     """Return the mass properties of bodies that are fixed to each other.
 
     Parameters
