@@ -16,6 +16,7 @@ from ..quiet import quiet_blender
 from .damage_checks import check_file
 from .finite_checks import check_finite
 from .importers import IMPORTERS
+from .known_hulls import adopt_hulls
 
 
 def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
@@ -46,6 +47,7 @@ def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
         raise _unreadable(path, str(error)) from error
     if result != {"FINISHED"}:
         raise _unreadable(path, "the importer gave up")
+    adopt_hulls()
     objects = mesh_objects()
     if not objects:
         raise DecompositionError(f"{path.name} has no meshes or point clouds.")

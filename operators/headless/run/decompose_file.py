@@ -9,6 +9,7 @@ from pathlib import Path
 import bpy
 
 from ..formats import USUAL_UP
+from ..read.known_hulls import hull_note
 from ..read.load import load
 from ..request.options import Request
 from ..request.outputs import Targets
@@ -38,6 +39,9 @@ def decompose_file(
     started = time.perf_counter()
     attempts = Attempts(screen)
     objects = attempts.value(lambda: load(path, request.up)) or []
+    note = hull_note()
+    if note:
+        screen.warning(f"{path.name}: {note}")
     results = decompose_objects(path.name, objects, request.parameters, screen)
     if not any(result.record for result in results):
         targets = Targets()  # there is nothing to write
