@@ -26,7 +26,7 @@ class BodyParameters:
             "Density",
             "Mass of a cubic unit of the model in .urdf and .xml files: kilograms per"
             " cubic meter, as simulators take a unit for a meter; water has 1000",
-            low=1e-6,
+            low=0.001,
             high=1e15,
         ),
     )

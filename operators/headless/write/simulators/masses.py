@@ -55,6 +55,8 @@ def mass_of_objects(
             of_hull = core.mass_of_surface(vertices, triangles, density)
             if of_hull is not None:
                 masses.append(of_hull)
+    if not masses:  # flat hulls
+        return MassProperties(0.0, np.zeros(3), np.zeros((3, 3))), without_solid
     return core.combined_mass(masses), without_solid
 
 

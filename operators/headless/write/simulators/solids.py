@@ -70,6 +70,8 @@ def solid_of(hull: bpy.types.Object, matrix: FloatArray) -> Solid | None:
         return None
     if np.linalg.det(rotation) < 0:  # solids are their own mirror images
         rotation[:, 0] *= -1
+    if kind == "CAPSULE" and sizes[2] <= _SAME * sizes[0]:
+        kind = "SPHERE"  # MuJoCo refuses a capsule without length
     center = matrix[:3, :3] @ np.array(figures["center"]) + matrix[:3, 3]
     return Solid(kind, center, rotation, sizes * lengths)
 

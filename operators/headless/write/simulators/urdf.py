@@ -107,7 +107,7 @@ def _solids(solid: Solid | None) -> list[Solid]:
         for end in (half, -half)
     ]
     middle = Solid("CYLINDER", solid.center, solid.rotation, solid.sizes)
-    return [middle, *ends] if solid.sizes[2] > 0 else ends[:1]
+    return [middle, *ends]
 
 
 def _add_solid(element: ET.Element, solid: Solid) -> None:
