@@ -55,13 +55,16 @@ def site_links(markdown: str) -> str:
 
 
 def table(name: str) -> str:
-    """Return one of the tables `parts`, `hulls` and `presets` in Markdown."""
+    """Return a table in Markdown: `parts`, `hulls`, `bodies` or `presets`."""
     parameters = _load("core.parameters.parts").Parameters
     if name == "parts":
         return parameter_table(fields(parameters))
     if name == "hulls":
         hulls = _load("core.parameters.hulls").HullParameters
         return parameter_table(fields(hulls))
+    if name == "bodies":
+        bodies = _load("core.parameters.bodies").BodyParameters
+        return parameter_table(fields(bodies))
     if name == "presets":
         return _preset_table(parameters)
     raise ValueError(f"there is no table {name!r}")
