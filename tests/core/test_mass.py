@@ -3,7 +3,7 @@ import pytest
 import shapes
 import trimesh
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
-from weak_convex_decomposition.core.hulls.mass import (
+from weak_convex_decomposition.core.mass import (
     combined_mass,
     mass_of_mesh,
     mass_of_surface,

@@ -10,7 +10,6 @@ import pytest
 import trimesh
 from checkout import ROOT
 from hand_made import add_ring, build_hulls, decompose_by_hand
-from strict_gltf import checked
 from weak_convex_decomposition.operators.bridge.hulls.hull_objects import is_hull
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.formats import HULLS_WITHIN_ENDINGS
@@ -118,11 +117,11 @@ def test_fbx_has_the_names_of_unreal_and_no_parents(tmp_path, built):
     assert not any(obj.parent for obj in bpy.data.objects)
 
 
-def test_hulls_share_vertices_in_glb(tmp_path, built):
+def test_hulls_share_vertices_in_glb(tmp_path, built, checked_glb):
     _, hulls = built
     path = tmp_path / "both.glb"
     save(path, None, hulls)
-    scene, arrays = checked(path)
+    scene, arrays = checked_glb(path)
     colliders = [node for node in scene["nodes"] if "extensions" in node]
     assert {node["name"] for node in colliders} == {hull.name for hull in hulls}
     for node in colliders:

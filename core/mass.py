@@ -12,10 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.mesh import TriangleMesh
-from ..geometry.orientation import oriented
-from ..geometry.shells import find_shells
-from ..results import MassProperties
+from .geometry.mesh import TriangleMesh
+from .geometry.orientation import oriented
+from .geometry.shells import find_shells
+from .results import MassProperties
 
 # A solid with less volume, in cubed diagonals, is a sheet with two sides.
 _LEAST_VOLUME = 1e-9

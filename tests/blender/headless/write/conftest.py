@@ -4,6 +4,7 @@ import json
 import struct
 
 import numpy as np
+import pytest
 
 TYPES = {
     **{5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16},
@@ -12,7 +13,13 @@ TYPES = {
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
-def checked(path):
+@pytest.fixture
+def checked_glb():
+    """Return a function that checks a .glb file; it returns what `_checked` does."""
+    return _checked
+
+
+def _checked(path):
     """Return the JSON of a .glb file and its accessors' arrays; assert it is valid."""
     data = path.read_bytes()
     magic, version, length = struct.unpack_from("<4sII", data)
