@@ -76,7 +76,7 @@ def mass_notes(
     for name, mass in masses.items():
         if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:
             notes.append(
-                f"{name} weighs {mass.mass:.3g}, too little for simulators; raise"
+                f"{name} weighs {mass.mass:.3g} kg, too little for simulators; raise"
                 " Density or make the model larger."
             )
             break
