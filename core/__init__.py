@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from .decomposition import decompose_in_steps as decompose_in_steps
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.fitting import outline_of as outline_of
+    from .mass import combined_mass as combined_mass
+    from .mass import mass_of_mesh as mass_of_mesh
+    from .mass import mass_of_surface as mass_of_surface
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
     from .parts.editing import Change as Change
@@ -35,6 +38,9 @@ _HOMES = {
     "decompose_in_steps": "decomposition",
     "build_hulls_in_steps": "hulls.build",
     "outline_of": "hulls.fitting",
+    "combined_mass": "mass",
+    "mass_of_mesh": "mass",
+    "mass_of_surface": "mass",
     "measure_in_steps": "measurement",
     "Change": "parts.editing",
     "compacted": "parts.editing",

@@ -10,6 +10,7 @@ import pytest
 from conftest import HAS_BLENDER, PACKAGE, ROOT
 from test_readme import OWN_OPTIONS, blocks, make_targets, options_in
 from weak_convex_decomposition import core  # noqa: F401  # the package, for the hooks
+from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import PRESETS
@@ -25,6 +26,8 @@ ALL_PAGES = PAGES | ROOT_PAGES
 LAYOUT = PAGES[DOCS / "how_the_code_is_laid_out.md"]
 CONTRIBUTING = ROOT_PAGES[ROOT / "CONTRIBUTING.md"]
 PATHS = r"`((?:\w+|\.\w+)/[\w./]*|\w+\.\w+)`"
+# The parameters of each table.
+TABLES = {"parts": Parameters, "hulls": HullParameters, "bodies": BodyParameters}
 # Paths that a command makes.
 MADE = ("build/", ".venv/")
 
@@ -97,7 +100,7 @@ def test_links_of_the_checkout_become_links_of_the_site(hooks):
 
 
 def test_the_tables_have_every_parameter_and_preset(hooks):
-    for name, kind in (("parts", Parameters), ("hulls", HullParameters)):
+    for name, kind in TABLES.items():
         rows = cells(hooks.table(name))
         assert [row[0] for row in rows] == [f"`{f.name}`" for f in fields(kind)]
         for row, field in zip(rows, fields(kind), strict=True):
@@ -123,7 +126,7 @@ def test_the_tables_show_angles_in_degrees_and_bounds(hooks):
 
 def test_the_page_of_parameters_asks_for_every_table(hooks):
     page = PAGES[DOCS / "parameters.md"]
-    assert re.findall(r"<!-- table: (\w+) -->", page) == ["parts", "hulls", "presets"]
+    assert re.findall(r"<!-- table: (\w+) -->", page) == [*TABLES, "presets"]
     filled = hooks.on_page_markdown(page)
     assert "<!--" not in filled
     assert "| `smallest_part` |" in filled
@@ -169,7 +172,7 @@ def test_every_make_command_of_a_page_exists():
 
 
 def test_every_option_of_a_page_is_one():
-    parameters = {f.name for kind in (Parameters, HullParameters) for f in fields(kind)}
+    parameters = {f.name for kind in TABLES.values() for f in fields(kind)}
     for path, page in PAGES.items():
         assert options_in(page) <= OWN_OPTIONS | parameters, path.name
 

@@ -15,17 +15,8 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 # Options of the command line that are no parameters; `--command` is Blender's.
 OWN_OPTIONS = {
-    *(
-        "apply_modifiers",
-        "command",
-        "help",
-        "hulls",
-        "hulls_format",
-        "output",
-        "picture",
-        "preset",
-    ),
-    *("quiet", "report", "up", "version"),
+    *("apply_modifiers", "command", "help", "hulls", "hulls_format", "output"),
+    *("picture", "preset", "quiet", "report", "up", "version", "with_hulls"),
 }
 
 

@@ -57,7 +57,7 @@ def site_links(markdown: str) -> str:
 
 
 def table(name: str) -> str:
-    """Return a table, such as `parts`, `presets` or `report_run`, in Markdown."""
+    """Return a table, such as `parts`, `bodies` or `report_run`, in Markdown."""
     if name.startswith("report_"):
         return _report_table(name.removeprefix("report_"))
     parameters = _load("core.parameters.parts").Parameters
@@ -66,6 +66,9 @@ def table(name: str) -> str:
     if name == "hulls":
         hulls = _load("core.parameters.hulls").HullParameters
         return parameter_table(fields(hulls))
+    if name == "bodies":
+        bodies = _load("core.parameters.bodies").BodyParameters
+        return parameter_table(fields(bodies))
     if name == "presets":
         return _preset_table(parameters)
     raise ValueError(f"there is no table {name!r}")

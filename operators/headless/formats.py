@@ -22,7 +22,9 @@ READ_ENDINGS = (
     ".usdz",
     ".blend",
 )
-MODEL_ENDINGS = (".blend", ".glb", ".ply", ".obj")
+MODEL_ENDINGS = (".blend", ".glb", ".ply", ".obj", ".usd", ".fbx")
+# The models that can hold hulls as well (--with-hulls).
+HULLS_WITHIN_ENDINGS = (".blend", ".glb", ".usd", ".fbx")
 PICTURE_ENDINGS = (".png",)
 # The names of hull formats, as in --hulls-format, and the ending of each.
 HULL_FORMATS = {

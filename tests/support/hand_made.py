@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import Decomposition
+from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 
 
@@ -113,3 +114,28 @@ def centers(obj):
 
 def areas(mesh):
     return np.array([polygon.area for polygon in mesh.polygons])
+
+
+def build_hulls(objects, **settings):
+    """Build hulls of objects as the button does; return the hulls."""
+    for obj in objects:
+        bpy.ops.object.select_all(action="DESELECT")
+        obj.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.wcd.build_hulls(**settings)
+    return [hull for obj in objects for hull in hulls_of(obj)]
+
+
+def add_ring(name, scale=(1, 1.5, -0.8)):
+    """Return a new closed ring: turned, and by default stretched and mirrored."""
+    bpy.ops.mesh.primitive_torus_add(
+        location=(1, 2, 0.5),
+        rotation=(0.3, 0.5, 1),
+        major_segments=24,
+        minor_segments=12,
+        major_radius=0.4,
+        minor_radius=0.15,
+    )
+    ring = bpy.context.active_object
+    ring.name, ring.scale = name, scale
+    return ring

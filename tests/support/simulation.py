@@ -44,6 +44,11 @@ def hulls_in_mujoco(folder, name, mesh, *words, loose):
     return spec
 
 
+def hulls_in(spec):
+    """Return the geoms that collide; the others are only seen."""
+    return [geom for geom in spec.geoms if geom.group == 3]
+
+
 def run(spec, seconds):
     """Return the state after so long."""
     model = spec.compile()
@@ -51,6 +56,17 @@ def run(spec, seconds):
     mujoco.mj_step(model, data, int(seconds / model.opt.timestep))
     assert np.isfinite(data.qpos).all()
     return data
+
+
+def placed_masses(spec):
+    """Return mass, center and inertia of each body in the world, by MuJoCo."""
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for body in range(1, model.nbody):
+        axes = data.ximat[body].reshape(3, 3)
+        inertia = axes @ np.diag(model.body_inertia[body]) @ axes.T
+        yield model.body_mass[body], data.xipos[body], inertia
 
 
 def dropped(spec, seconds):

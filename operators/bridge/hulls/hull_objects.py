@@ -72,12 +72,10 @@ def write_hulls(
     hulls = []
     for row, name in enumerate(names):
         material = materials[colors[row]]
-        if meshes:
-            mesh = meshes[row]
-        else:
-            mesh = _hull_mesh(name, found.shapes[row], scale, material)
+        shape = found.shapes[row]
+        mesh = meshes[row] if meshes else _hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
-        hull[HULL_TAG] = json.dumps(_figures(found, row))
+        hull[HULL_TAG] = json.dumps(_figures(found, row) | _pose(shape, scale))
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
@@ -151,4 +149,19 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
         "volume": float(shape.volume),
         "part": int(found.parts[row]) if found.has_parts else None,
         "vertices": len(core.outline_of(shape).vertices),
+    }
+
+
+def _pose(shape: CollisionShape, scale: np.ndarray) -> dict[str, Any]:
+    """Return center, axes and sizes of a primitive; axes as rows, in object space.
+
+    Object space is not scaled yet: where the scale differs by axis, the axes have other
+    lengths than 1 there. Sizes are multiples of them.
+    """
+    if shape.kind == "HULL":
+        return {}
+    return {
+        "center": (shape.center / scale).tolist(),
+        "axes": (shape.axes / scale).tolist(),
+        "sizes": shape.sizes.tolist(),
     }

@@ -18,6 +18,7 @@ from .evaluated import apply_modifiers
 from .finite_checks import check_finite
 from .importers import IMPORTERS
 from .instances import check_libraries, make_all_local, realize_instances
+from .known_hulls import adopt_hulls
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,7 @@ def load_file(
     check_libraries(path)
     with quiet_blender():
         make_all_local()
+        adopt_hulls()
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())

@@ -16,7 +16,8 @@ EPILOG = f"""\
 examples:
   %(prog)s chair.obj --output chair-parts.blend --picture chair.png
   %(prog)s a.stl b.stl --output '{{name}}-parts.glb' --parts 6
-  %(prog)s chair.obj --hulls chair-hulls.glb --naming unreal --max-hulls 8
+  %(prog)s chair.obj --hulls chair-hulls.glb --naming unity --max-hulls 8
+  %(prog)s chair.obj --output chair.fbx --with-hulls
 
 several inputs:
   OUTPUT, PICTURE and HULLS must contain {{name}}. It stands for the name of the input
@@ -27,12 +28,15 @@ formats of OUTPUT ({" ".join(MODEL_ENDINGS)}):
   .glb    one material for each part; the record is in the extras of the node
   .obj    one material and one group for each part; an .mtl file is written beside it
   .ply    colors and part numbers on the vertices; vertices on seams are doubled
+  .usd    one material for each part
+  .fbx    one material for each part; hulls are named for Unreal: UCX_Name_01
+  with --with-hulls, .blend, .glb, .usd and .fbx have the hulls, too
 
 formats of HULLS ({" ".join(HULL_ENDINGS)}):
   .glb .obj .usd  one object for each hull
   .stl            all hulls in one mesh
-  .urdf .xml      for simulators (.xml is MuJoCo's MJCF); each hull is an .obj file in
-                  a folder beside it: z_urdf for z.urdf
+  .urdf .xml      for simulators (.xml is MuJoCo's MJCF): bodies with mass and inertia;
+                  each mesh is an .obj file in a folder beside it: z_urdf for z.urdf
 
 files that exist:
   They are replaced once the new ones are complete. Links are followed; pipes and

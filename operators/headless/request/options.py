@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ....core.errors import DecompositionError
+from ....core.parameters.bodies import BodyParameters
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parameter import info_of
 from ....core.parameters.parts import Parameters
 from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ...bridge.stored.notes import version
-from ..formats import HULL_FORMATS
+from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS
 from .help_text import DESCRIPTION, EPILOG
 from .input_list import all_inputs
 from .outputs import Targets, targets_for
@@ -45,9 +46,12 @@ class Request:
         Axis that points up in the inputs; None for the usual one of each format.
     apply_modifiers : bool
         Decompose meshes as Blender shows them.
+    with_hulls : bool
+        Put hulls into the model that is written, too.
     quiet : bool
     parameters : Parameters
     hull_parameters : HullParameters
+    body_parameters : BodyParameters
     """
 
     inputs: tuple[Path, ...]
@@ -55,9 +59,11 @@ class Request:
     report: Path | None
     up: str | None
     apply_modifiers: bool
+    with_hulls: bool
     quiet: bool
     parameters: Parameters
     hull_parameters: HullParameters
+    body_parameters: BodyParameters
 
 
 def parse(arguments: list[str], program: str) -> Request:
@@ -88,20 +94,24 @@ def parse(arguments: list[str], program: str) -> Request:
                 options.picture,
                 options.report,
                 _hull_file(options.hulls, options.hulls_format),
+                options.with_hulls,
             ),
             report=options.report,
             up=options.up,
             apply_modifiers=options.apply_modifiers,
+            with_hulls=options.with_hulls,
             quiet=options.quiet,
             parameters=chosen.parameters(**_given(options, Parameters)),
             hull_parameters=HullParameters(**_given(options, HullParameters)),
+            body_parameters=BodyParameters(**_given(options, BodyParameters)),
         )
     except DecompositionError as error:
         parser.error(str(error))
 
 
 def _given(
-    options: argparse.Namespace, kind: type[Parameters] | type[HullParameters]
+    options: argparse.Namespace,
+    kind: type[Parameters | HullParameters | BodyParameters],
 ) -> dict[str, Any]:
     """Return the parameters of a kind that the user gives."""
     names = [field.name for field in fields(kind)]
@@ -133,7 +143,12 @@ def _parser(program: str) -> _Parser:
     method = parser.add_argument_group("how the parts are found")
     add_option(method, "preset", PRESET_INFO, _DEFAULT_PRESET)
     for_hulls = parser.add_argument_group("how the hulls are built (with --hulls)")
-    for group, kind in ((method, Parameters), (for_hulls, HullParameters)):
+    simulators = parser.add_argument_group("what simulators get (HULLS is .urdf, .xml)")
+    for group, kind in (
+        (method, Parameters),
+        (for_hulls, HullParameters),
+        (simulators, BodyParameters),
+    ):
         for each in fields(kind):
             add_option(group, each.name, info_of(each), each.default)
     _add_general(parser)
@@ -167,6 +182,11 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
         choices=tuple(HULL_FORMATS),
         help="format of HULLS; its ending is added to HULLS if it is missing"
         " (default: the format of the ending of HULLS)",
+    )
+    files.add_argument(
+        "--with-hulls",
+        action="store_true",
+        help=f"put collision hulls into OUTPUT, too ({' '.join(HULLS_WITHIN_ENDINGS)})",
     )
     files.add_argument(
         "--report",

@@ -11,7 +11,12 @@ from pathlib import Path
 from ....core.errors import DecompositionError
 from ..atomic import explaining, is_stream
 from ..files.claims import check_companion, check_distinct, companion_of
-from ..formats import HULL_ENDINGS, MODEL_ENDINGS, PICTURE_ENDINGS
+from ..formats import (
+    HULL_ENDINGS,
+    HULLS_WITHIN_ENDINGS,
+    MODEL_ENDINGS,
+    PICTURE_ENDINGS,
+)
 
 _NAME = "{name}"
 # Standard input among the inputs, standard output for the report.
@@ -33,6 +38,7 @@ def targets_for(
     picture: str | None,
     report: Path | None,
     hulls: str | None = None,
+    with_hulls: bool = False,
 ) -> tuple[Targets, ...]:
     """Return the targets of each input.
 
@@ -43,13 +49,21 @@ def targets_for(
         Files to write; {name} in them stands for the name of the input.
     report : Path or None
         Checked together with the others.
+    with_hulls : bool, optional
+        Whether hulls belong into the output, too.
 
     Raises
     ------
     DecompositionError
         If a target cannot be written, is an input, or would be written twice.
     """
-    outputs = _resolved(inputs, output, "--output", MODEL_ENDINGS)
+    if with_hulls and output is None:
+        raise DecompositionError(
+            "--with-hulls needs --output, which names the file for model and hulls."
+        )
+    endings = HULLS_WITHIN_ENDINGS if with_hulls else MODEL_ENDINGS
+    option = "--output, with --with-hulls," if with_hulls else "--output"
+    outputs = _resolved(inputs, output, option, endings)
     pictures = _resolved(inputs, picture, "--picture", PICTURE_ENDINGS)
     hull_files = _resolved(inputs, hulls, "--hulls", HULL_ENDINGS)
     files = [file for file in (*outputs, *pictures, *hull_files, report) if file]

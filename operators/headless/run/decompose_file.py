@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
 
 from ..formats import USUAL_UP
+from ..read.known_hulls import hull_note
 from ..read.load import LoadedFile, load_file
 from ..request.options import Request
 from ..request.outputs import Targets
@@ -20,7 +23,7 @@ from .attempts import Attempts
 from .build_hulls import build_hulls
 from .decompose_objects import decompose_objects
 from .list_objects import list_objects, needs_parts
-from .results import InputResult
+from .results import InputResult, ObjectResult
 from .stages import Stages
 
 
@@ -44,28 +47,55 @@ def decompose_file(
             lambda: load_file(path, request.up, request.apply_modifiers)
         ) or LoadedFile([], {})
     objects = loaded.objects
-    if needs_parts(targets, request):
-        results = decompose_objects(path.name, loaded, request.parameters, screen)
-    else:
-        results = list_objects(objects)
+    results = _parts_of(loaded, path, targets, request, screen)
     hull_objects: list[bpy.types.Object] = []
     if all(result.record is None for result in results):
         targets = Targets()  # there is nothing to write
 
     up = request.up or USUAL_UP.get(path.suffix.lower())
+    if request.with_hulls and targets.output:
+        hull_objects, results = build_hulls(objects, results, request, screen)
+        if not hull_objects:  # a model without its hulls is not what was asked for
+            targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
-        output = attempts.written(targets.output, lambda file: save(file, up))
+        output = attempts.written(
+            targets.output, lambda file: save(file, up, hull_objects)
+        )
         picture = attempts.written(
             targets.picture, lambda file: save_picture(file, objects, trial.engine())
         )
-    if targets.hulls:
+    if targets.hulls and not hull_objects:
         hull_objects, results = build_hulls(objects, results, request, screen)
     with stages.during("write"):
         hulls = attempts.written(
             targets.hulls if hull_objects else None,
-            lambda file: save_hulls(file, hull_objects, up or "Z"),
+            lambda file: _write_hulls(file, hull_objects, up or "Z", request, screen),
         )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     return InputResult(
         path, results, errors, output, picture, hulls, seconds, stages.stages
     )
+
+
+def _parts_of(
+    loaded: LoadedFile, path: Path, targets: Targets, request: Request, screen: Screen
+) -> tuple[ObjectResult, ...]:
+    """Return the result of each object; without parts if only hulls are asked for."""
+    note = hull_note()
+    if note:
+        screen.warning(f"{path.name}: {note}")
+    if needs_parts(targets, request):
+        return decompose_objects(path.name, loaded, request.parameters, screen)
+    return list_objects(loaded.objects)
+
+
+def _write_hulls(
+    file: Path,
+    hulls: Sequence[bpy.types.Object],
+    up: str,
+    request: Request,
+    screen: Screen,
+) -> None:
+    """Write hulls to a file of their own, and show what is to be said of it."""
+    for note in save_hulls(file, hulls, up, request.body_parameters):
+        screen.warning(f"{file.name}: {note}")

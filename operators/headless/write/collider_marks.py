@@ -1,4 +1,4 @@
-"""Marks the meshes in .glb and .usd files of hulls as convex colliders."""
+"""Marks the hulls in .glb files as convex colliders."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import struct
 from pathlib import Path
 
-import bpy
+from ...bridge.stored.names import HULL_TAG
 
 _EXTENSION = "KHR_physics_rigid_bodies"
 # A .glb file begins with magic word, version and length. Each chunk begins with its
@@ -16,9 +16,10 @@ _CHUNK = struct.Struct("<I4s")
 
 
 def mark_glb(path: Path) -> None:
-    """Mark every node with a mesh as a convex collider (KHR_physics_rigid_bodies).
+    """Mark every node that is a hull as a convex collider (KHR_physics_rigid_bodies).
 
-    The extension is a draft; programs that do not know it still read the meshes.
+    The extras of a node are the custom properties of its object. The extension is a
+    draft; programs that do not know it still read the meshes.
     """
     data = path.read_bytes()
     magic, version, _ = _HEADER.unpack_from(data)
@@ -26,7 +27,7 @@ def mark_glb(path: Path) -> None:
     start = _HEADER.size + _CHUNK.size
     scene = json.loads(data[start : start + length])
     for number, node in enumerate(scene["nodes"]):
-        if "mesh" in node:
+        if "mesh" in node and HULL_TAG in node.get("extras", {}):
             geometry = {"node": number, "convexHull": True}
             node.setdefault("extensions", {})[_EXTENSION] = {
                 "collider": {"geometry": geometry}
@@ -39,22 +40,3 @@ def mark_glb(path: Path) -> None:
     path.write_bytes(
         _HEADER.pack(magic, version, total) + _CHUNK.pack(len(text), kind) + text + rest
     )
-
-
-def mark_usd(path: Path) -> None:
-    """Mark every mesh as a collider that is its own convex hull (UsdPhysics).
-
-    Does nothing before Blender 4.4, whose Python has no USD modules.
-    """
-    if not hasattr(bpy.utils, "expose_bundled_modules"):
-        return
-    bpy.utils.expose_bundled_modules()
-    from pxr import Usd, UsdGeom, UsdPhysics
-
-    stage = Usd.Stage.Open(str(path))
-    for prim in stage.Traverse():
-        if prim.IsA(UsdGeom.Mesh):
-            UsdPhysics.CollisionAPI.Apply(prim)
-            approximation = UsdPhysics.MeshCollisionAPI.Apply(prim)
-            approximation.CreateApproximationAttr(UsdPhysics.Tokens.convexHull)
-    stage.Save()

@@ -1,22 +1,28 @@
-"""Writes the model with its parts: .blend .glb .ply .obj."""
+"""Writes the model with its parts, and its hulls: .blend .glb .ply .obj .usd .fbx."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import bpy
 
 from ..atomic import explaining, replacing
+from ..current_file import mesh_objects
 from ..files.claims import check_companion, companion_of
 from ..files.whole import check_obj
 from ..formats import USUAL_UP, axes
 from ..quiet import quiet_blender
+from .collider_marks import mark_glb
+from .fbx_files import write_fbx
+from .obj_files import restore_digits
 from .ply_copies import ply_copies
+from .usd_files import write_usd
 
 
-def save(path: Path, up: str | None) -> None:
+def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> None:
     """Write the scene to `path` in the format of its ending.
 
     An existing file is replaced once the new one is complete.
@@ -27,6 +33,8 @@ def save(path: Path, up: str | None) -> None:
         File with one of `MODEL_ENDINGS`.
     up : {'Y', 'Z'} or None
         Axis that points up in .obj and .ply; None for the usual one of the format.
+    hulls : sequence of Object, optional
+        Hulls in the scene, which belong into the file.
 
     Raises
     ------
@@ -36,11 +44,15 @@ def save(path: Path, up: str | None) -> None:
     ending = path.suffix.lower()
     companion = companion_of(path, is_model=True)
     companions = [companion] if companion else []
+    bpy.context.view_layer.update()
     with explaining(path, "written"):
         if companion:
             check_companion(path, companion)
         with replacing(path, *companions) as unfinished, quiet_blender():
-            _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
+            if ending in _WITH_HULLS:
+                _WITH_HULLS[ending](unfinished, hulls)
+            else:
+                _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
             if companion:
                 _name_materials(unfinished, companion.name)
 
@@ -52,17 +64,41 @@ def _name_materials(unfinished: Path, name: str) -> None:
     unfinished.write_bytes(text.replace(before, b"mtllib " + os.fsencode(name), 1))
 
 
-def _blend(path: Path, _up: str) -> None:
-    """Save a copy as .blend."""
+def _blend(path: Path, _hulls: Sequence[bpy.types.Object]) -> None:
+    """Save a copy as .blend; hulls are in the scene."""
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
 
 
-def _glb(path: Path, _up: str) -> None:
-    """Export .glb."""
+def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
+    """Export .glb; hulls are marked as colliders."""
     # The extras hold the record, which is the custom property "wcd" of each object.
-    bpy.ops.export_scene.gltf(
-        filepath=str(path), export_format="GLB", export_extras=True
-    )
+    with _smooth(hulls):
+        bpy.ops.export_scene.gltf(
+            filepath=str(path), export_format="GLB", export_extras=True
+        )
+    if hulls:
+        mark_glb(path)
+
+
+@contextmanager
+def _smooth(hulls: Sequence[bpy.types.Object]) -> Iterator[None]:
+    """Shade hulls smooth while they are written, flat again at the end.
+
+    Flat faces have normals of their own: .glb would have a vertex for each corner.
+    """
+    meshes = {hull.data for hull in hulls}
+    for mesh in meshes:
+        mesh.shade_smooth()
+    try:
+        yield
+    finally:
+        for mesh in meshes:
+            mesh.shade_flat()
+
+
+def _usd(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
+    """Write .usd."""
+    write_usd(path, mesh_objects(), hulls)
 
 
 def _obj(path: Path, up: str) -> None:
@@ -76,6 +112,7 @@ def _obj(path: Path, up: str) -> None:
     )
     # Others than these are written too, such as curves.
     check_obj(path, sum(len(obj.data.polygons) for obj in _visible_meshes()))
+    restore_digits(path, up)
 
 
 def _visible_meshes() -> list[bpy.types.Object]:
@@ -96,9 +133,11 @@ def _ply(path: Path, up: str) -> None:
         )
 
 
-_EXPORTERS: dict[str, Callable[[Path, str], None]] = {
+_EXPORTERS: dict[str, Callable[[Path, str], None]] = {".ply": _ply, ".obj": _obj}
+# One for each of `HULLS_WITHIN_ENDINGS`.
+_WITH_HULLS: dict[str, Callable[[Path, Sequence[bpy.types.Object]], None]] = {
     ".blend": _blend,
     ".glb": _glb,
-    ".ply": _ply,
-    ".obj": _obj,
+    ".usd": _usd,
+    ".fbx": write_fbx,
 }

@@ -1,0 +1,108 @@
+"""Mass, center of mass and inertia tensor of solids of uniform density.
+
+The integrals over a polyhedron are sums over tetrahedra between its triangles and one
+point: F. Tonon, "Explicit Exact Formulas for the 3-D Tetrahedron Inertia Tensor in
+Terms of its Vertex Coordinates", J. of Mathematics and Statistics 1(1), 2005.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .geometry.mesh import TriangleMesh
+from .geometry.orientation import oriented
+from .geometry.shells import find_shells
+from .results import MassProperties
+
+# A solid with less volume, in cubed diagonals, is a sheet with two sides.
+_LEAST_VOLUME = 1e-9
+
+
+def mass_of_surface(
+    vertices: NDArray[np.float64], triangles: NDArray[np.int64], density: float
+) -> MassProperties | None:
+    """Return the mass properties of what a closed surface encloses.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float
+    triangles : (T, 3) int
+        Wound consistently. It does not matter which way.
+    density : float
+        Mass of a cubed unit.
+
+    Returns
+    -------
+    MassProperties or None
+        None if the surface encloses nothing.
+    """
+    corners = vertices[triangles]
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    # Small numbers: a model far from the origin loses no digits.
+    middle = (low + high) / 2
+    corners = corners - middle
+    weights = np.einsum(
+        "td,td->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])
+    )
+    volume = float(weights.sum()) / 6
+    if abs(volume) <= _LEAST_VOLUME * float(np.linalg.norm(high - low)) ** 3:
+        return None
+    weights = weights / volume  # positive sums, inside out or not
+    sums = corners.sum(axis=1)
+    center = weights @ sums / 24
+    # Mean of x x^T over the solid.
+    moments = np.einsum("t,ti,tj->ij", weights, sums, sums)
+    moments += np.einsum("t,tci,tcj->ij", weights, corners, corners)
+    spread = moments / 120 - np.outer(center, center)
+    mass = density * abs(volume)
+    inertia = mass * (np.trace(spread) * np.eye(3) - spread)
+    return MassProperties(mass, center + middle, inertia)
+
+
+def combined_mass(bodies: Sequence[MassProperties]) -> MassProperties:
+    """Return the mass properties of bodies that are fixed to each other.
+
+    Parameters
+    ----------
+    bodies : sequence of MassProperties
+        One or more. Where two of them overlap, both count.
+
+    Returns
+    -------
+    MassProperties
+    """
+    masses = np.array([body.mass for body in bodies])
+    centers = np.array([body.center for body in bodies])
+    center = masses @ centers / masses.sum()
+    inertia = np.zeros((3, 3))
+    for body, arm in zip(bodies, centers - center, strict=True):
+        # The parallel axis theorem.
+        inertia += body.inertia
+        inertia += body.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return MassProperties(float(masses.sum()), center, inertia)
+
+
+def mass_of_mesh(mesh: TriangleMesh, density: float) -> MassProperties | None:
+    """Return the mass properties of the solid that a mesh bounds.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        Shells that face the wrong way are turned. Cavities count as empty. Where two
+        shells overlap, both count.
+    density : float
+        Mass of a cubed unit.
+
+    Returns
+    -------
+    MassProperties or None
+        None if the mesh is not closed, or encloses nothing.
+    """
+    shells = find_shells(mesh)
+    if not shells.closed.all():
+        return None
+    turned, _ = oriented(mesh, shells)
+    return mass_of_surface(turned.vertices, turned.triangles, density)

@@ -1,0 +1,56 @@
+"""Names that are legal and distinct in a file, whatever objects are called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+# What a name may not have in it, by format.
+_CONTROL = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
+_ILLEGAL = {
+    # A name ends at a space there.
+    "obj": re.compile(rf"[{_CONTROL}\s]"),
+    # Simulators put names into paths and into other files.
+    "xml": re.compile(rf"[{_CONTROL}\\/\"'<>&]"),
+    # Before USD 24.3, identifiers are ASCII.
+    "usd": re.compile(r"[^A-Za-z0-9_]"),
+}
+_NAMELESS = "unnamed"
+
+
+def legal_names(names: Sequence[str], form: str) -> list[str]:
+    """Return a legal name for each name, all different.
+
+    Characters that are not legal become underscores. Where this makes names equal, all
+    but the first get a number: "A b" and "A_b" become "A_b" and "A_b_2". Names that
+    are legal and different stay as they are.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Names of objects.
+    form : {'obj', 'xml', 'usd'}
+        The format.
+
+    Returns
+    -------
+    list of str
+    """
+    legal = [_legal(name, form) for name in names]
+    # Names that stay as they are come first: they keep their name.
+    kept = {name for name, old in zip(legal, names, strict=True) if name == old}
+    taken: set[str] = set()
+    found = []
+    for name, old in zip(legal, names, strict=True):
+        free, number = name, 2
+        while free in taken or (free in kept and free != old):
+            free, number = f"{name}_{number}", number + 1
+        taken.add(free)
+        found.append(free)
+    return found
+
+
+def _legal(name: str, form: str) -> str:
+    """Return a legal name."""
+    legal = _ILLEGAL[form].sub("_", name).strip() or _NAMELESS
+    return f"_{legal}" if form == "usd" and legal[0].isdigit() else legal

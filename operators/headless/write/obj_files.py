@@ -1,0 +1,109 @@
+"""Writes .obj files whose coordinates have all their digits and whose names differ.
+
+Blender's exporter writes six decimals, which leave nothing of a model of 1e-6, and
+turns "A b" and "A_b" into one name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from .names import legal_names
+from .placed_meshes import (
+    FloatArray,
+    TriangleArray,
+    matrix_of,
+    placed,
+    turned_up,
+    written,
+)
+
+# Blender's exporter rounds to this, and computes in single precision.
+_ROUNDING = 2e-6
+
+
+def write_obj(
+    path: Path,
+    meshes: Sequence[tuple[str, FloatArray, TriangleArray]],
+) -> None:
+    """Write meshes, each an object of its own.
+
+    Parameters
+    ----------
+    path : Path
+    meshes : sequence of (str, (V, 3) float, (T, 3) int)
+        Name, vertices and triangles; names are made legal and distinct.
+    """
+    lines, first = [], 1
+    names = legal_names([name for name, _, _ in meshes], "obj")
+    for name, (_, vertices, triangles) in zip(names, meshes, strict=True):
+        lines.append(f"o {name}")
+        lines += [f"v {written(vertex)}" for vertex in vertices]
+        lines += [f"f {a} {b} {c}" for a, b, c in (triangles + first).tolist()]
+        first += len(vertices)
+    path.write_text("\n".join([*lines, ""]), encoding="utf-8", newline="\n")
+
+
+def write_hulls_obj(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
+    """Write hulls in world space, each an object, with `up` ('Y' or 'Z') up."""
+    meshes = []
+    for hull in hulls:
+        vertices, triangles, _ = placed(hull, matrix_of(hull))
+        meshes.append((hull.name, turned_up(vertices, up), triangles))
+    write_obj(path, meshes)
+
+
+def restore_digits(path: Path, up: str) -> None:
+    """Give a file of Blender's exporter, without modifiers, all digits and own names.
+
+    Objects that are no meshes, such as curves, keep their six decimals.
+    """
+    # Names that are no valid UTF-8 stay as they are.
+    text = path.read_text(encoding="utf-8", errors="surrogateescape")
+    lines = text.split("\n")
+    starts = [row for row, line in enumerate(lines) if line.startswith("o ")]
+    old = [lines[row][2:] for row in starts]
+    shapes = _exported_meshes()
+    for name, new, (start, end) in zip(
+        old, legal_names(old, "obj"), pairwise([*starts, len(lines)]), strict=True
+    ):
+        rows = [r for r in range(start, end) if lines[r].startswith("v ")]
+        if shapes.get(name) and rows:
+            vertices = turned_up(shapes[name][0], up)
+            if _agree([lines[row] for row in rows], vertices):
+                del shapes[name][0]
+                for row, vertex in zip(rows, vertices, strict=True):
+                    lines[row] = f"v {written(vertex)}"
+        for row in range(start, end):
+            for head in (f"o {name}", f"g {name}"):
+                if new != name and lines[row].startswith(head):
+                    lines[row] = head[:2] + new + lines[row][len(head) :]
+    path.write_text(
+        "\n".join(lines), encoding="utf-8", errors="surrogateescape", newline="\n"
+    )
+
+
+def _exported_meshes() -> dict[str, list[FloatArray]]:
+    """Return the vertices of all visible meshes in world space, by name in the file."""
+    found: dict[str, list[FloatArray]] = {}
+    for instance in bpy.context.evaluated_depsgraph_get().object_instances:
+        obj = instance.object.original
+        if obj.type == "MESH":
+            matrix = np.array(instance.matrix_world, dtype=np.float64)
+            vertices, _, _ = placed(obj, matrix)
+            found.setdefault(obj.name.replace(" ", "_"), []).append(vertices)
+    return found
+
+
+def _agree(lines: Sequence[str], vertices: FloatArray) -> bool:
+    """Return whether lines of a file hold vertices, as far as their decimals go."""
+    if len(lines) != len(vertices):
+        return False
+    rough = np.array([line.split()[1:4] for line in lines], dtype=np.float64)
+    slack = _ROUNDING * (1 + np.abs(vertices).max(initial=0.0))
+    return bool((np.abs(rough - vertices) <= slack).all())

@@ -1,0 +1,83 @@
+"""What bodies weigh: from the solids of their objects, else from the hulls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import bpy
+import numpy as np
+
+from ..... import core
+from .....core.geometry.mesh import TriangleMesh
+from .....core.results import MassProperties
+from ..placed_meshes import FloatArray, matrix_of, placed
+
+# MuJoCo refuses less, in kilograms, and in kilograms times squared meters.
+_LEAST = 1e-15
+# Most names in a note.
+_MOST_NAMES = 3
+
+
+def mass_of_objects(
+    owned: Mapping[bpy.types.Object, Sequence[bpy.types.Object]],
+    frame: FloatArray,
+    density: float,
+) -> tuple[MassProperties, list[str]]:
+    """Return the mass properties of a body, and its objects that are no solids.
+
+    Parameters
+    ----------
+    owned : mapping of Object to sequence of Object
+        The hulls of each object.
+    frame : (4, 4) float
+        From the body's space to the world.
+    density : float
+        Mass of a cubed unit.
+
+    Returns
+    -------
+    mass : MassProperties
+        In the frame of the body.
+    without_solid : list of str
+        Names of the objects whose mass is that of their hulls.
+    """
+    inverse = np.linalg.inv(frame)
+    masses, without_solid = [], []
+    for obj, hulls in owned.items():
+        mesh = TriangleMesh(*placed(obj, inverse @ matrix_of(obj)))
+        mass = core.mass_of_mesh(mesh, density)
+        if mass is not None:
+            masses.append(mass)
+            continue
+        without_solid.append(obj.name)
+        for hull in hulls:
+            vertices, triangles, _ = placed(hull, inverse @ matrix_of(hull))
+            of_hull = core.mass_of_surface(vertices, triangles, density)
+            if of_hull is not None:
+                masses.append(of_hull)
+    if not masses:  # flat hulls
+        return MassProperties(0.0, np.zeros(3), np.zeros((3, 3))), without_solid
+    return core.combined_mass(masses), without_solid
+
+
+def mass_notes(
+    masses: Mapping[str, MassProperties], without_solid: Sequence[str]
+) -> tuple[str, ...]:
+    """Return sentences to the user about the masses of bodies, by name."""
+    notes = []
+    if without_solid:
+        names = ", ".join(without_solid[:_MOST_NAMES])
+        more = len(without_solid) - _MOST_NAMES
+        names += f" and {more} more" if more > 0 else ""
+        notes.append(
+            f"Mass and inertia are those of the hulls where the surface is not closed:"
+            f" {names}."
+        )
+    for name, mass in masses.items():
+        if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:
+            notes.append(
+                f"{name} weighs {mass.mass:.3g} kg, too little for simulators; raise"
+                " Density or make the model larger."
+            )
+            break
+    return tuple(notes)

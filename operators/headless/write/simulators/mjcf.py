@@ -1,0 +1,99 @@
+"""Writes MJCF, the format of MuJoCo: bodies that move freely."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..placed_meshes import written
+from .bodies import Body, Geometry
+from .solids import Solid, quaternion_of
+from .urdf import write_xml
+
+# The groups that MuJoCo's viewer shows and hides: 2 is shown at first, 3 is not.
+_VISUAL = {"group": "2", "contype": "0", "conaffinity": "0"}
+_COLLISION = {"group": "3"}
+
+
+def write_mjcf(path: Path, model: str, bodies: Sequence[Body], folder: str) -> None:
+    """Write bodies with their masses, hulls and visible meshes.
+
+    Parameters
+    ----------
+    path : Path
+        The file to write.
+    model : str
+        Name of the model.
+    bodies : sequence of Body
+    folder : str
+        The folder of the meshes, relative to `path`.
+    """
+    root = ET.Element("mujoco", model=model)
+    defaults = ET.SubElement(root, "default")
+    for name, settings in (("visual", _VISUAL), ("collision", _COLLISION)):
+        ET.SubElement(
+            ET.SubElement(defaults, "default", {"class": name}), "geom", settings
+        )
+    assets, world = ET.SubElement(root, "asset"), ET.SubElement(root, "worldbody")
+    for body in bodies:
+        element = ET.SubElement(
+            world,
+            "body",
+            name=body.name,
+            pos=written(body.frame[:3, 3]),
+            quat=written(quaternion_of(body.frame[:3, :3])),
+        )
+        ET.SubElement(element, "freejoint", name=body.name)
+        _add_inertia(element, body)
+        for shape in body.visuals:
+            # Open meshes have no volume, which MuJoCo refuses without "shell".
+            _add_mesh(assets, shape, folder, inertia="shell")
+            _add_geom(element, shape, "visual", rgba=written(np.array(shape.color)))
+        for shape in body.collisions:
+            if shape.solid is None:
+                _add_mesh(assets, shape, folder)
+            _add_geom(element, shape, "collision")
+    write_xml(path, root)
+
+
+def _add_inertia(element: ET.Element, body: Body) -> None:
+    """Add the mass of a body."""
+    rows = body.mass.inertia
+    upper = rows[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    ET.SubElement(
+        element,
+        "inertial",
+        pos=written(body.mass.center),
+        mass=f"{body.mass.mass:.9g}",
+        fullinertia=written(upper),
+    )
+
+
+def _add_mesh(assets: ET.Element, shape: Geometry, folder: str, **more: str) -> None:
+    """Add the mesh of a shape."""
+    settings = {"name": shape.name, "file": f"{folder}/{shape.file}", **more}
+    ET.SubElement(assets, "mesh", settings)
+
+
+def _add_geom(element: ET.Element, shape: Geometry, kind: str, **more: str) -> None:
+    """Add a shape to a body."""
+    settings = {"name": shape.name, "class": kind, **more}
+    if shape.solid is None:
+        settings |= {"type": "mesh", "mesh": shape.name}
+    else:
+        settings |= _settings_of(shape.solid)
+    ET.SubElement(element, "geom", settings)
+
+
+def _settings_of(solid: Solid) -> dict[str, str]:
+    """Return the attributes of a primitive."""
+    lengths = {"BOX": [0, 1, 2], "SPHERE": [0]}.get(solid.kind, [0, 2])
+    return {
+        "type": solid.kind.lower(),
+        "size": written(solid.sizes[lengths]),
+        "pos": written(solid.center),
+        "quat": written(quaternion_of(solid.rotation)),
+    }

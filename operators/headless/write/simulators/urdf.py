@@ -1,0 +1,137 @@
+"""Writes URDF: a robot of one link, or a link for each object."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..placed_meshes import FloatArray, written
+from .bodies import Body, Geometry
+from .solids import Solid, angles_of
+
+# Simulators take a link of this name for the ground, which does not move.
+_GROUND = "world"
+
+
+def write_urdf(
+    path: Path, model: str, bodies: Sequence[Body], folder: str, each: bool
+) -> None:
+    """Write a robot.
+
+    Robots are trees of links. One body is a robot of one link. Several are links that
+    joints of type "floating" connect to the ground, so that they move by themselves.
+
+    Parameters
+    ----------
+    path : Path
+        The file to write.
+    model : str
+        Name of the model.
+    bodies : sequence of Body
+    folder : str
+        The folder of the meshes, relative to `path`.
+    each : bool
+        Whether the bodies hang on joints.
+    """
+    robot = ET.Element("robot", name=model)
+    # For MuJoCo: find the folder of the meshes, and keep a link that has no joint as a
+    # body of its own. Other programs skip it.
+    ET.SubElement(
+        ET.SubElement(robot, "mujoco"),
+        "compiler",
+        strippath="false",
+        fusestatic="false",
+    )
+    if each:
+        ET.SubElement(robot, "link", name=_GROUND)
+    for body in bodies:
+        _add_link(robot, body, folder)
+    for body in bodies if each else ():
+        joint = ET.SubElement(
+            robot, "joint", name=f"{body.name} joint", type="floating"
+        )
+        ET.SubElement(joint, "parent", link=_GROUND)
+        ET.SubElement(joint, "child", link=body.name)
+        _add_origin(joint, body.frame[:3, 3], body.frame[:3, :3])
+    write_xml(path, robot)
+
+
+def write_xml(path: Path, root: ET.Element) -> None:
+    """Write an XML file."""
+    ET.indent(root)
+    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+
+
+def _add_link(robot: ET.Element, body: Body, folder: str) -> None:
+    """Add a body with its mass and shapes."""
+    link = ET.SubElement(robot, "link", name=body.name)
+    inertial = ET.SubElement(link, "inertial")
+    _add_origin(inertial, body.mass.center)
+    ET.SubElement(inertial, "mass", value=f"{body.mass.mass:.9g}")
+    rows = body.mass.inertia
+    tensor = {
+        f"i{'xyz'[i]}{'xyz'[j]}": f"{rows[i, j] + 0.0:.9g}"
+        for i in range(3)
+        for j in range(i, 3)
+    }
+    ET.SubElement(inertial, "inertia", tensor)
+    for shape in body.visuals:
+        visual = ET.SubElement(link, "visual", name=shape.name)
+        _add_mesh(visual, shape, folder)
+        material = ET.SubElement(visual, "material", name=shape.name)
+        ET.SubElement(material, "color", rgba=written(np.array(shape.color)))
+    for shape in body.collisions:
+        for number, solid in enumerate(_solids(shape.solid), start=1):
+            name = shape.name if number == 1 else f"{shape.name} end {number - 1}"
+            _add_solid(ET.SubElement(link, "collision", name=name), solid)
+        if shape.solid is None:
+            collision = ET.SubElement(link, "collision", name=shape.name)
+            _add_mesh(collision, shape, folder)
+
+
+def _solids(solid: Solid | None) -> list[Solid]:
+    """Return the solids that a solid is made of: URDF has no capsules.
+
+    A cylinder and two balls at its ends are the same shape.
+    """
+    if solid is None:
+        return []
+    if solid.kind != "CAPSULE":
+        return [solid]
+    half = solid.rotation[:, 2] * solid.sizes[2]
+    ends = [
+        Solid("SPHERE", solid.center + end, solid.rotation, solid.sizes)
+        for end in (half, -half)
+    ]
+    middle = Solid("CYLINDER", solid.center, solid.rotation, solid.sizes)
+    return [middle, *ends]
+
+
+def _add_solid(element: ET.Element, solid: Solid) -> None:
+    """Add the place and size of a primitive."""
+    _add_origin(element, solid.center, solid.rotation)
+    geometry = ET.SubElement(element, "geometry")
+    radius, half = f"{solid.sizes[0]:.9g}", solid.sizes[2]
+    if solid.kind == "BOX":
+        ET.SubElement(geometry, "box", size=written(2 * solid.sizes))
+    elif solid.kind == "SPHERE":
+        ET.SubElement(geometry, "sphere", radius=radius)
+    else:
+        ET.SubElement(geometry, "cylinder", radius=radius, length=f"{2 * half:.9g}")
+
+
+def _add_mesh(element: ET.Element, shape: Geometry, folder: str) -> None:
+    """Add the file of a mesh, which is in the frame of the link."""
+    geometry = ET.SubElement(element, "geometry")
+    ET.SubElement(geometry, "mesh", filename=f"{folder}/{shape.file}")
+
+
+def _add_origin(
+    element: ET.Element, place: FloatArray, rotation: FloatArray | None = None
+) -> None:
+    """Add a place and a rotation matrix; without one, axes are those of the link."""
+    angles = np.zeros(3) if rotation is None else angles_of(rotation)
+    ET.SubElement(element, "origin", xyz=written(place), rpy=written(angles))
