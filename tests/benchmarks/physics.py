@@ -12,8 +12,8 @@ from pathlib import Path
 
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
-import simulation
 import weak_convex_decomposition as package
+from headless import simulation
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 from weak_convex_decomposition.operators.headless.read.load import load
 

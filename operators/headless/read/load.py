@@ -36,6 +36,10 @@ class LoadedFile:
     objects: list[bpy.types.Object]
     notes: dict[str, str]
 
+    def notes_of(self, obj: bpy.types.Object) -> tuple[str, ...]:
+        """Return what was done to an object so that it could be read, if anything."""
+        return (self.notes[obj.name_full],) if obj.name_full in self.notes else ()
+
 
 def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
     """Load `path` and return its mesh objects, by name; see `load_file`."""
@@ -76,8 +80,8 @@ def load_file(
         raise _unreadable(path, "the importer gave up")
     check_libraries(path)
     with quiet_blender():
-        make_all_local()
         adopt_hulls()
+        make_all_local()
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())

@@ -156,7 +156,7 @@ def _parser(program: str) -> _Parser:
 
 
 def _add_files(parser: argparse.ArgumentParser) -> None:
-    """Add the inputs and the files to write."""
+    """Add the inputs and how they are read, and the files to write."""
     files = parser.add_argument_group("files")
     files.add_argument(
         "inputs",
@@ -165,6 +165,25 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="models to decompose; - reads their paths from standard input, one a line",
     )
+    _add_outputs(files)
+    files.add_argument(
+        "--up",
+        type=str.upper,
+        choices=("Y", "Z"),
+        help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files that are"
+        " read or written (default: Y in .obj and .off, Z in the others; the output"
+        " keeps the axes of the input)",
+    )
+    files.add_argument(
+        "--apply-modifiers",
+        action="store_true",
+        help="decompose, and write, meshes with their modifiers and shape keys applied"
+        " (default: meshes without them)",
+    )
+
+
+def _add_outputs(files: argparse._ArgumentGroup) -> None:
+    """Add the files to write."""
     files.add_argument(
         "--output", metavar="OUTPUT", help="write the model with its parts"
     )
@@ -194,20 +213,6 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="write the parameters and the parts with their areas and convexity ranks"
         " as JSON; - prints it to standard output, and results to standard error",
-    )
-    files.add_argument(
-        "--up",
-        type=str.upper,
-        choices=("Y", "Z"),
-        help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files that are"
-        " read or written (default: Y in .obj and .off, Z in the others; the output"
-        " keeps the axes of the input)",
-    )
-    files.add_argument(
-        "--apply-modifiers",
-        action="store_true",
-        help="decompose, and write, meshes with their modifiers and shape keys applied"
-        " (default: meshes without them)",
     )
 
 

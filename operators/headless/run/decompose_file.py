@@ -86,7 +86,7 @@ def _parts_of(
         screen.warning(f"{path.name}: {note}")
     if needs_parts(targets, request):
         return decompose_objects(path.name, loaded, request.parameters, screen)
-    return list_objects(loaded.objects)
+    return list_objects(loaded)
 
 
 def _write_hulls(

@@ -45,9 +45,7 @@ def decompose_objects(
             result = _decompose(title, obj, parameters, screen)
             if not result.error:
                 done[obj.data] = obj, result
-        if obj.name_full in loaded.notes:
-            notes = (loaded.notes[obj.name_full], *result.notes)
-            result = replace(result, notes=notes)
+        result = replace(result, notes=(*loaded.notes_of(obj), *result.notes))
         _show(file_name, result, screen)
         results.append(result)
     return tuple(results)

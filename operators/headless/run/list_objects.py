@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import bpy
-
 from ..current_file import has_shape
+from ..read.load import LoadedFile
 from ..request.options import Request
 from ..request.outputs import Targets
 from .results import ObjectResult
@@ -25,17 +22,19 @@ def needs_parts(targets: Targets, request: Request) -> bool:
     return shows_parts or request.hull_parameters.pieces == "PARTS"
 
 
-def list_objects(objects: Sequence[bpy.types.Object]) -> tuple[ObjectResult, ...]:
+def list_objects(loaded: LoadedFile) -> tuple[ObjectResult, ...]:
     """Return a result for each object, without parts; those without faces get a note.
 
     Parameters
     ----------
-    objects : sequence of Object
+    loaded : LoadedFile
     """
-    note = "It has no faces and gets no hulls."
-    return tuple(
-        ObjectResult(obj.name_full, record={})
-        if has_shape(obj)
-        else ObjectResult(obj.name_full, notes=(note,))
-        for obj in objects
-    )
+    results = []
+    for obj in loaded.objects:
+        notes = loaded.notes_of(obj)
+        if has_shape(obj):
+            results.append(ObjectResult(obj.name_full, record={}, notes=notes))
+        else:
+            notes = (*notes, "It has no faces and gets no hulls.")
+            results.append(ObjectResult(obj.name_full, notes=notes))
+    return tuple(results)

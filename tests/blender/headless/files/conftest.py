@@ -2,7 +2,7 @@
 
 import bpy
 import pytest
-from command import QUICK
+from headless.command import QUICK
 from weak_convex_decomposition.operators.headless.command_line import main
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from command import QUICK, content, start
+from headless.command import QUICK, content, start
 from weak_convex_decomposition.operators.headless import command_line
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read import load

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import bpy
 import pytest
-from command import content
-from full_disk import full_disk
+from headless.command import content
+from headless.full_disk import full_disk
 from weak_convex_decomposition.operators.headless.files.whole import check_whole
 from weak_convex_decomposition.operators.headless.write.model_files import save
 

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from command import content
+from headless.command import content
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.files.output_folders import (
     MANIFEST,

@@ -8,8 +8,8 @@ from functools import partial
 
 import bpy
 import pytest
-from command import content
-from full_disk import file_limit, full_disk
+from headless.command import content
+from headless.full_disk import file_limit, full_disk
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.atomic import replacing
 from weak_convex_decomposition.operators.headless.files.swap import Move, swap

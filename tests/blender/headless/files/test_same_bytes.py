@@ -13,7 +13,7 @@ import sys
 import bpy
 import pytest
 from checkout import PACKAGE, ROOT
-from command import content
+from headless.command import content
 
 OUTPUTS = ("a.glb", "b.obj", "c.ply")
 # Blender's exporter writes prims in another order each time.

@@ -10,7 +10,7 @@ import sys
 import bpy
 import pytest
 from checkout import PACKAGE, ROOT
-from command import QUICK, content, start
+from headless.command import QUICK, content, start
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.request.options import parse
 

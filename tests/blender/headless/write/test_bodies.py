@@ -7,10 +7,10 @@ import bpy
 import mujoco
 import numpy as np
 import pytest
-import simulation
 import trimesh
 import weak_convex_decomposition as package
 from hand_made import add_ring, build_hulls
+from headless import simulation
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.write.hull_files import save_hulls

@@ -8,7 +8,7 @@ mujoco = pytest.importorskip(
     "mujoco", reason="MuJoCo is missing; make test installs it"
 )
 
-import simulation  # noqa: E402  # needs MuJoCo
+from headless import simulation  # noqa: E402  # needs MuJoCo
 
 ERROR = 0.05
 MODELS = {

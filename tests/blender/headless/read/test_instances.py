@@ -5,7 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from instancing import (
+from headless.instancing import (
     add,
     box,
     boxes,

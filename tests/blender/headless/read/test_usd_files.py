@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import bpy
 import pytest
-from instancing import add, box, boxes, rock
+from headless.instancing import add, box, boxes, rock
 from weak_convex_decomposition.operators.headless.read.load import load
 
 MESH = """

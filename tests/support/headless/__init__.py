@@ -1,0 +1,1 @@
+"""Helpers of tests of the command line: runs, files, disks and simulators."""
