@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-physics bench-ablation \
-  bench-clouds bench-speed contact-sheet clean psb venv development
+  bench-clouds bench-objects bench-speed contact-sheet clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -105,7 +105,10 @@ bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=dir
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
-	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed.py
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/suzanne.py
+
+bench-objects: venv ## Measure files of many small objects: OBJECTS=1000
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/many_objects.py $(OBJECTS)
 
 contact-sheet: psb venv ## Draw the benchmark's models in build/contact_sheet/: PSB=directory
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/contact_sheet.py "$(PSB)" \

@@ -97,7 +97,8 @@ class Parameters:
         ParameterInfo(
             "Samples",
             "Number of points spread evenly over the surface: more show smaller details"
-            " and take longer; not used if Sampling is By Faces",
+            " and take longer. Meshes of fewer than 600 triangles take down to a third"
+            " of them, but 400 at least; not used if Sampling is By Faces",
             low=16,
             high=10000,
         ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,11 @@ from .viewpoints import viewpoints
 
 # Most samples whose matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
+# A mesh of fewer triangles takes fewer samples to find parts: seams follow its edges.
+_FEW_TRIANGLES = 600
+# Least share of the samples that it takes, and number that is not reduced.
+_LEAST_SHARE = 1 / 3
+_ENOUGH_SAMPLES = 400
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +136,18 @@ def _samples_of(
     return samples
 
 
+def _for_size(shape: PreparedShape, parameters: Parameters) -> Parameters:
+    """Return parameters with fewer samples for a mesh of few triangles.
+
+    Time grows with their square. Parts of a larger mesh get all of them.
+    """
+    if shape.solid is None or shape.plane is not None:
+        return parameters
+    share = max(_LEAST_SHARE, len(shape.targets.triangles) / _FEW_TRIANGLES)
+    few = max(_ENOUGH_SAMPLES, round(share * parameters.samples))
+    return replace(parameters, samples=min(parameters.samples, few))
+
+
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
     """Compute the visibility of a shape: the expensive half of a decomposition.
 
@@ -151,7 +168,8 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
         If no surface carries samples, or if each face is a sample and the matrix of all
         pairs does not fit into memory.
     """
-    sight = yield from within(find_lines_of_sight(shape, parameters), 0.0, 0.8)
+    steps = find_lines_of_sight(shape, _for_size(shape, parameters))
+    sight = yield from within(steps, 0.0, 0.8)
     affinity, psi = sight.affinity_pairs, sight.rank_pairs
     if parameters.containers == "FILLED" and shape.plane is None:
         affinity, psi = yield from within(
