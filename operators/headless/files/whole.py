@@ -148,7 +148,7 @@ def _png(data: bytes) -> bool:
 def _usd(data: bytes) -> bool:
     """Check .usd: a binary file ends with its table of contents; text with a brace."""
     if not data.startswith(b"PXR-USDC"):
-        return data.rstrip().endswith((b"}", b")"))
+        return data.rstrip().endswith(b"\n}")  # of the last prim at the top
     (start,) = struct.unpack_from("<q", data, 16)
     (n_sections,) = struct.unpack_from("<Q", data, start)
     return start + 8 + 32 * n_sections == len(data)

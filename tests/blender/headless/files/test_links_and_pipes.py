@@ -44,7 +44,7 @@ def test_a_link_to_another_disk_is_followed(tmp_path, model, run):
         found = content(disk)
         assert b"<mujoco" in found["z.xml"]
         assert b"newmtl Part" in found["w.mtl"]
-        assert sum(name.startswith("meshes/") for name in found) == 4
+        assert found.keys() >= {"meshes/001.obj", "meshes/wcd_manifest.json"}
         assert (tmp_path / "z_xml").is_symlink()
 
 

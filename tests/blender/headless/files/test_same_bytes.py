@@ -15,9 +15,7 @@ import pytest
 from checkout import PACKAGE, ROOT
 from headless.command import content
 
-OUTPUTS = ("a.glb", "b.obj", "c.ply")
-# Blender's exporter writes prims in another order each time.
-UNORDERED = {"g.usd"}
+OUTPUTS = ("a.glb", "b.obj", "c.ply", "j.fbx", "k.usd")
 HULLS = ("d.glb", "e.obj", "f.stl", "g.usd", "h.urdf", "i.xml")
 RUNS = f"""
 import itertools, os, sys
@@ -81,5 +79,5 @@ def test_all_files_are_the_same(two_runs):
     reports = {name for name in one if name.endswith(".json") and "/" not in name}
     for name in reports:
         assert without_times(one[name]) == without_times(two[name]), name
-    others = one.keys() - reports - UNORDERED
+    others = one.keys() - reports
     assert sorted(name for name in others if one[name] != two[name]) == []

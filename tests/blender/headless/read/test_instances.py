@@ -32,7 +32,7 @@ def _empty_file():
 def hulls_in(path):
     """Return the bounding box of each hull in an .obj file, in its order."""
     found = []
-    for hull in path.read_text().split("\no ")[1:]:
+    for hull in f"\n{path.read_text()}".split("\no ")[1:]:
         rows = [line.split()[1:] for line in hull.splitlines() if line[:2] == "v "]
         points = np.round(np.array(rows, dtype=float), 3)
         found.append([*points.min(axis=0).tolist(), *points.max(axis=0).tolist()])

@@ -167,7 +167,8 @@ def test_two_processes_write_the_same_bytes(tmp_path):
 def test_a_model_without_hulls_is_not_written_as_if_it_had_some(tmp_path, capsys):
     _, cube = add_models()
     cube.name = "UCX_A b_01_of_a_user"
-    bpy.data.objects.new("A b hull 01", None).use_fake_user = True
+    for name in ("A b", cube.name):
+        bpy.data.objects.new(f"{name} hull 01", None).use_fake_user = True
     model, output = tmp_path / "two.blend", tmp_path / "both.glb"
     output.write_text("earlier")
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
