@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
-    from .hulls.fitting import outline_of as outline_of
+    from .hulls.outline import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
     from .parts.editing import Change as Change
@@ -32,7 +32,7 @@ _HOMES = {
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
     "build_hulls_in_steps": "hulls.build",
-    "outline_of": "hulls.fitting",
+    "outline_of": "hulls.outline",
     "measure_in_steps": "measurement",
     "Change": "parts.editing",
     "compacted": "parts.editing",

@@ -92,3 +92,15 @@ def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
     if scale.max() - scale.min() <= _SAME_SCALE * scale.max():
         return np.ones(3)
     return scale
+
+
+def scene_unit(obj: bpy.types.Object) -> float:
+    """Return the length in the scene of 1 in the coordinates of `read_shape`.
+
+    Raises
+    ------
+    DecompositionError
+        If a factor of the scale is zero or not finite.
+    """
+    scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
+    return float((scale / stretch(obj)).max())

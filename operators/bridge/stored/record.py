@@ -155,6 +155,7 @@ def write_hull_record(
     result[_HULLS] = {
         "parameters": asdict(parameters),
         "largest_error": float(found.errors.max()),
+        "error_unit": found.error_unit,
         "volume_ratio": ratio if math.isfinite(ratio) else None,
         "hulls": hulls,
         "notes": list(found.notes),

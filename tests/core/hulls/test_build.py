@@ -8,7 +8,7 @@ from convexity_check import assert_convex, heights_above_shape
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
-from weak_convex_decomposition.core.hulls.fitting import outline_of
+from weak_convex_decomposition.core.hulls.outline import outline_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import Progress
 
@@ -60,8 +60,8 @@ def test_the_error_is_concavity():
     assert found.errors[0] == pytest.approx(hausdorff, abs=0.03)
     assert found.volume_ratio == pytest.approx(1 + gap / solid, rel=0.03)
     assert found.notes == (
-        f"The error is {found.errors[0]:.3f}, above Largest Error, after as many cuts"
-        " as Most Hulls = 1 allows; raise Most Hulls for more.",
+        f"The error is {found.errors[0]:.3g}, above Largest Error = 0.05, after as many"
+        " cuts as Most Hulls = 1 allows; raise Most Hulls for more.",
     )
 
 
