@@ -19,7 +19,7 @@ from .measure.estimate import estimated_error, volume_error
 from .solid import Solid
 
 # Errors below this share of the largest one allowed need not be told apart.
-_TOLD_APART = 0.2
+_TOLD_APART = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +73,7 @@ class Piece:
         shape, solid = self.rough_shape, self.solid
         if shape.kind == "HULL":
             return shape.volume - self.volume
-        within = shape.heights(solid.chords) <= 0
-        return shape.volume - float(solid.volumes[within].sum())
+        return shape.volume - solid.volume_in(shape)
 
     @property
     def volume_error(self) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
-from ..geometry.primitives import Hull
+from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
 from ..geometry.shells import find_shells
 from ..steps.progress import Progress, Steps
@@ -100,6 +100,18 @@ class Solid:
     def inside(self) -> InsideTest:
         """Tells what is inside."""
         return InsideTest(self.fragments, 1 if self.closed else 3)
+
+    def volume_in(self, shape: CollisionShape) -> float:
+        """Return about how much of a collision shape is inside.
+
+        Parameters
+        ----------
+        shape : CollisionShape
+        """
+        low, high = shape.bounds
+        near = ((low <= self.chords) & (self.chords <= high)).all(axis=1)
+        within = shape.heights(self.chords[near]) <= 0
+        return float(self.volumes[near][within].sum())
 
     def main_part(self, parts: NDArray[np.int64], hull: Hull) -> int:
         """Return the part of most of the surface samples in a hull.

@@ -30,8 +30,8 @@ def fragments_of(
     origins : (N,) int
         Triangle that each is a piece of.
     """
-    done: list[NDArray[np.float64]] = []
-    rows: list[NDArray[np.int64]] = []
+    done = [corners[:0]]
+    rows = [np.zeros(0, dtype=np.int64)]
     triangles, n_done = np.arange(len(corners)), 0
     while len(corners):
         ready = edge_lengths(corners).max(axis=1) <= longest

@@ -108,7 +108,10 @@ class InsideTest:
         starts = np.maximum.accumulate(np.where(first, np.arange(len(line)), 0))
         total = np.cumsum(turns)
         depths = total - (total - turns)[starts]
-        inside = np.flatnonzero((depths[:-1] > 0) & ~first[1:])
+        # Counted from the end of the line, too: in an open mesh the two may differ.
+        leftover = np.bincount(line, turns, len(spots))[line]
+        within = (depths > 0) & (depths > leftover)
+        inside = np.flatnonzero(within[:-1] & ~first[1:])
         rows = line[inside]
         start = np.maximum(heights[inside], enter[rows])
         end = np.minimum(heights[inside + 1], leave[rows])

@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import bpy  # noqa: F401  # mathutils comes with it
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 import weak_convex_decomposition as package
@@ -25,7 +26,10 @@ ENDINGS = {".obj", ".off", ".ply", ".stl"}
 ON_SHAPE, ON_MESH, IN_BOX = 20_000, 200_000, 20_000
 # Errors below this, relative to half of the longest side, are rounding.
 LEAST = 0.002
-RAYS = [Vector(ray).normalized() for ray in ((0.31, 0.17, 1), (1, 0.23, -0.41), (-0.37, 1, 0.19))]
+RAYS = [
+    Vector(ray).normalized()
+    for ray in ((0.31, 0.17, 1), (1, 0.23, -0.41), (-0.37, 1, 0.19))
+]
 
 
 def mesh_files(folder):
@@ -120,7 +124,9 @@ def tree_of(corners):
 
 def main(folder, *kinds):
     worst = {}
-    print(f"{'mesh':18}{'shape':10}{'shapes':>7}{'stated':>8}{'measured':>9}{'ratio':>7}{'bare':>7}{'volumes':>9}{'seconds':>9}")
+    print(
+        f"{'mesh':18}{'shape':10}{'shapes':>7}{'stated':>8}{'measured':>9}{'ratio':>7}{'bare':>7}{'volumes':>9}{'seconds':>9}"
+    )
     for path in mesh_files(folder):
         (obj, *_) = load(path, "Y")
         mesh = read_shape(obj)
