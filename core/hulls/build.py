@@ -58,7 +58,6 @@ def build_hulls_in_steps(
     Returns
     -------
     Steps of HullDecomposition
-        Shapes in the units of the mesh, the largest first.
 
     Raises
     ------
@@ -72,19 +71,13 @@ def build_hulls_in_steps(
     factor = parameters.unit_of_errors(size * scene_unit)
     fit = Fit(parameters, size, parameters.max_error / factor)
     numbers, parts = _parts_of_triangles(shape, labels)
-    found = None
-    if prepared.convex and len(numbers) == 1:
-        found = _around_convex(prepared, fit, shape.diagonal / size)
-    if found is None:
-        solid = yield from _scaled_solid(prepared, shape.diagonal / size, seed)
-        found = yield from _around_pieces(solid, parts, fit)
-    shapes = tuple(each.moved(size, shape.center) for each in found.shapes)
-    errors = found.errors * factor
+    found = yield from _find(prepared, fit, shape.diagonal / size, parts, seed)
+    shapes, errors = found.shapes, found.errors * factor
     return HullDecomposition(
-        shapes,
+        tuple(each.moved(size, shape.center) for each in shapes),
         errors,
         numbers[found.rows],
-        _volume_ratio(shapes, found.volume * size**3),
+        _volume_ratio(shapes, found.volume),
         (*prepared.notes, *_notes(found, errors, fit)),
         parameters.error_unit,
         size * scene_unit,
@@ -112,6 +105,26 @@ class _Found:
     hulls: Sequence[Hull]
     rows: NDArray[np.int64]
     volume: float
+
+
+def _find(
+    prepared: PreparedShape,
+    fit: Fit,
+    scale: float,
+    parts: NDArray[np.int64],
+    seed: int,
+) -> Steps[_Found]:
+    """Return the shapes around a mesh; `scale` makes its longest side 2."""
+    found = None
+    if prepared.convex and not parts.any():
+        found = _around_convex(prepared, fit, scale)
+    if found is None:
+        assert prepared.solid is not None  # None for point clouds only
+        yield Progress("Solid", 0.0)
+        mesh = replace(prepared.solid, vertices=prepared.solid.vertices * scale)
+        solid = yield from within(solid_of(mesh, seed), 0.0, 0.0)
+        found = yield from _around_pieces(solid, parts, fit)
+    return found
 
 
 def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | None:
@@ -153,30 +166,16 @@ def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_F
     )
 
 
-def _scaled_solid(prepared: PreparedShape, scale: float, seed: int) -> Steps[Solid]:
-    """Return the solid of a mesh in CoACD's units, where its longest side is 2."""
-    assert prepared.solid is not None  # None for point clouds only
-    yield Progress("Solid", 0.0)
-    vertices = prepared.solid.vertices * scale
-    steps = solid_of(replace(prepared.solid, vertices=vertices), seed)
-    return (yield from within(steps, 0.0, 0.0))
-
-
 def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[Piece]]:
     """Return the pieces that get a shape each."""
     most = fit.parameters.max_hulls
     if fit.parameters.pieces == "PARTS":
         start = [piece_of_part(solid, fit, parts == k) for k in np.unique(parts)]
         return (yield from join_pieces(start, 0.0, most))
-    if not _has_room(fit):  # cuts cannot make up for the margin
+    if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
     cells = yield from within(_cut(whole(solid, fit), int(_SURPLUS * most)), 0.0, 0.9)
     return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
-
-
-def _has_room(fit: Fit) -> bool:
-    """Return whether the margin alone is within the largest error."""
-    return abs(fit.margin) < fit.max_error
 
 
 def _volume_ratio(shapes: Sequence[CollisionShape], volume: float) -> float:
@@ -199,7 +198,8 @@ def _parts_of_triangles(
 
 def _cut(cell: Cell, most: int) -> Steps[list[Cell]]:
     """Cut the piece of largest error repeatedly, into `most` pieces at most."""
-    cells, done = [cell], []
+    cells = [cell]
+    done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
         share, far = (len(cells) + len(done)) / most, []
         for cell in cells:
@@ -224,7 +224,7 @@ def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, .
         advice = (
             f"after as many cuts as Most Hulls = {parameters.max_hulls} allows; raise"
             " Most Hulls for more."
-            if _has_room(fit)
+            if fit.has_room
             else f"for Margin = {parameters.margin:g} alone is; reduce it."
         )
         error = _written_above(float(errors.max()), largest)

@@ -35,6 +35,11 @@ class Fit:
         """Distance by which surfaces move outwards, where the longest side is 2."""
         return self.parameters.margin / self.unit
 
+    @property
+    def has_room(self) -> bool:
+        """Whether the margin alone is within the largest error."""
+        return abs(self.margin) < self.max_error
+
     def shape(self, hull: Hull) -> CollisionShape:
         """Fit the kind of shape that the parameters ask for around a hull.
 

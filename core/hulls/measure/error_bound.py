@@ -213,8 +213,9 @@ def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
     # Large triangles that are within stand for their pieces.
     numbers, places = np.unique(solid.origins[rows][whole], return_inverse=True)
     large = solid.corners[numbers]
-    of_large = _held(shape, large).all(axis=1)[places.reshape(-1)]
-    targets = np.where(of_large[:, None, None], large[places.reshape(-1)], near[whole])
+    places = places.reshape(-1)
+    of_large = np.all(_held(shape, large), axis=1).take(places)
+    targets = np.where(of_large[:, None, None], large[places], near[whole])
     # Others may reach into the shape: of their pieces, take the corners that do.
     centers, radii = _reach(near[~whole])
     reaching = shape.heights(centers) <= radii + _WITHIN

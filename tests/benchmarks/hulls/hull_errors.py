@@ -1,4 +1,4 @@
-"""Stated errors of hulls against measured ones: python hull_errors.py FOLDER [SHAPE...].
+"""Stated errors of hulls against measured ones: hull_errors.py FOLDER [SHAPE...].
 
 The measurement shares no code with the hulls: dense samples, Blender's exact distances
 from triangles, and rays that count surfaces. FOLDER is searched for meshes; of the
