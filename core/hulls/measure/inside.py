@@ -18,6 +18,9 @@ _AXES *= np.sign(np.linalg.det(_AXES))
 _CELLS = 96
 # Lines through a collision shape along the longer side of its bounding box.
 _LINES = 40
+# Factor by which volumes are raised, for what lies between the lines: it raises the
+# radius of a ball by a fiftieth.
+_SURELY = 1.06
 
 
 class InsideTest:
@@ -73,7 +76,7 @@ class InsideTest:
         Returns
         -------
         float
-            The largest of the estimates along three axes.
+            The largest of the estimates along three axes, and a little more.
         """
         low, high = _turned(shape).bounds
         step = (high - low).max() / _LINES
@@ -91,7 +94,7 @@ class InsideTest:
             enter, leave = enter[met], leave[met]
             inside = self._length_inside(axis, spots[met], enter, leave)
             estimates.append((leave - enter).sum() - inside)
-        return float(max(*estimates, 0.0) * step**2)
+        return float(max(*estimates, 0.0) * step**2) * _SURELY
 
     def _length_inside(
         self,

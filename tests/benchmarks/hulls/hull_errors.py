@@ -101,7 +101,7 @@ class Ruler:
         points = points[heights_above_shape(shape, points) <= 0]
         if 0.3 * np.cbrt(3 * shape.volume / 4 / np.pi) < LEAST or len(points) == 0:
             return 0.0
-        some = points[:2000]
+        some = points[:10_000]
         outside = np.mean([not self.is_inside(point) for point in some])
         return 0.3 * np.cbrt(3 * outside * shape.volume / 4 / np.pi)
 
