@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-physics bench-ablation \
+.PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-ablation \
   bench-clouds bench-objects bench-speed contact-sheet clean psb venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
@@ -92,7 +92,11 @@ bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
 	@.venv-hulls/bin/pip install -qq --disable-pip-version-check \
 	  coacd==1.0.14 vhacdx trimesh embreex numpy scipy
 	@PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 .venv-hulls/bin/python \
-	  tests/benchmarks/hulls.py "$(MESHES)" build/bench_hulls "$(VENV)/bin/python"
+	  tests/benchmarks/hulls/rivals.py "$(MESHES)" build/bench_hulls "$(VENV)/bin/python"
+
+bench-hull-errors: development ## Measure the stated errors of hulls again: MESHES=directory SHAPES="HULL BOX"
+	@[ -n "$(MESHES)" ] || { echo "Name the directory of meshes: MESHES=directory"; exit 1; }
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/hulls/hull_errors.py "$(MESHES)" $(SHAPES)
 
 bench-physics: development ## Drop models as compounds of hulls, balls on them: FILES="chair.off elk.off"
 	@[ -n "$(FILES)" ] || { echo "Name the files of models: FILES=\"chair.off elk.off\""; exit 1; }

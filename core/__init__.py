@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
-    from .hulls.fitting import outline_of as outline_of
+    from .hulls.outline import outline_of as outline_of
     from .mass import combined_mass as combined_mass
     from .mass import mass_of_mesh as mass_of_mesh
     from .mass import mass_of_surface as mass_of_surface
@@ -37,7 +37,7 @@ _HOMES = {
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
     "build_hulls_in_steps": "hulls.build",
-    "outline_of": "hulls.fitting",
+    "outline_of": "hulls.outline",
     "combined_mass": "mass",
     "mass_of_mesh": "mass",
     "mass_of_surface": "mass",

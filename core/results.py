@@ -114,8 +114,18 @@ class HullDecomposition:
     shapes : tuple of CollisionShape
         Sorted, the largest first.
     errors : (K,) float
-        Concavity of each piece as CoACD defines it, where 1 is half of the longest side
-        of the shape.
+        Error of each shape as it is written, with its kind, margin and vertices, in
+        `error_unit`: an upper bound, seldom more than a few percent above the error.
+        The error is the largest of
+
+        - R_v of CoACD: 0.3 times the radius of a ball that has the volume of the shape
+          outside the solid;
+        - the distance of any point on the shape, if it is outside the solid, from the
+          surface of the solid within the shape;
+        - the depth below the surface of the shape of any point on the surface of the
+          solid within the shape;
+        - the distance from the shape of any point of its piece, which margins below 0
+          and `max_vertices` may leave uncovered.
     parts : (K,) int
         Number of the part that each collision shape belongs to, −1 if no parts were
         given.
@@ -124,6 +134,11 @@ class HullDecomposition:
         `inf` for a shape without an inside.
     notes : tuple of str
         Sentences to the user.
+    error_unit : str
+        'RELATIVE', where 1 is half of the longest side of the shape, or 'SCENE', for
+        lengths.
+    half_side : float
+        Half of the longest side of the shape, as a length in the scene.
 
     Examples
     --------
@@ -140,6 +155,21 @@ class HullDecomposition:
     parts: NDArray[np.int64]
     volume_ratio: float
     notes: tuple[str, ...]
+    error_unit: str = "RELATIVE"
+    half_side: float = 1.0
+
+    def errors_in(self, unit: str) -> NDArray[np.float64]:
+        """Return the errors in a unit, (K,) float.
+
+        Parameters
+        ----------
+        unit : str
+            'RELATIVE' or 'SCENE'.
+        """
+        if unit == self.error_unit:
+            return self.errors
+        factor = self.half_side if unit == "SCENE" else 1 / self.half_side
+        return self.errors * factor
 
     @property
     def n_hulls(self) -> int:

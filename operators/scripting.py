@@ -15,7 +15,7 @@ from ..core.parameters.parts import Parameters
 from ..core.results import Decomposition, HullDecomposition, Measurement
 from ..core.steps.progress import Progress, Steps, mapped, run
 from .bridge.rays.choice import choose_ray_caster
-from .bridge.read.arrays import labels_of, mesh_of, shape_of
+from .bridge.read.arrays import labels_of, mesh_of, scene_unit_of, shape_of
 
 T = TypeVar("T")
 Settings = TypeVar("Settings", Parameters, HullParameters)
@@ -171,7 +171,8 @@ def build_hulls(
     solid = mesh_of(mesh, faces)
     parts = labels_of(labels, solid, needed=settings.pieces == "PARTS")
     cache = core.ShapeCache(choose_ray_caster())
-    steps = core.build_hulls_in_steps(solid, settings, cache, parts)
+    unit = scene_unit_of(mesh)
+    steps = core.build_hulls_in_steps(solid, settings, cache, parts, 0, unit)
     return _finish(steps, progress)
 
 

@@ -68,6 +68,17 @@ def is_used(owner: Any, name: str) -> bool:
     return True
 
 
+def other_error(settings: Any, obj: bpy.types.Object) -> tuple[str, str] | None:
+    """Return the largest error of hulls in the other unit, with its name, as text."""
+    extents = np.ptp(np.array(obj.bound_box), axis=0)
+    half = float((extents * np.abs(obj.matrix_world.to_scale())).max()) / 2
+    if half <= 0 or settings.pieces != "BY_ERROR":
+        return None
+    if settings.error_unit == "SCENE":
+        return "Relative", f"{settings.max_error / half:.3g}"
+    return "In the Scene", f"{settings.max_error * half:.3g}"
+
+
 def draw(layout: Any, owner: Any, names: Iterable[str]) -> None:
     """Draw settings in a column; those without effect are greyed out."""
     layout.use_property_split = True

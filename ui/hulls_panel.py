@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..operators.settings import HULLS, draw, hand_over
+from ..operators.settings import HULLS, draw, hand_over, other_error
 from .panels import line
 from .sidebar import Sidebar, draw_choices, result_of
 
@@ -26,6 +26,10 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, HULLS)
+        obj = context.active_object
+        other = other_error(settings, obj) if obj else None
+        if other:
+            line(layout, *other)
         button = layout.operator(
             "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
         )
@@ -33,7 +37,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         result = result_of(context.active_object).get("hulls")
         if not result:
             return
-        line(layout, "Largest Error", f"{result['largest_error']:.3f}")
+        line(layout, "Largest Error", f"{result['largest_error']:.3g}")
         if result["volume_ratio"]:
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
         draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
@@ -43,7 +47,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         for hull, name in zip(result["hulls"], endings(names), strict=True):
             obj = bpy.data.objects.get(hull["name"])
             material = obj.data.materials[0] if obj and obj.data.materials else None
-            error = f"{hull['error']:.3f}"
+            error = f"{hull['error']:.3g}"
             _columns(box.row(), material, name, str(hull["vertices"]), error)
 
 

@@ -97,6 +97,53 @@ class CollisionShape:
             "CAPSULE": float(2 * np.pi * a**2 * half + ball),
         }[self.kind]
 
+    def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the signed distance of points from the surface, negative inside.
+
+        Outside a hull it is only a lower bound of the distance, see `Hull.heights`.
+
+        Parameters
+        ----------
+        points : (M, 3) float
+
+        Returns
+        -------
+        (M,) float
+        """
+        if self.kind == "HULL":
+            return self.hull.heights(points)
+        local = np.abs((points - self.center) @ self.axes.T)
+        radius, _, half = self.sizes
+        if self.kind == "BOX":
+            beyond = local - self.sizes
+        elif self.kind == "CYLINDER":
+            around = np.hypot(local[:, 0], local[:, 1])
+            beyond = np.stack([around - radius, local[:, 2] - half], axis=1)
+        else:  # all points at one distance from a segment
+            local[:, 2] = np.maximum(local[:, 2] - half, 0.0)
+            rounded: NDArray[np.float64] = np.linalg.norm(local, axis=1) - radius
+            return rounded
+        away = np.linalg.norm(np.maximum(beyond, 0.0), axis=1)
+        flat: NDArray[np.float64] = away + np.minimum(beyond.max(axis=1), 0.0)
+        return flat
+
+    @property
+    def bounds(self) -> NDArray[np.float64]:
+        """(2, 3) lowest and highest coordinates."""
+        if self.kind == "HULL":
+            vertices = self.hull.vertices
+            return np.stack([vertices.min(axis=0), vertices.max(axis=0)])
+        reach = np.abs(self.axes[2]) * self.sizes[2]
+        if self.kind == "BOX":
+            reach = self.sizes @ np.abs(self.axes)
+        elif self.kind == "CYLINDER":
+            reach = reach + self.sizes[0] * np.sqrt(
+                np.maximum(1 - self.axes[2] ** 2, 0.0)
+            )
+        else:
+            reach = reach + self.sizes[0]
+        return np.stack([self.center - reach, self.center + reach])
+
     def moved(self, scale: float, center: NDArray[np.float64]) -> CollisionShape:
         """Return the shape scaled about the origin, then moved by `center`.
 

@@ -11,7 +11,6 @@ from ..steps.progress import Progress, Steps
 from .cost import cost_of_sides, least_cost_of_sides
 from .cut_planes import ranked_planes
 from .piece import Cell, cut
-from .solid import Solid
 
 # Number of planes that are cut with, to compare the exact costs of both sides.
 _TRIES = 8
@@ -21,7 +20,7 @@ _ALIKE = 0.95
 _NEAR = 0.05
 
 
-def best_cut(solid: Solid, cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
+def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
     """Cut a piece by the plane whose two sides have the lowest cost.
 
     All planes are ranked by the volume that the hulls of both sides add. Only the
@@ -30,10 +29,7 @@ def best_cut(solid: Solid, cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
 
     Parameters
     ----------
-    solid : Solid
-        The uncut solid.
     cell : Cell
-        The piece of it to cut.
 
     Returns
     -------
@@ -42,11 +38,11 @@ def best_cut(solid: Solid, cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
         on both sides.
     """
     best, least = None, np.inf
-    solid_volume = float(solid.volumes.sum())
+    solid_volume = cell.solid.volume
     planes = yield from ranked_planes(cell)
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
-        sides = cut(solid, cell, plane)
+        sides = cut(cell, plane)
         if not all(side.on_surface.any() for side in sides):
             continue
         if least_cost_of_sides(*sides, solid_volume) >= least:

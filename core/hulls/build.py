@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,19 +11,22 @@ from numpy.typing import NDArray
 from ..cache import ShapeCache
 from ..errors import DecompositionError
 from ..geometry.mesh import TriangleMesh
-from ..geometry.primitives import CollisionShape
+from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.shape import Shape
 from ..parameters.hulls import HullParameters
 from ..results import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
 from .best_cut import best_cut
-from .convex_hull import offset
-from .fitting import fit_shape
+from .convex_hull import THIN, convex_hull, offset
+from .fitting import Fit
 from .joining import join_pieces
+from .measure.error_bound import uncovered
 from .piece import Cell, Piece, piece_of_part, whole
 from .solid import Solid, solid_of
 
+# Shapes whose volumes differ by less, as a share, are the same if one is in the other.
+_SAME_VOLUME = 1e-9
 # Number of pieces to cut, as a multiple of the number of hulls allowed. Each cut is
 # the best one only at its turn; joining the surplus pieces corrects that.
 _SURPLUS = 2.0
@@ -34,10 +38,9 @@ def build_hulls_in_steps(
     cache: ShapeCache,
     labels: NDArray[np.int64] | None = None,
     seed: int = 0,
+    scene_unit: float = 1.0,
 ) -> Steps[HullDecomposition]:
     """Put convex collision shapes around a mesh.
-
-    The error of a hull is CoACD's concavity (Wei et al. 2022), see `Piece.error`.
 
     Parameters
     ----------
@@ -49,11 +52,12 @@ def build_hulls_in_steps(
         Part of each polygon, from 0; each is one piece with ``pieces="PARTS"``.
     seed : int
         Seed of the random surface samples.
+    scene_unit : float
+        Length in the scene of 1 in the units of the mesh.
 
     Returns
     -------
     Steps of HullDecomposition
-        Shapes in the units of the mesh, the largest first.
 
     Raises
     ------
@@ -64,43 +68,117 @@ def build_hulls_in_steps(
         raise DecompositionError("A cloud has no faces; give it a surface for hulls.")
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
     size = float(np.ptp(shape.bounds, axis=0).max()) / 2
-    solid = yield from _scaled_solid(prepared, shape.diagonal / size, seed)
+    factor = parameters.unit_of_errors(size * scene_unit)
+    fit = Fit(parameters, size, parameters.max_error / factor)
     numbers, parts = _parts_of_triangles(shape, labels)
-    pieces = yield from _pieces_of(solid, parts, parameters)
-    shapes, rows = [], []
-    for piece in pieces:
-        yield Progress("Shapes", 1.0)
-        shapes.append(fit_shape(piece.hull, parameters, size).moved(size, shape.center))
-        rows.append(_main_part(solid, parts, piece))
-    errors = np.array([piece.error for piece in pieces])
-    ratio = _volume_ratio(shapes, float(solid.volumes.sum()) * size**3)
-    notes = (*prepared.notes, *_notes(pieces, parameters, size))
-    return HullDecomposition(tuple(shapes), errors, numbers[rows], ratio, notes)
+    found = yield from _find(prepared, fit, shape.diagonal / size, parts, seed)
+    shapes, errors = found.shapes, found.errors * factor
+    return HullDecomposition(
+        tuple(each.moved(size, shape.center) for each in shapes),
+        errors,
+        numbers[found.rows],
+        _volume_ratio(shapes, found.volume),
+        (*prepared.notes, *_notes(found, errors, fit)),
+        parameters.error_unit,
+        size * scene_unit,
+    )
 
 
-def _scaled_solid(prepared: PreparedShape, scale: float, seed: int) -> Steps[Solid]:
-    """Return the solid of a mesh in CoACD's units, where its longest side is 2."""
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """Shapes where the longest side of the whole is 2, and what they are around.
+
+    Attributes
+    ----------
+    shapes : sequence of CollisionShape
+    errors : (K,) float
+    hulls : sequence of Hull
+        Convex hulls of the pieces.
+    rows : (K,) int
+        Row of the part that each belongs to.
+    volume : float
+        Volume of the solid.
+    """
+
+    shapes: Sequence[CollisionShape]
+    errors: NDArray[np.float64]
+    hulls: Sequence[Hull]
+    rows: NDArray[np.int64]
+    volume: float
+
+
+def _find(
+    prepared: PreparedShape,
+    fit: Fit,
+    scale: float,
+    parts: NDArray[np.int64],
+    seed: int,
+) -> Steps[_Found]:
+    """Return the shapes around a mesh; `scale` makes its longest side 2."""
+    found = None
+    if prepared.convex and not parts.any():
+        found = _around_convex(prepared, fit, scale)
+    if found is None:
+        assert prepared.solid is not None  # None for point clouds only
+        yield Progress("Solid", 0.0)
+        mesh = replace(prepared.solid, vertices=prepared.solid.vertices * scale)
+        solid = yield from within(solid_of(mesh, seed), 0.0, 0.0)
+        found = yield from _around_pieces(solid, parts, fit)
+    return found
+
+
+def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | None:
+    """Return the one shape around a convex solid, None if its error must be measured.
+
+    A shape as large as the solid is the solid. A hull within the solid adds nothing:
+    its error is what it leaves uncovered.
+    """
     assert prepared.solid is not None  # None for point clouds only
-    yield Progress("Solid", 0.0)
-    vertices = prepared.solid.vertices * scale
-    steps = solid_of(replace(prepared.solid, vertices=vertices), seed)
-    return (yield from within(steps, 0.0, 0.0))
+    hull = convex_hull(prepared.solid.vertices * scale, THIN)
+    shape = fit.shape(hull)
+    error = uncovered(shape, hull)
+    within = shape.kind == "HULL" and fit.margin <= 0
+    same = abs(shape.volume - hull.volume) <= _SAME_VOLUME * hull.volume
+    by_error = fit.parameters.pieces != "PARTS"
+    if not (within or (same and error <= THIN)) or (by_error and error > fit.max_error):
+        return None
+    errors, row = np.array([error]), np.zeros(1, dtype=np.int64)
+    return _Found([shape], errors, [hull], row, hull.volume)
 
 
-def _pieces_of(
-    solid: Solid, parts: NDArray[np.int64], parameters: HullParameters
-) -> Steps[list[Piece]]:
-    """Return the pieces that get a hull each, the largest first."""
-    if parameters.pieces == "PARTS":
-        start = [piece_of_part(solid, parts == part) for part in np.unique(parts)]
-        pieces = yield from join_pieces(start, 0.0, parameters.max_hulls)
-    else:
-        pieces = yield from _within_error(solid, parameters)
-    # Rounded, so that pieces of equal size stay in the order they were cut in.
-    return sorted(pieces, key=lambda piece: -round(piece.hull.volume, 6))
+def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_Found]:
+    """Cut a solid, or take its parts, and return a shape around each piece."""
+    pieces = yield from within(_pieces_of(solid, parts, fit), 0.0, 0.95)
+    errors, rows = [], []
+    for turn, piece in enumerate(pieces):
+        yield Progress("Measuring", 0.95 + 0.05 * turn / len(pieces))
+        final = piece if piece.fit == fit else replace(piece, fit=fit)
+        errors.append(final.stated_error)
+        rows.append(solid.main_part(parts, piece.hull))
+    shapes = [fit.shape(piece.hull) for piece in pieces]
+    order = sorted(range(len(pieces)), key=lambda k: -round(shapes[k].volume, 6))
+    return _Found(
+        [shapes[k] for k in order],
+        np.array(errors)[order],
+        [pieces[k].hull for k in order],
+        np.array(rows)[order],
+        solid.volume,
+    )
 
 
-def _volume_ratio(shapes: list[CollisionShape], volume: float) -> float:
+def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[Piece]]:
+    """Return the pieces that get a shape each."""
+    most = fit.parameters.max_hulls
+    if fit.parameters.pieces == "PARTS":
+        start = [piece_of_part(solid, fit, parts == k) for k in np.unique(parts)]
+        return (yield from join_pieces(start, 0.0, most))
+    if not fit.has_room:  # cuts cannot make up for the margin
+        fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
+    cells = yield from within(_cut(whole(solid, fit), int(_SURPLUS * most)), 0.0, 0.9)
+    return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
+
+
+def _volume_ratio(shapes: Sequence[CollisionShape], volume: float) -> float:
     """Return the volume of all shapes over that of the solid; `inf` if it is flat."""
     total = sum(shape.volume for shape in shapes)
     return total / volume if volume > 0 else np.inf
@@ -118,26 +196,20 @@ def _parts_of_triangles(
     return np.unique(labels[mesh.polygons], return_inverse=True)
 
 
-def _within_error(solid: Solid, parameters: HullParameters) -> Steps[list[Piece]]:
-    """Cut and join pieces until errors are allowed, with `max_hulls` pieces at most."""
-    most = parameters.max_hulls
-    cells = yield from within(
-        _cut(solid, parameters.max_error, int(_SURPLUS * most)), 0.0, 0.9
-    )
-    return (yield from within(join_pieces(cells, parameters.max_error, most), 0.9, 1.0))
-
-
-def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
+def _cut(cell: Cell, most: int) -> Steps[list[Cell]]:
     """Cut the piece of largest error repeatedly, into `most` pieces at most."""
-    cells = [whole(solid)]
+    cells = [cell]
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
-        share = (len(cells) + len(done)) / most
-        worst = max(cells, key=lambda cell: round(cell.error, 6))
-        if worst.error <= max_error:
+        share, far = (len(cells) + len(done)) / most, []
+        for cell in cells:
+            yield Progress("Cutting", share)
+            far += [] if cell.is_close else [cell]
+        if not far:
             break
+        worst = max(far, key=lambda cell: round(cell.error, 6))
         cells.remove(worst)
-        sides = yield from within(best_cut(solid, worst), share, share + 1 / most)
+        sides = yield from within(best_cut(worst), share, share + 1 / most)
         if sides:
             cells += sides
         else:
@@ -145,33 +217,32 @@ def _cut(solid: Solid, max_error: float, most: int) -> Steps[list[Cell]]:
     return done + cells
 
 
-def _main_part(solid: Solid, parts: NDArray[np.int64], piece: Piece) -> int:
-    """Return the part of most of the surface samples in a piece's hull, of `parts`."""
-    if not parts.any():  # there is only part 0
-        return 0
-    low, high = piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0)
-    near = ((low <= solid.samples) & (solid.samples <= high)).all(axis=1)
-    near[near] = piece.hull.heights(solid.samples[near]) <= 0
-    return int(np.bincount(parts[solid.triangles[near]], minlength=1).argmax())
-
-
-def _notes(
-    pieces: list[Piece], parameters: HullParameters, unit: float
-) -> tuple[str, ...]:
-    """Return notes on errors above `max_error`, and on hulls that did not shrink."""
-    notes = []
-    error = max(piece.error for piece in pieces)
-    if parameters.pieces != "PARTS" and error > parameters.max_error:
-        notes.append(
-            f"The error is {error:.3f}, above Largest Error, after as many cuts as"
-            f" Most Hulls = {parameters.max_hulls} allows; raise Most Hulls for more."
+def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, ...]:
+    """Return notes on errors above the largest, and on hulls that did not shrink."""
+    notes, parameters, largest = [], fit.parameters, fit.parameters.max_error
+    if parameters.pieces != "PARTS" and errors.max() > largest:
+        advice = (
+            f"after as many cuts as Most Hulls = {parameters.max_hulls} allows; raise"
+            " Most Hulls for more."
+            if fit.has_room
+            else f"for Margin = {parameters.margin:g} alone is; reduce it."
         )
-    margin = parameters.margin / unit
-    if parameters.shape == "HULL" and margin < 0:
-        kept = sum(offset(piece.hull, margin) is piece.hull for piece in pieces)
+        error = _written_above(float(errors.max()), largest)
+        notes.append(
+            f"The error is {error}, above Largest Error = {largest:g}, {advice}"
+        )
+    if parameters.shape == "HULL" and fit.margin < 0:
+        kept = sum(offset(hull, fit.margin) is hull for hull in found.hulls)
         if kept:
             notes.append(
-                f"Margin = {parameters.margin:g} would make {kept} of {len(pieces)}"
-                " hulls vanish, which keep their size; choose a value nearer to 0."
+                f"Margin = {parameters.margin:g} would make {kept} of"
+                f" {len(found.hulls)} hulls vanish, which keep their size; choose a"
+                " value nearer to 0."
             )
     return tuple(notes)
+
+
+def _written_above(error: float, largest: float) -> str:
+    """Return an error with as many digits as show that it is too large."""
+    texts = [f"{error:.{digits}g}" for digits in range(3, 18)]
+    return next((t for t in texts if float(t) > float(f"{largest:g}")), texts[-1])

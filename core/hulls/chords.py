@@ -89,17 +89,45 @@ def _crossings(
     column, row = np.divmod(rank, (top - bottom)[triangle])
     column, row = column + left[triangle], row + bottom[triangle]
     spots = np.stack([lines[0][column], lines[1][row]], axis=1)
-    a, b, c = np.moveaxis(flat[triangle], 1, 0)
+    hit, heights, turns = crossings_of(corners[triangle], axis, spots)
+    line = column * len(lines[1]) + row
+    return line[hit], heights, turns
+
+
+def crossings_of(
+    corners: NDArray[np.float64], axis: int, spots: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+    """Return where lines along an axis cross a triangle each.
+
+    Parameters
+    ----------
+    corners : (M, 3, 3) float
+        Corners of the triangles, counter-clockwise seen from outside.
+    axis : int
+        0, 1 or 2: the lines are parallel to X, Y or Z.
+    spots : (M, 2) float
+        The other two coordinates of each line, in cyclic order.
+
+    Returns
+    -------
+    hit : (H,) int
+        Rows of the lines that meet their triangle.
+    heights : (H,) float
+        Coordinate of the crossing along the axis.
+    turns : (H,) int
+        1 where a line in the direction of the axis enters the inside, −1 where it
+        leaves it.
+    """
+    a, b, c = np.moveaxis(corners[:, :, [(axis + 1) % 3, (axis + 2) % 3]], 1, 0)
     double_area = _cross(b - a, c - a)
     facing = double_area != 0  # the others are parallel to the lines
-    shares = np.zeros((len(triangle), 3))
+    shares = np.zeros((len(corners), 3))
     np.divide(_cross(spots - a, c - a), double_area, out=shares[:, 1], where=facing)
     np.divide(_cross(b - a, spots - a), double_area, out=shares[:, 2], where=facing)
     shares[:, 0] = 1 - shares[:, 1] - shares[:, 2]
-    hit = facing & (shares >= 0).all(axis=1)
-    heights = (corners[triangle, :, axis] * shares).sum(axis=1)
-    line = column * len(lines[1]) + row
-    return line[hit], heights[hit], -np.sign(double_area[hit]).astype(np.int64)
+    hit = np.flatnonzero(facing & (shares >= 0).all(axis=1))
+    heights = (corners[hit, :, axis] * shares[hit]).sum(axis=1)
+    return hit, heights, -np.sign(double_area[hit]).astype(np.int64)
 
 
 def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

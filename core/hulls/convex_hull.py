@@ -9,6 +9,8 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 from ..geometry.frames import heights_above, principal_axes
 from ..geometry.primitives import Hull
 
+# Thickness of the hulls of flat pieces; the longest side of the shape is 2.
+THIN = 2e-3
 # Least number of vertices added to a simplified hull in each round.
 _VERTICES_A_ROUND = 6
 

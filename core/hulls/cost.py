@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from .convex_hull import hull_volume
-from .piece import Piece, volume_error
+from .measure.estimate import volume_error
+from .piece import Piece
 
 # Cost of hulls that add as much volume as the whole solid has, in units of error.
 _PRICE = 1.0

@@ -12,6 +12,10 @@ from .solid import Solid
 
 # Distance between the sample points of a cross-section; the longest side is 2.
 _GRAIN = 0.04
+# Three planes meet in a point only if the determinant of their normals is above this.
+_PARALLEL = 1e-4
+# Height up to which a point counts as on a plane.
+_ON_PLANE = 1e-9
 
 
 def contour(
@@ -153,6 +157,29 @@ def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
     axes = np.concatenate(frames(plane[None, :3]))
     rim = contour(solid.corners, plane)
     return Section(plane, axes, rim, rim @ axes.T)
+
+
+def meeting_points(
+    planes: NDArray[np.float64], plane: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the corners of a cell where a plane meets two others, (M, 3).
+
+    Such corners may lie inside the solid, where no triangle has a vertex.
+
+    Parameters
+    ----------
+    planes : (P, 4) float
+        Those of the cell: n · x + d ≤ 0 in it.
+    plane : (4,) float
+        The plane that cuts it.
+    """
+    one, other = np.triu_indices(len(planes), 1)
+    triples = np.stack([planes[one], planes[other], plane + 0 * planes[one]], axis=1)
+    firm = np.abs(np.linalg.det(triples[:, :, :3])) > _PARALLEL
+    points: NDArray[np.float64] = np.linalg.solve(
+        triples[firm, :, :3], -triples[firm, :, 3:]
+    )[..., 0].astype(np.float64)
+    return points[(heights_above(planes, points) <= _ON_PLANE).all(axis=1)]
 
 
 def _is_inside(

@@ -105,7 +105,7 @@ def _next_joint(
             joint = join(alive[one], alive[other])
             cost = cost_of_joint(joint, solid_volume)
             heapq.heappush(queue, (cost, one, other, joint))
-        elif joint.error <= max_error or len(alive) > max_pieces:
+        elif len(alive) > max_pieces or (joint.error <= max_error and joint.is_close):
             return one, other, joint
     return None
 

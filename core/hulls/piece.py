@@ -10,27 +10,16 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.frames import heights_above
-from ..geometry.primitives import Hull
-from ..geometry.sampling import points_on
-from .convex_hull import convex_hull
-from .cross_section import cross_section
+from ..geometry.primitives import CollisionShape, Hull
+from .convex_hull import THIN, convex_hull
+from .cross_section import cross_section, meeting_points
+from .fitting import Fit
+from .measure.error_bound import error_bound
+from .measure.estimate import estimated_error, volume_error
 from .solid import Solid
 
-# Weight k of the volume term in CoACD's concavity.
-_VOLUME_WEIGHT = 0.3
-# Largest number of samples times planes of a hull for which heights are computed.
-_MOST_HEIGHTS = 500_000
-# Number of samples on the surface of a hull.
-_HULL_SAMPLES = 400
-# Thickness of the hulls of flat pieces; the longest side of the shape is 2.
-THIN = 2e-3
-# Subtracted from the distance between a point and the nearest sample, as a share of
-# the spacing: even points on the surface lie between samples.
-_SLACK = 0.4
-# Three planes meet in a point only if the determinant of their normals is above this.
-_PARALLEL = 1e-4
-# Height up to which a point counts as on a plane.
-_ON_PLANE = 1e-9
+# Errors below this share of the largest one allowed need not be told apart.
+_TOLD_APART = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,24 +36,44 @@ class Piece:
         Samples of the surface in the piece, and of the faces that cuts made.
     volume : float
         Volume of the solid in the piece.
-    spacing : float
-        Distance between neighboring surface samples.
+    solid : Solid
+        The uncut solid.
+    fit : Fit
+        Which shape it gets.
+    witnesses : (W, 3) float
+        Points outside the solid, far from its surface, which shapes of larger pieces
+        held. Samples may miss them.
     """
 
     points: NDArray[np.float64]
     boundary: NDArray[np.float64]
     volume: float
-    spacing: float
+    solid: Solid
+    fit: Fit
+    witnesses: NDArray[np.float64]
 
     @cached_property
     def hull(self) -> Hull:
         """Convex hull of the piece."""
         return convex_hull(self.points, THIN)
 
-    @property
+    @cached_property
+    def shape(self) -> CollisionShape:
+        """The shape that is written, as exactly as it is written."""
+        return self.fit.shape(self.hull)
+
+    @cached_property
+    def rough_shape(self) -> CollisionShape:
+        """A shape that is nearly the one that is written, made in far less time."""
+        return self.fit.rough_shape(self.hull)
+
+    @cached_property
     def added_volume(self) -> float:
-        """Volume of the hull minus that of the piece; sampling may make it negative."""
-        return self.hull.volume - self.volume
+        """Volume of the shape outside the solid; sampling may make it negative."""
+        shape, solid = self.rough_shape, self.solid
+        if shape.kind == "HULL":
+            return shape.volume - self.volume
+        return shape.volume - solid.volume_in(shape)
 
     @property
     def volume_error(self) -> float:
@@ -73,23 +82,35 @@ class Piece:
 
     @cached_property
     def error(self) -> float:
-        """CoACD's concavity: the larger of R_v and the Hausdorff distance H_b.
+        """The error of the shape, estimated from samples: cheap, and often too low."""
+        points = self.boundary, self.witnesses
+        shape, least = self.rough_shape, self.volume_error
+        return estimated_error(self.solid, shape, self.hull, *points, least)
 
-        H_b is the largest distance between the surfaces of the piece and of its hull,
-        from samples on both. Wei, Liu, Ling and Su 2022, "Approximate Convex
-        Decomposition for 3D Meshes with Collision-Aware Concavity and Tree Search",
-        section 4.
-        """
-        if len(self.boundary) == 0:
-            return self.volume_error
-        n_heights = len(self.boundary) * len(self.hull.planes)
-        few = self.boundary[:: -(-n_heights // _MOST_HEIGHTS)]
-        depth = -self.hull.heights(few).min()
-        tree = cKDTree(np.concatenate([self.boundary, self.hull.vertices]))
-        rng = np.random.default_rng(0)
-        _, spread = points_on(self.hull.corners, _HULL_SAMPLES, rng)
-        away = tree.query(spread)[0].max()
-        return max(self.volume_error, depth, away - _SLACK * self.spacing)
+    @cached_property
+    def _measured(self) -> tuple[float, NDArray[np.float64]]:
+        """What `error_bound` finds, told apart from the largest error allowed."""
+        return error_bound(self.solid, self.shape, self.hull, self.fit.max_error)
+
+    @cached_property
+    def is_close(self) -> bool:
+        """Whether the error of the shape is surely within the largest one allowed."""
+        largest = self.fit.max_error
+        return self.error <= largest and self._measured[0] <= largest
+
+    @property
+    def all_witnesses(self) -> NDArray[np.float64]:
+        """Witnesses, with the far point that was found when the piece was measured."""
+        if "_measured" not in self.__dict__:
+            return self.witnesses
+        return np.concatenate([self.witnesses, self._measured[1]])
+
+    @cached_property
+    def stated_error(self) -> float:
+        """An upper bound of the shape's error, see `error_bound`."""
+        largest, shape = self.fit.max_error, self.shape
+        bound = error_bound(self.solid, shape, self.hull, largest * _TOLD_APART)[0]
+        return min(bound, largest) if self.is_close else bound
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,18 +135,21 @@ class Cell(Piece):
     planes: NDArray[np.float64]
 
 
-def whole(solid: Solid) -> Cell:
+def whole(solid: Solid, fit: Fit) -> Cell:
     """Return the whole solid as one piece.
 
     Parameters
     ----------
     solid : Solid
+    fit : Fit
     """
     return Cell(
         solid.vertices,
         solid.samples,
-        float(solid.volumes.sum()),
-        solid.spacing,
+        solid.volume,
+        solid,
+        fit,
+        np.zeros((0, 3)),
         np.ones(len(solid.samples), dtype=bool),
         solid.chords,
         solid.volumes,
@@ -133,12 +157,13 @@ def whole(solid: Solid) -> Cell:
     )
 
 
-def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
+def piece_of_part(solid: Solid, fit: Fit, chosen: NDArray[np.bool_]) -> Piece:
     """Return a part of the surface as a piece, with the inside that is nearest to it.
 
     Parameters
     ----------
     solid : Solid
+    fit : Fit
     chosen : (T,) bool
         Which triangles belong to the part.
 
@@ -152,19 +177,18 @@ def piece_of_part(solid: Solid, chosen: NDArray[np.bool_]) -> Piece:
         solid.corners[chosen].reshape(-1, 3),
         solid.samples[samples],
         float(solid.volumes[samples[nearest]].sum()) if len(solid.chords) else 0.0,
-        solid.spacing,
+        solid,
+        fit,
+        np.zeros((0, 3)),
     )
 
 
-def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
+def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
     """Cut a piece in two by a plane.
 
     Parameters
     ----------
-    solid : Solid
-        The uncut solid.
     cell : Cell
-        The piece of it to cut.
     plane : (4,) float
         Unit normal n and offset d: n · x + d = 0 on the plane.
 
@@ -173,10 +197,10 @@ def cut(solid: Solid, cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cel
     below, above : Cell
         Either may be empty.
     """
-    section = cross_section(solid, plane)
+    section = cross_section(cell.solid, plane)
     face = section.spread(cell.points)
     face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
-    tips = _meeting_points(cell.planes, plane)
+    tips = meeting_points(cell.planes, plane)
     rim = np.concatenate([section.rim_within(cell.planes), tips[section.holds(tips)]])
     return _side(cell, plane, rim, face), _side(cell, -plane, rim, face)
 
@@ -195,7 +219,9 @@ def join(one: Piece, other: Piece) -> Piece:
         np.concatenate([one.hull.vertices, other.hull.vertices]),
         boundary[counts == 1],
         one.volume + other.volume,
-        one.spacing,
+        one.solid,
+        one.fit,
+        np.concatenate([one.all_witnesses, other.all_witnesses]),
     )
 
 
@@ -214,35 +240,11 @@ def _side(
         np.concatenate([cell.points[points], rim]),
         np.concatenate([cell.boundary[boundary], face]),
         float(cell.volumes[chords].sum()),
-        cell.spacing,
+        cell.solid,
+        cell.fit,
+        cell.all_witnesses,
         np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
         cell.chords[chords],
         cell.volumes[chords],
         np.concatenate([cell.planes, plane[None]]),
     )
-
-
-def volume_error(volume: float) -> float:
-    """Return the error R_v of CoACD, weight k included, of an added volume.
-
-    Parameters
-    ----------
-    volume : float
-    """
-    return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))
-
-
-def _meeting_points(
-    planes: NDArray[np.float64], plane: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the corners of a cell where a plane meets two others, (M, 3).
-
-    Such corners may lie inside the solid, where no triangle has a vertex.
-    """
-    one, other = np.triu_indices(len(planes), 1)
-    triples = np.stack([planes[one], planes[other], plane + 0 * planes[one]], axis=1)
-    firm = np.abs(np.linalg.det(triples[:, :, :3])) > _PARALLEL
-    points: NDArray[np.float64] = np.linalg.solve(
-        triples[firm, :, :3], -triples[firm, :, 3:]
-    )[..., 0].astype(np.float64)
-    return points[(heights_above(planes, points) <= _ON_PLANE).all(axis=1)]

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
+from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
+from ..geometry.shells import find_shells
 from ..steps.progress import Progress, Steps
 from .chords import chords_along
+from .measure.fragments import edge_lengths, fragments_of
+from .measure.inside import InsideTest
 
 # Number of samples on the surface.
 _SAMPLES = 6000
+# Longest edge of the small triangles that errors are measured with.
+_GRAIN = 0.04
 # A volume below this is noise, such as that of a two-sided sheet, and counts as 0; the
 # longest side is 2.
 _NO_VOLUME = 1e-6
@@ -39,6 +47,8 @@ class Solid:
         Volume around each chord.
     spacing : float
         Distance between neighboring samples.
+    closed : bool
+        Whether all shells are closed, so that any line tells what is inside.
     """
 
     corners: NDArray[np.float64]
@@ -48,6 +58,80 @@ class Solid:
     chords: NDArray[np.float64]
     volumes: NDArray[np.float64]
     spacing: float
+    closed: bool
+
+    @property
+    def volume(self) -> float:
+        """Volume of the solid."""
+        return float(self.volumes.sum())
+
+    @cached_property
+    def _fragments(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Small triangles, and the triangle that each is a piece of."""
+        return fragments_of(self.corners, _GRAIN)
+
+    @property
+    def fragments(self) -> NDArray[np.float64]:
+        """(F, 3, 3) corners of the triangles, cut into small ones."""
+        return self._fragments[0]
+
+    @property
+    def origins(self) -> NDArray[np.int64]:
+        """(F,) row of the triangle that each fragment is a piece of."""
+        return self._fragments[1]
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Finds the fragment with the nearest center."""
+        return cKDTree(self.centers)
+
+    @cached_property
+    def centers(self) -> NDArray[np.float64]:
+        """(F, 3) centers of the fragments."""
+        centers: NDArray[np.float64] = self.fragments.mean(axis=1)
+        return centers
+
+    @cached_property
+    def grain(self) -> float:
+        """Longest edge of a fragment."""
+        return float(edge_lengths(self.fragments).max())
+
+    @cached_property
+    def inside(self) -> InsideTest:
+        """Tells what is inside."""
+        return InsideTest(self.fragments, 1 if self.closed else 3)
+
+    def volume_in(self, shape: CollisionShape) -> float:
+        """Return about how much of a collision shape is inside.
+
+        Parameters
+        ----------
+        shape : CollisionShape
+        """
+        low, high = shape.bounds
+        near = ((low <= self.chords) & (self.chords <= high)).all(axis=1)
+        within = shape.heights(self.chords[near]) <= 0
+        return float(self.volumes[near][within].sum())
+
+    def main_part(self, parts: NDArray[np.int64], hull: Hull) -> int:
+        """Return the part of most of the surface samples in a hull.
+
+        Parameters
+        ----------
+        parts : (T,) int
+            Row of the part of each triangle.
+        hull : Hull
+
+        Returns
+        -------
+        int
+        """
+        if not parts.any():  # there is only part 0
+            return 0
+        low, high = hull.vertices.min(axis=0), hull.vertices.max(axis=0)
+        near = ((low <= self.samples) & (self.samples <= high)).all(axis=1)
+        near[near] = hull.heights(self.samples[near]) <= 0
+        return int(np.bincount(parts[self.triangles[near]], minlength=1).argmax())
 
 
 def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
@@ -88,4 +172,5 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
         chords,
         volumes,
         float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
+        bool(find_shells(mesh).closed.all()),
     )

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..errors import DecompositionError
 from .hull_names import NAMINGS, hull_names
 from .parameter import Choice, ParameterInfo, parameter, settle
+
+# Bounds of a relative error, with a little room for single precision.
+_RELATIVE = (0.001 * (1 - 1e-6), 1 + 1e-6)
 
 
 @dataclass(frozen=True)
@@ -69,11 +73,34 @@ class HullParameters:
         0.05,
         ParameterInfo(
             "Largest Error",
-            "How far a hull may be from the surface: higher values give fewer hulls,"
-            " which fit less closely. 1 is half of the shape's longest side, as in"
-            " CoACD's concavity. Neighbors whose common hull is within it are joined",
-            low=0.001,
-            high=1.0,
+            "How far a shape may stray from the solid, at most: higher values give"
+            " fewer shapes, which fit less closely. Neighbors whose common shape is"
+            " within it are joined",
+            low=1e-6,
+            high=1e6,
+            usual=1.0,
+            advanced=False,
+        ),
+    )
+    error_unit: str = parameter(
+        "RELATIVE",
+        ParameterInfo(
+            "Error Unit",
+            "Unit of Largest Error, and of the errors of the shapes",
+            choices=(
+                Choice(
+                    "RELATIVE",
+                    "Relative",
+                    "1 is half of the longest side of the object's bounding box, as in"
+                    " CoACD's concavity. Largest Error is from 0.001 to 1",
+                ),
+                Choice(
+                    "SCENE",
+                    "Scene",
+                    "Lengths in the scene, with the object's scale. Scripts that give"
+                    " arrays have lengths in the unit of the vertices",
+                ),
+            ),
             advanced=False,
         ),
     )
@@ -134,4 +161,25 @@ class HullParameters:
     def __post_init__(self) -> None:
         """Check every field, and that the template gives each hull another name."""
         settle(self)
+        low, high = _RELATIVE
+        if self.error_unit == "RELATIVE" and not low <= self.max_error <= high:
+            raise DecompositionError(
+                f"Largest Error is {self.max_error:g}; choose a value from {low:g} to"
+                f" {high:g}, or Error Unit = Scene for lengths."
+            )
         hull_names(self.naming, self.template, "name", ("HULL", "HULL"))
+
+    def unit_of_errors(self, half_side: float) -> float:
+        """Return how much an error of 1 is in the chosen unit, where 1 is relative.
+
+        Parameters
+        ----------
+        half_side : float
+            Half of the longest side of the shape, in units of the scene.
+
+        Returns
+        -------
+        float
+            `half_side` for lengths in the scene, 1 for relative errors.
+        """
+        return half_side if self.error_unit == "SCENE" else 1.0

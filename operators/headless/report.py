@@ -96,7 +96,7 @@ def _stages_entry(stages: Mapping[str, Stage]) -> dict[str, Any]:
 def _object_entry(result: ObjectResult) -> dict[str, Any]:
     """Return what the report says of one object; its record is part of it."""
     record = result.record or {}
-    hulls = _hulls_entry(record["hulls"], result) if result.hulls else None
+    hulls = {**record["hulls"], "hulls": list(result.hulls)} if result.hulls else None
     return {
         "name": result.name,
         "seconds": round(result.seconds, 3),
@@ -106,10 +106,3 @@ def _object_entry(result: ObjectResult) -> dict[str, Any]:
         "notes": list(dict.fromkeys((*result.notes, *record.get("notes", ())))),
         "hulls": hulls,
     }
-
-
-def _hulls_entry(noted: Mapping[str, Any], result: ObjectResult) -> dict[str, Any]:
-    """Return what the report says of the hulls of one object."""
-    unit = noted["parameters"].get("error_unit", "RELATIVE")
-    hulls = [{**hull, "error_unit": unit} for hull in result.hulls]
-    return {**noted, "hulls": hulls}

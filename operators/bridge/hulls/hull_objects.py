@@ -146,6 +146,7 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
     return {
         "kind": shape.kind,
         "error": float(found.errors[row]),
+        "error_unit": found.error_unit,
         "volume": float(shape.volume),
         "part": int(found.parts[row]) if found.has_parts else None,
         "vertices": len(core.outline_of(shape).vertices),

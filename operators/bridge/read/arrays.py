@@ -99,6 +99,26 @@ def mesh_of(shape: object, faces: object = None) -> TriangleMesh:
     return mesh
 
 
+def scene_unit_of(shape: object) -> float:
+    """Return the length of 1 in the coordinates of a shape that a script passed.
+
+    Parameters
+    ----------
+    shape : object
+        As for `mesh_of`.
+
+    Returns
+    -------
+    float
+        In units of the scene for Blender objects, whose scale counts; 1 for others.
+    """
+    if not _is_blender_object(shape):
+        return 1.0
+    from .shape import scene_unit
+
+    return scene_unit(shape)
+
+
 def labels_of(
     labels: object, mesh: TriangleMesh, needed: bool
 ) -> NDArray[np.int64] | None:

@@ -95,6 +95,18 @@ def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
     return scale
 
 
+def scene_unit(obj: bpy.types.Object) -> float:
+    """Return the length in the scene of 1 in the coordinates of `read_shape`.
+
+    Raises
+    ------
+    DecompositionError
+        If a factor of the scale is zero or not finite.
+    """
+    scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
+    return float((scale / stretch(obj)).max())
+
+
 def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
     """Return whether two objects with one mesh look alike but for their sizes.
 
@@ -125,7 +137,7 @@ def have_equal_shapes(
     """
     if obj.data != other.data:
         return False
-    factors, others = stretch(obj), stretch(other)
-    if of_equal_size:
-        factors, others = (np.abs(o.matrix_world.to_scale()) for o in (obj, other))
-    return np.allclose(factors, others, _SAME_SCALE, 0.0)
+    same = np.allclose(stretch(obj), stretch(other), _SAME_SCALE, 0.0)
+    if not of_equal_size:
+        return same
+    return same and bool(np.isclose(scene_unit(obj), scene_unit(other), _SAME_SCALE))

@@ -19,7 +19,7 @@ from ..mesh.selection import selected_faces
 from ..parts.palette import part_srgb
 from ..parts.read import part_identities, part_labels
 from ..parts.write import check_writable
-from ..read.shape import read_shape, reading_notes
+from ..read.shape import read_shape, reading_notes, scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
 from .libraries import with_libraries
@@ -171,6 +171,7 @@ def build_hulls_of(
         raise DecompositionError(f"{reason}.")
     check_records(obj)
     notes, shape, labels = reading_notes(obj), read_shape(obj), part_labels(obj)
+    unit = scene_unit(obj)
 
     def work() -> Steps[HullDecomposition]:
         cache, known, start = session_cache(), labels, 0.0
@@ -179,7 +180,7 @@ def build_hulls_of(
             parts = core.decompose_in_steps(shape, parameters, cache)
             known = (yield from within(parts, 0.0, start)).labels
         steps = core.build_hulls_in_steps(
-            shape, hull_parameters, cache, known, parameters.seed
+            shape, hull_parameters, cache, known, parameters.seed, unit
         )
         return (yield from within(steps, start, 1.0))
 
@@ -188,9 +189,10 @@ def build_hulls_of(
 
 def hull_summary(found: HullDecomposition) -> str:
     """Return one line with the number of hulls, their largest error and volume."""
+    unit = " in the scene" if found.error_unit == "SCENE" else ""
     return (
         f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
-        f" largest error {found.errors.max():.3f},"
+        f" largest error {found.errors.max():.3g}{unit},"
         f" volume of hulls / volume {found.volume_ratio:.2f}"
     )
 

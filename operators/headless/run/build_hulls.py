@@ -83,8 +83,7 @@ class _Built:
 
 def _serves(built: _Built, obj: bpy.types.Object, parameters: HullParameters) -> bool:
     """Return whether an object gets hulls that were built for another one."""
-    in_lengths = getattr(parameters, "error_unit", "RELATIVE") == "SCENE"
-    return have_equal_shapes(built.owner, obj, in_lengths)
+    return have_equal_shapes(built.owner, obj, parameters.error_unit == "SCENE")
 
 
 def _title(obj: bpy.types.Object) -> str:

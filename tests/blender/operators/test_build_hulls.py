@@ -206,3 +206,18 @@ def test_undo_takes_hulls_back(suzanne):
     assert [obj.name for obj in bpy.data.objects] == ["Suzanne"]
     assert "wcd" not in bpy.data.objects["Suzanne"]
     assert len(bpy.data.collections) == 0
+
+
+@pytest.mark.parametrize("scale", [(2, 2, 2), (1, 2, 1)])
+def test_errors_in_the_scene_count_the_scale(scale):
+    bpy.ops.mesh.primitive_cube_add(size=4)
+    cube = bpy.context.object
+    cube.scale = scale
+    bpy.context.view_layer.update()
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="SPHERE", error_unit="SCENE")
+    noted = json.loads(cube["wcd"])["hulls"]
+    sides = 2 * np.array(scale)
+    # From the middle of a largest side to the sphere.
+    expected = np.linalg.norm(sides) - sides.min()
+    assert noted["hulls"][0]["error_unit"] == "SCENE"
+    assert noted["largest_error"] == pytest.approx(expected, rel=0.05)

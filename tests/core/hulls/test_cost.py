@@ -10,8 +10,10 @@ from weak_convex_decomposition.core.hulls.cost import (
     least_cost,
     least_cost_of_sides,
 )
+from weak_convex_decomposition.core.hulls.fitting import Fit
 from weak_convex_decomposition.core.hulls.piece import cut, join, whole
 from weak_convex_decomposition.core.hulls.solid import solid_of
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run
 
 PLANES = [np.array([*np.eye(3)[axis], -place]) for axis in (0, 1) for place in (0.4, 1)]
@@ -21,8 +23,8 @@ PLANES = [np.array([*np.eye(3)[axis], -place]) for axis in (0, 1) for place in (
 def sides(request):
     """Return both sides of some cuts of a shape, and the shape's volume."""
     solid = run(solid_of(changes.moved(request.param(), scale=0.25), 0))
-    piece = whole(solid)
-    return [cut(solid, piece, plane) for plane in PLANES], piece.volume
+    piece = whole(solid, Fit(HullParameters(), 1.0, 0.05))
+    return [cut(piece, plane) for plane in PLANES], piece.volume
 
 
 def test_bounds_are_below_what_they_bound(sides):

@@ -4,7 +4,8 @@ import pytest
 import shapes
 from convexity_check import assert_convex, heights_above_shape
 from weak_convex_decomposition.core.hulls.convex_hull import convex_hull
-from weak_convex_decomposition.core.hulls.fitting import fit_shape, outline_of
+from weak_convex_decomposition.core.hulls.fitting import Fit
+from weak_convex_decomposition.core.hulls.outline import outline_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
 KINDS = ["BOX", "SPHERE", "CYLINDER", "CAPSULE"]
@@ -14,7 +15,7 @@ BAR = shapes.box((0, 0, 0), (6, 2, 1)).vertices
 
 def around(points, kind, **values):
     hull = convex_hull(np.asarray(points), 1e-3)
-    return fit_shape(hull, HullParameters(shape=kind, **values), 1.0)
+    return Fit(HullParameters(shape=kind, **values), 1.0, 0.05).shape(hull)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -2,8 +2,10 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from weak_convex_decomposition.core.hulls.fitting import Fit
 from weak_convex_decomposition.core.hulls.piece import cut, join, whole
 from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -16,13 +18,13 @@ PLANES = [np.array([*normal, 0.1]) for normal in np.eye(3)]
 
 
 def cell_of(solid):
-    return whole(solid)
+    return whole(solid, Fit(HullParameters(), 1.0, 0.05))
 
 
 def test_a_corner_inside_the_solid_is_kept():
     cell, volume = cell_of(CUBE), 8.0
     for plane in PLANES:
-        above = cut(CUBE, cell, plane)[1]
+        above = cut(cell, plane)[1]
         cell, volume = above, volume * 1.1 / 2
         assert cell.hull.volume == pytest.approx(volume, rel=1e-6)
         assert cell.volume == pytest.approx(volume, rel=0.05)
@@ -32,7 +34,7 @@ def test_a_corner_inside_the_solid_is_kept():
 def test_both_sides_make_up_the_whole():
     solid = solid_of(changes.moved(shapes.u_shape(), scale=0.25), 0)
     cell = cell_of(solid)
-    below, above = cut(solid, cell, np.array([1.0, 0.0, 0.0, -0.50001]))
+    below, above = cut(cell, np.array([1.0, 0.0, 0.0, -0.50001]))
     assert below.volume + above.volume == pytest.approx(cell.volume)
     assert len(below.boundary) + len(above.boundary) > len(cell.boundary)
     assert below.planes == pytest.approx(-above.planes)

@@ -1,4 +1,4 @@
-"""Compare hulls with CoACD's and V-HACD's: python hulls.py FOLDER RESULTS PYTHON.
+"""Compare hulls with CoACD's and V-HACD's: python rivals.py FOLDER RESULTS PYTHON.
 
 FOLDER is searched for meshes, but for files named in no category's first place of the
 Princeton benchmark; what tools made is kept in RESULTS, so that a run can go on where

@@ -1,0 +1,240 @@
+"""Find the smallest boxes, spheres, cylinders and capsules around convex hulls."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from ..geometry.frames import frames, principal_axes
+from ..geometry.primitives import CollisionShape, Hull
+
+# Rounds of the search for the smallest ball; its radius is then exact to a thousandth.
+_ROUNDS = 1000
+# Rounds while cuts are compared, when a hundredth is enough.
+_FEW_ROUNDS = 60
+# Number of faces that a box may be flush with while cuts are compared.
+_FEW_FACES = 4
+
+
+def box_around(hull: Hull) -> CollisionShape:
+    """Return the smallest box that has one side flush with a face of a hull.
+
+    The smallest box of all has two adjacent sides that each contain an edge of the hull
+    (O'Rourke 1985). Boxes flush with a face are nearly as small and far fewer.
+
+    Parameters
+    ----------
+    hull : Hull
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return _smallest_box(hull, _normals(hull))
+
+
+def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
+    """Return the smallest of the boxes that have a side with one of the normals."""
+    best: CollisionShape | None = None
+    for normal in normals:
+        axes = _rectangle_axes(hull.vertices, normal)
+        local = hull.vertices @ axes.T
+        low, high = local.min(axis=0), local.max(axis=0)
+        shape = CollisionShape(
+            "BOX", hull, (low + high) / 2 @ axes, axes, (high - low) / 2
+        )
+        if best is None or shape.volume < best.volume:
+            best = shape
+    assert best is not None  # a hull has faces
+    return best
+
+
+def sphere_around(hull: Hull) -> CollisionShape:
+    """Return the smallest sphere around a hull, to a thousandth of its radius.
+
+    Parameters
+    ----------
+    hull : Hull
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return _sphere(hull, _ROUNDS)
+
+
+def cylinder_around(hull: Hull) -> CollisionShape:
+    """Return the smallest of six cylinders around a hull.
+
+    Parameters
+    ----------
+    hull : Hull
+        The axes tried are those of its box and the principal axes of its vertices.
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return min((_cylinder(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
+
+
+def capsule_around(hull: Hull) -> CollisionShape:
+    """Return the smallest of six capsules around a hull.
+
+    Parameters
+    ----------
+    hull : Hull
+        The axes tried are those of its box and the principal axes of its vertices.
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return min((_capsule(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
+
+
+_EXACT = {
+    "BOX": box_around,
+    "SPHERE": sphere_around,
+    "CYLINDER": cylinder_around,
+    "CAPSULE": capsule_around,
+}
+
+
+def around(hull: Hull, kind: str) -> CollisionShape:
+    """Return the smallest shape of a kind around a hull, or nearly the smallest.
+
+    Parameters
+    ----------
+    hull : Hull
+    kind : str
+        'BOX', 'SPHERE', 'CYLINDER' or 'CAPSULE'.
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return _EXACT[kind](hull)
+
+
+def roughly_around(hull: Hull, kind: str) -> CollisionShape:
+    """Return a shape of a kind around a hull quickly, a little larger than need be.
+
+    Parameters
+    ----------
+    hull : Hull
+    kind : str
+        'BOX', 'SPHERE', 'CYLINDER' or 'CAPSULE'.
+
+    Returns
+    -------
+    CollisionShape
+    """
+    if kind == "SPHERE":
+        return _sphere(hull, _FEW_ROUNDS)
+    box = _smallest_box(hull, _few_normals(hull))
+    if kind == "BOX":
+        return box
+    along = _cylinder if kind == "CYLINDER" else _capsule
+    shapes = [along(hull, axis, _FEW_ROUNDS) for axis in box.axes]
+    return min(shapes, key=lambda shape: shape.volume)
+
+
+def _sphere(hull: Hull, rounds: int) -> CollisionShape:
+    """Return the smallest sphere, found in a number of rounds."""
+    center, radius = _smallest_ball(hull.vertices, rounds)
+    sizes = np.array([radius, radius, 0.0])
+    return CollisionShape("SPHERE", hull, center, np.eye(3), sizes)
+
+
+def _cylinder(
+    hull: Hull, axis: NDArray[np.float64], rounds: int = _ROUNDS
+) -> CollisionShape:
+    """Return the smallest cylinder along an axis."""
+    frame = _frame(axis)
+    local = hull.vertices @ frame.T
+    center, radius = _smallest_ball(local[:, :2], rounds)
+    low, high = local[:, 2].min(), local[:, 2].max()
+    middle = np.r_[center, (low + high) / 2] @ frame
+    sizes = np.array([radius, radius, (high - low) / 2])
+    return CollisionShape("CYLINDER", hull, middle, frame, sizes)
+
+
+def _capsule(
+    hull: Hull, axis: NDArray[np.float64], rounds: int = _ROUNDS
+) -> CollisionShape:
+    """Return the shortest of the capsules with the least radius along an axis."""
+    frame = _frame(axis)
+    local = hull.vertices @ frame.T
+    center, radius = _smallest_ball(local[:, :2], rounds)
+    around = np.linalg.norm(local[:, :2] - center, axis=1)
+    # Height of the round end above its base, at the distance of each vertex.
+    room = np.sqrt(np.maximum(radius**2 - around**2, 0.0))
+    low, high = (local[:, 2] + room).min(), (local[:, 2] - room).max()
+    middle = np.r_[center, (low + high) / 2] @ frame
+    sizes = np.array([radius, radius, max(high - low, 0.0) / 2])
+    return CollisionShape("CAPSULE", hull, middle, frame, sizes)
+
+
+def _axes(hull: Hull) -> NDArray[np.float64]:
+    """Return the axes to try: those of the box and the principal axes, (6, 3)."""
+    return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
+
+
+def _normals(hull: Hull) -> NDArray[np.float64]:
+    """Return the normals of a hull's faces, equal and opposite ones once, (N, 3)."""
+    rounded = np.round(hull.planes[:, :3], 4)
+    rounded *= np.sign(
+        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
+    )[:, None]
+    _, rows = np.unique(rounded, axis=0, return_index=True)
+    return hull.planes[np.sort(rows), :3]
+
+
+def _few_normals(hull: Hull) -> NDArray[np.float64]:
+    """Return the normals of the largest faces, and the principal axes, (N, 3)."""
+    a, b, c = np.moveaxis(hull.corners, 1, 0)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    largest = np.argsort(-np.round(areas, 9), kind="stable")[:_FEW_FACES]
+    return np.concatenate([hull.planes[largest, :3], principal_axes(hull.vertices)])
+
+
+def _rectangle_axes(
+    points: NDArray[np.float64], normal: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the axes of the box of least base area, the last one `normal`, (3, 3)."""
+    frame = _frame(normal)
+    flat = points @ frame[:2].T
+    try:
+        outline = flat[ConvexHull(flat).vertices]
+    except QhullError:  # seen edge on
+        return frame
+    edges = np.roll(outline, -1, axis=0) - outline
+    edges /= np.linalg.norm(edges, axis=1, keepdims=True)
+    along = edges @ outline.T
+    across = np.stack([-edges[:, 1], edges[:, 0]], axis=1) @ outline.T
+    edge = edges[(np.ptp(along, axis=1) * np.ptp(across, axis=1)).argmin()]
+    first = edge @ frame[:2]
+    return np.stack([first, np.cross(frame[2], first), frame[2]])
+
+
+def _frame(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return right-handed axes whose last row is `axis`, (3, 3)."""
+    return np.concatenate([*frames(axis[None]), axis[None]])
+
+
+def _smallest_ball(
+    points: NDArray[np.float64], rounds: int
+) -> tuple[NDArray[np.float64], float]:
+    """Return center and radius of nearly the smallest ball around points (N, 2 or 3).
+
+    Bădoiu and Clarkson 2003, "Smaller core-sets for balls": the center moves towards
+    the farthest point, by a smaller share of the way in each round.
+    """
+    center = points.mean(axis=0)
+    for step in range(1, rounds + 1):
+        away = points - center
+        farthest = np.einsum("nd,nd->n", away, away).argmax()
+        center = center + away[farthest] / (step + 1)
+    return center, float(np.linalg.norm(points - center, axis=1).max())

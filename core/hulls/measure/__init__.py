@@ -1,0 +1,1 @@
+"""Measures how far a collision shape strays from the solid that it stands for."""

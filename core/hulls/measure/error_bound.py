@@ -1,0 +1,235 @@
+"""An upper bound of a collision shape's error, nearly as small as the error itself.
+
+Patches of the surfaces are halved until no point of them can be much farther away than
+the farthest point that is known: distances change at most as fast as the place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...geometry.primitives import CollisionShape, Hull
+from ..convex_hull import THIN
+from ..outline import fine_outline
+from ..solid import Solid
+from .estimate import volume_error
+from .fragments import distances_to, fragments_of, halved
+
+# The bound exceeds the error by this share at most, where there is time for it.
+_TOLERANCE = 0.03
+# Longest edge of the first patches; the longest side of the shape is 2.
+_COARSE = 0.2
+# Patches left over in one round; with more, their bounds stand as they are.
+_MOST_PATCHES = 60_000
+# Fragments near a patch that its distance is measured to.
+_NEIGHBORS = 3
+# Largest number of point-triangle pairs at once.
+_MOST_PAIRS = 400_000
+# The surface is within a shape that it is outside of by less: hulls are simplified.
+_WITHIN = THIN / 10
+
+# Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
+_Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+
+def error_bound(
+    solid: Solid, shape: CollisionShape, hull: Hull, enough: float
+) -> tuple[float, NDArray[np.float64]]:
+    """Return an upper bound of the error of a collision shape.
+
+    The error is the largest of four figures, for a shape S around a piece with the
+    convex hull C, in a solid M:
+
+    - R_v of CoACD: 0.3 times the radius of a ball as large as what of S is outside M;
+    - the largest distance of a point on S, outside M, from the surface of M within S;
+    - the largest depth below the surface of S of a point on the surface of M;
+    - the largest distance from S of a point of C: what the shape leaves uncovered.
+
+    Parameters
+    ----------
+    solid : Solid
+    shape : CollisionShape
+        In the space of the solid.
+    hull : Hull
+        Convex hull of the piece that the shape stands for.
+    enough : float
+        Positive. Errors below it need not be told apart.
+
+    Returns
+    -------
+    bound : float
+        At least the error, and at most the larger of `enough` and the error with a
+        tolerance of a few percent.
+    place : (1, 3) or (0, 3) float
+        A point of the shape that is far from the surface, if there is one.
+    """
+    bound = uncovered(shape, hull)
+    near, targets = _surface_within(solid, shape)
+    depths = _largest(near, lambda c, _: _depths(shape, c), max(enough, bound))[0]
+    bound = max(bound, depths)
+    if len(near) == 0:
+        near = targets = solid.fragments
+    tree = cKDTree(near.mean(axis=1))
+    outline, gap = fine_outline(shape)
+
+    def away(corners: NDArray[np.float64], level: float) -> _Bounds:
+        return _distances(solid, targets, tree, corners, level)
+
+    least = max(enough - gap, bound, gap)
+    distance, place = _largest(outline, away, least)
+    bound = max(bound, distance + gap)
+    if volume_error(shape.volume) > max(bound, enough):
+        bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
+    return bound, place
+
+
+def uncovered(shape: CollisionShape, hull: Hull) -> float:
+    """Return the largest distance from a collision shape of a point of a hull.
+
+    Parameters
+    ----------
+    shape : CollisionShape
+    hull : Hull
+
+    Returns
+    -------
+    float
+        0 if the shape contains the hull. A corner is the farthest point: distances
+        from a convex shape are convex.
+    """
+    heights = shape.heights(hull.vertices)
+    if shape.kind != "HULL":
+        return float(max(heights.max(), 0.0))
+    points = hull.vertices[heights > 0]
+    corners, farthest = shape.hull.corners, 0.0
+    step = max(_MOST_PAIRS // len(corners), 1)
+    for start in range(0, len(points), step):
+        some = points[start : start + step]
+        away = distances_to(
+            np.repeat(some, len(corners), axis=0), np.tile(corners, (len(some), 1, 1))
+        )
+        nearest = away.reshape(len(some), -1).min(axis=1)
+        farthest = max(farthest, float(nearest.max()))
+    return farthest
+
+
+def _largest(
+    corners: NDArray[np.float64],
+    bounds_of: Callable[[NDArray[np.float64], float], _Bounds],
+    enough: float,
+) -> tuple[float, NDArray[np.float64]]:
+    """Return an upper bound of a function's largest value on patches (N, 3, 3).
+
+    The second value is where it is reached: (1, 3), or (0, 3) if it is below `enough`.
+    """
+    reached, bound, level = 0.0, 0.0, enough
+    place = np.zeros((0, 3))
+    corners = fragments_of(corners, _COARSE)[0]
+    while len(corners):
+        low, high = bounds_of(corners, level)
+        if low.max() > max(reached, enough):
+            place = corners[[low.argmax()]].mean(axis=1)
+        reached = max(reached, float(low.max()))
+        level = max(reached * (1 + _TOLERANCE), enough)
+        left = high > level
+        bound = max(bound, float(high[~left].max(initial=0.0)))
+        if left.sum() > _MOST_PATCHES:
+            return max(bound, float(high.max())), place
+        corners = halved(corners[left])
+    return max(bound, reached), place
+
+
+def _reach(corners: NDArray[np.float64]) -> _Bounds:
+    """Return the centers of triangles, and their largest distances from corners."""
+    centers = corners.mean(axis=1)
+    arms = corners - centers[:, None]
+    return centers, np.sqrt(np.einsum("tcd,tcd->tc", arms, arms).max(axis=1))
+
+
+def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> _Bounds:
+    """Return bounds of the depth of patches below the surface of a shape."""
+    centers, radii = _reach(corners)
+    depths = -shape.heights(centers)
+    return depths, depths + radii
+
+
+def _distances(
+    solid: Solid,
+    targets: NDArray[np.float64],
+    tree: cKDTree,
+    corners: NDArray[np.float64],
+    level: float,
+) -> _Bounds:
+    """Return bounds of the distance of patches outside a solid from targets."""
+    centers, radii = _reach(corners)
+    rows = tree.query(centers)[1]
+    low = np.zeros(len(centers))
+    distances = distances_to(centers, targets[rows])
+    high = distances + radii
+    hard = np.flatnonzero(high > level)
+    if len(hard) == 0:
+        return low, high
+    # The distance from a triangle is convex: it is largest at a corner of the patch.
+    near = tree.query(centers[hard], min(_NEIGHBORS, len(targets)))[1]
+    near = near.reshape(len(hard), -1)
+    n_near = near.shape[1]
+    places = np.concatenate([corners[hard], centers[hard, None]], axis=1)
+    away = distances_to(
+        np.repeat(places.reshape(-1, 3), n_near, axis=0),
+        targets[np.repeat(near, 4, axis=0).ravel()],
+    ).reshape(-1, 4, n_near)
+    high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
+    distances[hard] = np.minimum(distances[hard], away[:, 3].min(axis=1))
+    hard = hard[high[hard] > level]
+    inside = solid.inside.holds(centers[hard])
+    low[hard[~inside]] = distances[hard[~inside]]
+    # A way from inside to a point outside crosses the surface.
+    hard = hard[inside]
+    free = solid.tree.query(centers[hard])[0] - solid.grain
+    high[hard] = np.where(free > radii[hard], 0.0, np.minimum(high, radii)[hard])
+    return low, high
+
+
+def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
+    """Return triangles of the surface of a solid that are within a shape, (N, 3, 3).
+
+    They are small. The second array has triangles within the shape that contain them:
+    the whole triangles of the mesh, where possible.
+    """
+    low, high = shape.bounds
+    slack = _WITHIN + solid.grain
+    rows = ((low - slack <= solid.centers) & (solid.centers <= high + slack)).all(
+        axis=1
+    )
+    if not rows.any():
+        return np.zeros((0, 3, 3)), np.zeros((0, 3, 3))
+    near = solid.fragments[rows]
+    held = _held(shape, near)
+    whole = held.all(axis=1)
+    # Large triangles that are within stand for their pieces.
+    numbers, places = np.unique(solid.origins[rows][whole], return_inverse=True)
+    large = solid.corners[numbers]
+    places = places.reshape(-1)
+    of_large = np.all(_held(shape, large), axis=1).take(places)
+    targets = np.where(of_large[:, None, None], large[places], near[whole])
+    # Others may reach into the shape: of their pieces, take the corners that do.
+    centers, radii = _reach(near[~whole])
+    reaching = shape.heights(centers) <= radii + _WITHIN
+    pieces = fragments_of(near[~whole][reaching], solid.grain / 4)[0]
+    held = _held(shape, pieces)
+    pieces, held = pieces[held.any(axis=1)], held[held.any(axis=1)]
+    order = np.argsort(~held, axis=1, kind="stable")
+    chosen = np.where(np.take_along_axis(held, order, axis=1), order, order[:, :1])
+    pieces = np.take_along_axis(pieces, chosen[..., None], axis=1)
+    return np.concatenate([near[whole], pieces]), np.concatenate([targets, pieces])
+
+
+def _held(shape: CollisionShape, corners: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which corners of triangles are within a shape, (N, 3)."""
+    heights = shape.heights(corners.reshape(-1, 3)).reshape(-1, 3)
+    held: NDArray[np.bool_] = heights <= _WITHIN
+    return held

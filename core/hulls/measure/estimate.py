@@ -1,0 +1,76 @@
+"""A quick estimate of a collision shape's error, by which cuts are compared."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ...geometry.primitives import CollisionShape, Hull
+from ...geometry.sampling import points_on
+from ..outline import outline_of
+from ..solid import Solid
+
+# Weight k of the volume term in CoACD's concavity.
+_VOLUME_WEIGHT = 0.3
+# Largest number of samples times planes of a hull for which heights are estimated.
+_MOST_HEIGHTS = 500_000
+# Number of samples on the surface of a shape for an estimate.
+_SHAPE_SAMPLES = 400
+# Subtracted from the distance between a point and the nearest sample, as a share of
+# the spacing: even points on the surface lie between samples.
+_SLACK = 0.4
+
+
+def estimated_error(
+    solid: Solid,
+    shape: CollisionShape,
+    hull: Hull,
+    boundary: NDArray[np.float64],
+    witnesses: NDArray[np.float64],
+    least: float,
+) -> float:
+    """Estimate the error of a collision shape from samples.
+
+    Parameters
+    ----------
+    solid : Solid
+    shape : CollisionShape
+    hull : Hull
+        As for `error_bound`.
+    boundary : (N, 3) float
+        Samples of the surface of the piece, and of the faces that cuts made.
+    witnesses : (W, 3) float
+        Points that are surely outside the solid and far from its surface.
+    least : float
+        The term of the error that depends on volumes.
+
+    Returns
+    -------
+    float
+    """
+    if len(boundary) == 0:
+        return least
+    n_heights = len(boundary) * len(hull.planes)
+    depth = -shape.heights(boundary[:: -(-n_heights // _MOST_HEIGHTS)]).min()
+    outside = shape.heights(hull.vertices).max()
+    tree = cKDTree(np.concatenate([boundary, hull.vertices]))
+    corners = outline_of(shape).corners
+    _, spread = points_on(corners, _SHAPE_SAMPLES, np.random.default_rng(0))
+    if shape.kind != "HULL":  # it reaches into other pieces
+        spread = spread[~solid.inside.holds(spread)]
+    away = tree.query(spread)[0].max(initial=0.0) - _SLACK * solid.spacing
+    if len(witnesses):
+        beyond = np.maximum(shape.heights(witnesses), 0.0)
+        away = max(away, float((tree.query(witnesses)[0] - 2 * beyond).max()))
+    return float(max(least, depth, outside, away))
+
+
+def volume_error(volume: float) -> float:
+    """Return the error R_v of CoACD, weight k included, of an added volume.
+
+    Parameters
+    ----------
+    volume : float
+    """
+    return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))

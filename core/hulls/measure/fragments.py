@@ -1,0 +1,135 @@
+"""Cut triangles into small ones, and tell how far points are from triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+# Cutting stops at this many triangles, however long their edges still are.
+_MOST = 200_000
+
+
+def fragments_of(
+    corners: NDArray[np.float64], longest: float
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Halve triangles until no edge is longer than allowed.
+
+    Whether an edge is halved depends on nothing but its length, so that neighbors that
+    fit together still do.
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+    longest : float
+        Longest edge of a small triangle.
+
+    Returns
+    -------
+    fragments : (N, 3, 3) float
+        With the same winding.
+    origins : (N,) int
+        Triangle that each is a piece of.
+    """
+    done = [corners[:0]]
+    rows = [np.zeros(0, dtype=np.int64)]
+    triangles, n_done = np.arange(len(corners)), 0
+    while len(corners):
+        ready = edge_lengths(corners).max(axis=1) <= longest
+        if n_done + len(corners) > _MOST:
+            ready[:] = True
+        done.append(corners[ready])
+        rows.append(triangles[ready])
+        n_done += int(ready.sum())
+        corners = halved(corners[~ready])
+        triangles = np.tile(triangles[~ready], 2)
+    return np.concatenate(done), np.concatenate(rows)
+
+
+def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the lengths of the edges of triangles: from corner i to i + 1, (T, 3).
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+    """
+    edges = corners[:, [1, 2, 0]] - corners
+    lengths: NDArray[np.float64] = np.sqrt(np.einsum("ted,ted->te", edges, edges))
+    return lengths
+
+
+def halved(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return triangles cut in two at the middle of their longest edges, (2 T, 3, 3).
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+
+    Returns
+    -------
+    (2 T, 3, 3) float
+        One half of each triangle, then the other halves.
+    """
+    rows = np.arange(len(corners))
+    first = edge_lengths(corners).argmax(axis=1)
+    a, b, c = (corners[rows, (first + step) % 3] for step in range(3))
+    middle = (a + b) / 2
+    return np.concatenate([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
+
+
+def distances_to(
+    points: NDArray[np.float64], corners: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the distance of each point from a triangle of its own.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+    corners : (N, 3, 3) float
+        Triangles, which may be flat: then they are segments or points.
+
+    Returns
+    -------
+    (N,) float
+    """
+    a = corners[:, 0]
+    ab, ac, ap = corners[:, 1] - a, corners[:, 2] - a, points - a
+    bb, cc, bc = _dot(ab, ab), _dot(ac, ac), _dot(ab, ac)
+    bp, cp, pp = _dot(ab, ap), _dot(ac, ap), _dot(ap, ap)
+    # Squared distances from the three edges: a to b, a to c and b to c.
+    along_bc = bb + cc - 2 * bc
+    from_b = pp + bb - 2 * bp
+    to_c = cp - bp - bc + bb
+    squared = np.minimum(
+        np.minimum(_from_segment(pp, bp, bb), _from_segment(pp, cp, cc)),
+        _from_segment(from_b, to_c, along_bc),
+    )
+    # Above the inside of the triangle, the plane is nearer than any edge.
+    area = bb * cc - bc * bc
+    v, w = cc * bp - bc * cp, bb * cp - bc * bp
+    above = (v > 0) & (w > 0) & (v + w < area) & (area > 1e-14 * bb * cc)
+    fall = np.divide(v * bp + w * cp, area, out=np.zeros(len(area)), where=above)
+    squared = np.where(above, np.minimum(squared, pp - fall), squared)
+    # The difference of products above is not exact: no distance is said too small.
+    noise = 1e-15 * (pp + bb + cc)
+    distances: NDArray[np.float64] = np.sqrt(np.maximum(squared, 0.0) + noise)
+    return distances
+
+
+def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the dot products of vectors (N, 3), (N,)."""
+    product: NDArray[np.float64] = np.einsum("nd,nd->n", a, b)
+    return product
+
+
+def _from_segment(
+    square: NDArray[np.float64], along: NDArray[np.float64], length: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return squared distances from segments, (N,).
+
+    `square` is the squared distance from the start, `along` the dot product with the
+    segment, `length` its squared length.
+    """
+    share = np.divide(along, length, out=np.zeros(len(along)), where=length > 0)
+    share = np.clip(share, 0.0, 1.0)
+    squares: NDArray[np.float64] = square - share * (2 * along - share * length)
+    return squares

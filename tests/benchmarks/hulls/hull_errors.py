@@ -1,0 +1,152 @@
+"""Stated errors of hulls against measured ones: hull_errors.py FOLDER [SHAPE...].
+
+The measurement shares no code with the hulls: dense samples, Blender's exact distances
+from triangles, and rays that count surfaces. FOLDER is searched for meshes; of the
+Princeton benchmark, model 3 of each category is taken.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import bpy  # noqa: F401  # mathutils comes with it
+import checkout  # noqa: F401  # makes the package importable
+import numpy as np
+import weak_convex_decomposition as package
+from convexity_check import heights_above_shape
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+from scipy.spatial import cKDTree
+from weak_convex_decomposition.core.hulls.outline import outline_of
+from weak_convex_decomposition.operators.bridge.read.shape import read_shape
+from weak_convex_decomposition.operators.headless.read.load import load
+
+SHAPES = ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE")
+ENDINGS = {".obj", ".off", ".ply", ".stl"}
+ON_SHAPE, ON_MESH, IN_BOX = 20_000, 200_000, 20_000
+# Errors below this, relative to half of the longest side, are rounding.
+LEAST = 0.002
+RAYS = [
+    Vector(ray).normalized()
+    for ray in ((0.31, 0.17, 1), (1, 0.23, -0.41), (-0.37, 1, 0.19))
+]
+
+
+def mesh_files(folder):
+    """Return the meshes below a folder; of the Princeton benchmark, model 3 of each."""
+    files = sorted(p for p in Path(folder).rglob("*") if p.suffix in ENDINGS)
+    return [p for p in files if not p.stem.isdigit() or int(p.stem) % 20 == 3]
+
+
+def spread(corners, count, seed):
+    """Return points spread over triangles (T, 3, 3), and the triangle of each."""
+    rng = np.random.default_rng(seed)
+    a, b, c = np.moveaxis(corners, 1, 0)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    rows = rng.choice(len(corners), count, p=areas / areas.sum())
+    u, v = np.sort(rng.random((2, count)), axis=0)
+    weights = np.stack([u, v - u, 1 - v], axis=1)
+    return np.einsum("nc,ncd->nd", weights, corners[rows]), rows
+
+
+class Ruler:
+    """Measures shapes against a mesh, scaled so that its longest side is 2."""
+
+    def __init__(self, mesh):
+        self.center = mesh.center
+        self.unit = np.ptp(mesh.bounds, axis=0).max() / 2
+        self.corners = (mesh.vertices[mesh.triangles] - self.center) / self.unit
+        self.tree = tree_of(self.corners)
+        self.points, self.rows = spread(self.corners, ON_MESH, 1)
+
+    def is_inside(self, point):
+        """Return whether most rays leave more surfaces than they enter."""
+        votes = 0
+        for ray in RAYS:
+            for way in (ray, -ray):
+                place, count = Vector(point), 0
+                while True:
+                    hit, normal, _, _ = self.tree.ray_cast(place, way)
+                    if hit is None:
+                        break
+                    count += 1 if normal.dot(way) > 0 else -1
+                    place = hit + 1e-5 * way
+                votes += count > 0
+        return votes > len(RAYS)
+
+    def error(self, shape):
+        """Return the error of a shape: both distances, and the volume term."""
+        shape = shape.moved(1 / self.unit, -self.center / self.unit)
+        heights = heights_above_shape(shape, self.points)
+        within = heights <= 0.01
+        own = self.corners[np.unique(self.rows[within])]
+        outline = outline_of(shape)
+        places, _ = spread(outline.corners, ON_SHAPE, 2)
+        near = tree_of(own) if within.any() else self.tree
+        away = np.array([near.find_nearest(place)[3] for place in places])
+        if within.any():  # not what such triangles have outside of the shape
+            rough = cKDTree(self.points[within]).query(places)[0]
+            away = np.maximum(away, rough - 0.02)
+        far = 0.0
+        for row in np.argsort(-away):
+            if away[row] < LEAST or not self.is_inside(places[row]):
+                far = away[row]
+                break
+        return max(far, -heights.min(), self.volume_term(shape, outline))
+
+    def volume_term(self, shape, outline):
+        """Return R_v of CoACD for the volume of the shape outside the mesh."""
+        low, high = outline.vertices.min(axis=0), outline.vertices.max(axis=0)
+        points = low + (high - low) * np.random.default_rng(3).random((IN_BOX, 3))
+        points = points[heights_above_shape(shape, points) <= 0]
+        if 0.3 * np.cbrt(3 * shape.volume / 4 / np.pi) < LEAST or len(points) == 0:
+            return 0.0
+        some = points[:10_000]
+        outside = np.mean([not self.is_inside(point) for point in some])
+        return 0.3 * np.cbrt(3 * outside * shape.volume / 4 / np.pi)
+
+    def uncovered(self, shapes):
+        """Return the largest distance of the mesh from all shapes, where it is bare."""
+        scaled = [s.moved(1 / self.unit, -self.center / self.unit) for s in shapes]
+        points = self.points[::10]
+        heights = np.array([heights_above_shape(s, points) for s in scaled])
+        bare = points[heights.min(axis=0) > LEAST]
+        trees = [tree_of(outline_of(shape).corners) for shape in scaled]
+        return max(
+            (min(t.find_nearest(p)[3] for t in trees) for p in bare), default=0.0
+        )
+
+
+def tree_of(corners):
+    rows = np.arange(3 * len(corners)).reshape(-1, 3)
+    return BVHTree.FromPolygons(corners.reshape(-1, 3).tolist(), rows.tolist())
+
+
+def main(folder, *kinds):
+    worst = {}
+    print(
+        f"{'mesh':18}{'shape':10}{'shapes':>7}{'stated':>8}{'measured':>9}{'ratio':>7}{'bare':>7}{'volumes':>9}{'seconds':>9}"
+    )
+    for path in mesh_files(folder):
+        (obj, *_) = load(path, "Y")
+        mesh = read_shape(obj)
+        ruler = Ruler(mesh)
+        for kind in kinds or SHAPES:
+            started = time.process_time()
+            found = package.build_hulls(mesh, shape=kind)
+            seconds = time.process_time() - started
+            measured = np.array([ruler.error(shape) for shape in found.shapes])
+            ratios = measured / np.maximum(found.errors, LEAST)
+            worst[kind] = max(worst.get(kind, 0.0), ratios.max())
+            print(
+                f"{path.stem[:17]:18}{kind:10}{found.n_hulls:7}{found.errors.max():8.4f}"
+                f"{measured.max():9.4f}{ratios.max():7.3f}{ruler.uncovered(found.shapes):7.4f}"
+                f"{found.volume_ratio:9.3f}{seconds:9.2f}",
+                flush=True,
+            )
+    for kind, ratio in worst.items():
+        print(f"largest ratio of {kind}: {ratio:.3f}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
