@@ -55,8 +55,8 @@ class Parameters:
         ParameterInfo(
             "Rays",
             "Most rays from each sample: fewer rays are quicker and less exact. 0 casts"
-            " as many as Lines of Sight needs: 30 in a cone, a ray for every pair, or"
-            " what the blocks need, about 80",
+            " as many as Lines of Sight needs: about 80, at most 200, in blocks, 30 in"
+            " a cone, or all between all pairs",
             low=0,
             high=1000,
             advanced=False,
@@ -119,7 +119,7 @@ class Parameters:
         ParameterInfo(
             "Psi From",
             "Pairs of samples that psi, the score of the parts, is estimated from; only"
-            " used if Lines of Sight is Cone, since All Pairs counts every pair",
+            " used if Lines of Sight is Cone, since the other kinds count every pair",
             choices=PSI_PAIRS,
         ),
     )

@@ -31,8 +31,8 @@ _FIRST_PROBES, _MOST_PROBES = 1, 6
 # Neighbors of a block are those of the groups nearest to either of its groups.
 _NEAREST = 4
 # There are so many groups that first probes take at most half of so many rays a sample:
-# 240 groups of 1200 samples.
-_RAYS_FOR_GROUPS = 48
+# 300 groups of 1200 samples.
+_RAYS_FOR_GROUPS = 75
 # Most rays a sample if the user sets no limit. Only shapes of many shells need more.
 _MOST_RAYS = 200
 # Entries of the matrix that are looked at in one step, about 20 ms.

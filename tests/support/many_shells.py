@@ -4,7 +4,7 @@ import numpy as np
 import shapes
 
 
-def building(n_shells=72, seed=0):
+def building(n_shells=72, divisions=3, around=24, seed=0):
     """Beams, floors and pipes that run through each other: boxes and tubes."""
     rng = np.random.default_rng(seed)
     pieces = []
@@ -13,13 +13,13 @@ def building(n_shells=72, seed=0):
         size = rng.uniform(0.05, 0.2, 3)
         size[number % 3] = rng.uniform(0.4, 1.0)
         if number % 2:
-            pieces.append(shapes.box(low, low + size, 3))
+            pieces.append(shapes.box(low, low + size, divisions))
         else:
-            pieces.append(pipe(low, low + size, number % 3))
+            pieces.append(pipe(low, low + size, number % 3, around))
     return shapes.joined(*pieces)
 
 
-def pipe(low, high, axis, around=24):
+def pipe(low, high, axis, around):
     """A round bar along an axis, between two corners."""
     bar = shapes.turned([0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 1.0], around)
     vertices = np.roll(bar.vertices + np.array((0.5, 0.5, 0.0)), axis + 1, axis=1)
@@ -42,13 +42,13 @@ def nested_spheres(n_spheres=20, subdivisions=3):
     return shapes.joined(*(shapes.sphere(subdivisions, radius) for radius in radii))
 
 
-def doubled(mesh, n_copies=2):
+def copies(mesh, n_copies=2):
     """The same surface several times."""
     return shapes.joined(*[mesh] * n_copies)
 
 
 def with_doubled_faces(mesh):
-    """Every face twice, on the same vertices."""
+    """Every triangle twice, on the same vertices."""
     return shapes.mesh_of(mesh.vertices, np.vstack([mesh.triangles] * 2))
 
 
