@@ -38,6 +38,11 @@ class Decomposition:
         Sentences to the user.
     normals : (P, 3) float or None
         Outward unit normals of a point cloud, if they had to be found or corrected.
+    pairs_cast, pairs_inferred : int
+        Pairs of samples that ranks and psi are counted from: those that rays were cast
+        between, and those that took the answer of similar pairs. No pair is inferred
+        with All Pairs or Cone for Lines of Sight. Pairs that do not face each other
+        through the inside are hidden, and count in neither number.
 
     Examples
     --------
@@ -58,6 +63,8 @@ class Decomposition:
     best_k: int
     notes: tuple[str, ...]
     normals: NDArray[np.float64] | None = None
+    pairs_cast: int = 0
+    pairs_inferred: int = 0
 
     @property
     def n_parts(self) -> int:
@@ -84,6 +91,8 @@ class Measurement:
         Number of samples.
     notes : tuple of str
         Sentences to the user.
+    pairs_cast : int
+        Pairs of samples that rays were cast between. No answer is inferred.
 
     Examples
     --------
@@ -98,6 +107,7 @@ class Measurement:
     standard_error: float
     n_samples: int
     notes: tuple[str, ...]
+    pairs_cast: int = 0
 
     def __repr__(self) -> str:
         """Return the rank, its error and the number of samples in one line."""

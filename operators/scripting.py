@@ -28,6 +28,7 @@ def decompose(
     *,
     parameters: Parameters | None = None,
     progress: ShowProgress | None = None,
+    caster: str | None = None,
     **changes: Any,
 ) -> Decomposition:
     """Split a shape into weakly convex parts.
@@ -39,8 +40,8 @@ def decompose(
     faces : (F, 3) int or sequence of sequences of int, optional
         Vertex rows of each face, counter-clockwise from outside; None for points.
     parameters : Parameters, default ``Parameters()``
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` while the fraction rises to 1.
+    progress : callable, called as ``progress(stage, fraction)``, optional
+    caster : 'BLENDER' or 'EMBREE', default the first of them that is installed
     **changes : values of fields of `Parameters`, such as ``parts=5``
 
     Returns
@@ -53,7 +54,7 @@ def decompose(
     TypeError
         If an argument has a wrong type, or a keyword is no field of `Parameters`.
     DecompositionError
-        If a value makes no sense, or no ray caster is installed.
+        If a value makes no sense, or no such ray caster is installed.
 
     References
     ----------
@@ -68,7 +69,7 @@ def decompose(
     2
     """
     settings = _settings("decompose", parameters, Parameters, changes)
-    cache = core.ShapeCache(choose_ray_caster())
+    cache = core.ShapeCache(choose_ray_caster(caster))
     steps = core.decompose_in_steps(shape_of(shape, faces), settings, cache)
     return _finish(steps, progress)
 
@@ -79,6 +80,7 @@ def measure(
     *,
     parameters: Parameters | None = None,
     progress: ShowProgress | None = None,
+    caster: str | None = None,
     **changes: Any,
 ) -> Measurement:
     """Estimate the convexity rank of a shape: the share of pairs that see each other.
@@ -90,8 +92,8 @@ def measure(
     faces : (F, 3) int or sequence of sequences of int, optional
         Vertex rows of each face, counter-clockwise from outside; None for points.
     parameters : Parameters, default ``Parameters()``
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` while the fraction rises to 1.
+    progress : callable, called as ``progress(stage, fraction)``, optional
+    caster : 'BLENDER' or 'EMBREE', default the first of them that is installed
     **changes : values of fields of `Parameters`, such as ``samples=800``
 
     Returns
@@ -104,7 +106,7 @@ def measure(
     TypeError
         If an argument has a wrong type, or a keyword is no field of `Parameters`.
     DecompositionError
-        If a value makes no sense, or no ray caster is installed.
+        If a value makes no sense, or no such ray caster is installed.
 
     References
     ----------
@@ -119,7 +121,7 @@ def measure(
     1.0
     """
     settings = _settings("measure", parameters, Parameters, changes)
-    cache = core.ShapeCache(choose_ray_caster())
+    cache = core.ShapeCache(choose_ray_caster(caster))
     steps = core.measure_in_steps(shape_of(shape, faces), settings, cache)
     return _finish(steps, progress)
 

@@ -53,7 +53,7 @@ def hull_parameters_from(owner: Any) -> HullParameters:
 
 def is_used(owner: Any, name: str) -> bool:
     """Return whether a setting has an effect, given the other settings."""
-    if name in {"rays", "psi_pairs", "cone_angle"}:
+    if name in {"psi_pairs", "cone_angle"}:
         return owner.sight == "CONE"
     if name in {"min_parts", "max_parts"}:
         return owner.parts == 0

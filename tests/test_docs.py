@@ -121,7 +121,7 @@ def test_the_tables_show_angles_in_degrees_and_bounds(hooks):
     rows = {row[0]: row for row in cells(hooks.table("parts"))}
     assert rows["`cone_angle`"][2:4] == ["120°", "1° to 180°"]
     assert rows["`parts`"][2:4] == ["0", "0 to 256"]
-    assert rows["`sight`"][2] == "`ALL_PAIRS`"
+    assert rows["`sight`"][2] == "`BLOCKS`"
 
 
 def test_the_page_of_parameters_asks_for_every_table(hooks):

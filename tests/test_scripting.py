@@ -193,3 +193,18 @@ def test_wrong_types_are_told_in_a_sentence(call, sentence):
 def test_bad_values_are_told_in_a_sentence(call, sentence):
     with pytest.raises(wcd.DecompositionError, match=sentence):
         call()
+
+
+def test_embree_finds_the_parts_that_blender_finds():
+    mesh = dumbbell()
+    ways = [
+        wcd.decompose(mesh, samples=300, caster=caster) for caster in (None, "EMBREE")
+    ]
+    assert ways[0].labels.tolist() == ways[1].labels.tolist()
+    ranks = [wcd.measure(mesh, samples=300, caster=c).rank for c in (None, "EMBREE")]
+    assert ranks[0] == pytest.approx(ranks[1], abs=1e-3)
+
+
+def test_a_caster_that_does_not_exist_is_refused():
+    with pytest.raises(wcd.DecompositionError, match="choose one of BLENDER, EMBREE"):
+        wcd.decompose(dumbbell(), caster="CUDA")

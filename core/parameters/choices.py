@@ -6,6 +6,13 @@ from .parameter import Choice
 
 SIGHT = (
     Choice(
+        "BLOCKS",
+        "Blocks",
+        "Group samples that are close and face the same way, test a few pairs of every"
+        " two groups, and test all their pairs only where the few disagree: several"
+        " times fewer rays than All Pairs, and parts as good",
+    ),
+    Choice(
         "ALL_PAIRS",
         "All Pairs",
         "Test every pair of samples, as convexity is defined",

@@ -51,12 +51,13 @@ class Parameters:
         ),
     )
     rays: int = parameter(
-        30,
+        0,
         ParameterInfo(
             "Rays",
-            "Number of rays from each sample into the shape: more rays find more lines"
-            " of sight and take longer; only used if Lines of Sight is Cone",
-            low=1,
+            "Most rays from each sample: fewer rays are quicker and less exact. 0 casts"
+            " as many as Lines of Sight needs: about 80, at most 200, in blocks, 30 in"
+            " a cone, or all between all pairs",
+            low=0,
             high=1000,
             advanced=False,
         ),
@@ -75,7 +76,7 @@ class Parameters:
         ),
     )
     sight: str = parameter(
-        "ALL_PAIRS",
+        "BLOCKS",
         ParameterInfo(
             "Lines of Sight",
             "Which pairs of samples are tested for a line of sight, a straight line"
@@ -119,7 +120,7 @@ class Parameters:
         ParameterInfo(
             "Psi From",
             "Pairs of samples that psi, the score of the parts, is estimated from; only"
-            " used if Lines of Sight is Cone, since All Pairs counts every pair",
+            " used if Lines of Sight is Cone, since the other kinds count every pair",
             choices=PSI_PAIRS,
         ),
     )

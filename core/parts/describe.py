@@ -57,6 +57,8 @@ def describe(
         best_k=best_k,
         notes=visibility.shape.notes,
         normals=visibility.shape.normals,
+        pairs_cast=pairs.n_cast,
+        pairs_inferred=pairs.n_inferred,
     )
 
 

@@ -17,6 +17,8 @@ from .pair_visibility import PairVisibility, pair_counts
 from .prepared import PreparedShape
 from .viewpoints import Viewpoints
 
+# Rays of each sample if the user sets no number, as in the paper.
+_USUAL_RAYS = 30
 # Pairs of samples, (2, M) each.
 Pairs: TypeAlias = list[NDArray[np.int64]]
 
@@ -42,7 +44,7 @@ def see_cones(
     samples, views : Samples, Viewpoints
         N points on the surface, and their viewpoints.
     n_rays : int
-        Rays r of each sample.
+        Rays r of each sample; 0 casts as many as the paper.
     opening : float
         Full angle of the cone in radians.
 
@@ -51,7 +53,7 @@ def see_cones(
     Steps of PairVisibility
         Sparse matrices (N, N). Every sample sees itself.
     """
-    n_samples, marcher = len(samples), shape.marcher
+    n_samples, marcher, n_rays = len(samples), shape.marcher, n_rays or _USUAL_RAYS
     directions = _directions(shape, samples, n_rays, opening)
     sources = np.repeat(np.arange(n_samples), n_rays)
     # Nearest by position and normal: the two sides of a thin wall are close, but their

@@ -29,6 +29,9 @@ _DIRECTIONS = 24
 _FIRST = 3
 # A cell is not enclosed if a smaller share of its first rays hits the shape.
 _CLEARLY_OPEN = 0.3
+# Nothing is enclosed if a smaller share of the first rays hits the shape from each of
+# every second cell in all directions of the grid.
+_MAY_ENCLOSE = 0.8
 # A container has at least one cell where this share of rays hits the shape.
 _ENCLOSED = 0.75
 # It also holds the connected outside cells with at least this share.
@@ -110,7 +113,7 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     Returns
     -------
     Steps of Grid
-        In the space of the marcher's mesh.
+        In the space of the marcher's mesh. All cells are open if nothing is enclosed.
     """
     low, high = marcher.mesh.bounds
     size = float((high - low).max()) / _CELLS
@@ -119,21 +122,22 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     centers = low + (np.indices(shape).reshape(3, -1).T + 0.5) * size
     directions = cone_directions(np.array([[0.0, 0.0, 1.0]]), _DIRECTIONS, 2 * np.pi)[0]
     order = np.argsort(np.arange(_DIRECTIONS) % _FIRST, kind="stable")
-    n_first = -(-_DIRECTIONS // _FIRST)
-    front, back, tried = np.zeros((3, len(centers)), dtype=np.int64)
-    cells = np.arange(len(centers))
-    for number, direction in enumerate(directions[order]):
-        if number == n_first:
-            # Most cells are decided by now: they are inside, or clearly open.
-            doubtful = (front >= back) & (front + back >= _CLEARLY_OPEN * n_first)
-            cells = np.flatnonzero(doubtful)
-        tried[cells] += 1
-        for start in range(0, len(cells), RAYS_PER_STEP):
-            yield Progress("Containers", number / _DIRECTIONS)
-            chunk = cells[start : start + RAYS_PER_STEP]
-            met, facing = _meet(marcher, centers[chunk], direction)
-            front[chunk[met]] += facing < 0
-            back[chunk[met]] += facing > 0
+    first, others = np.split(directions[order], [-(-_DIRECTIONS // _FIRST)])
+    # Try every second cell of each row first: most shapes enclose nothing.
+    some = (np.indices(shape) % 2 == (shape // 2 % 2)[:, None, None, None]).all(axis=0)
+    front, back = yield from within(
+        _hits(marcher, centers[some.ravel()], first), 0, 0.1
+    )
+    if ((front + back)[front >= back] < _MAY_ENCLOSE * len(first)).all():
+        return Grid(low - size, size, np.full(shape + 2, _OPEN))
+    front, back = yield from within(_hits(marcher, centers, first), 0.1, 0.7)
+    # Most cells are decided by now: they are inside, or clearly open.
+    doubtful = (front >= back) & (front + back >= _CLEARLY_OPEN * len(first))
+    steps = _hits(marcher, centers[doubtful], others)
+    more = yield from within(steps, 0.7, 1.0)
+    front[doubtful] += more[0]
+    back[doubtful] += more[1]
+    tried = np.where(doubtful, _DIRECTIONS, len(first))
     outside = (front >= back).reshape(shape)
     shares = ((front + back) / tried).reshape(shape)
     kinds = np.where(outside, _OPEN, _INSIDE)
@@ -193,6 +197,21 @@ def _run_through(
         going, inner = going[on], inner[on]
         units, origins = units[:, on], origins[:, on]
     return through
+
+
+def _hits(
+    marcher: RayMarcher, points: NDArray[np.float64], directions: NDArray[np.float64]
+) -> Steps[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Count the directions in which each point meets the front or back of the shape."""
+    front, back = np.zeros((2, len(points)), dtype=np.int64)
+    for number, direction in enumerate(directions):
+        for start in range(0, len(points), RAYS_PER_STEP):
+            yield Progress("Containers", number / len(directions))
+            rows = np.arange(start, min(start + RAYS_PER_STEP, len(points)))
+            met, facing = _meet(marcher, points[rows], direction)
+            front[rows[met]] += facing < 0
+            back[rows[met]] += facing > 0
+    return front, back
 
 
 def _meet(

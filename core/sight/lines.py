@@ -1,24 +1,50 @@
-"""Lines of sight between samples, through the inside (sections 3 and 5)."""
+"""Whether two samples see each other, through the inside (sections 3 and 5)."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from ..geometry.sampling import Samples
-from ..steps.progress import Progress, Steps, within
-from .pair_visibility import PairVisibility, pair_counts
+from ..steps.progress import Progress, Steps
 from .ray_march import RayMarcher
 from .viewpoints import Viewpoints
 
 # Rays between two reports of progress, about 20 ms.
 RAYS_PER_STEP = 4096
-# Pairs of the LoS matrix that are tested at a time.
-_PAIRS_PER_BLOCK = 65536
-# Number of random pairs that psi is estimated from. The estimate is unbiased; its
-# standard error is about 0.002.
-_UNIFORM_PAIRS = 60_000
+
+
+@dataclass(eq=False)
+class RayBudget:
+    """How many rays may still be cast.
+
+    A line of sight takes a ray for each surface that it passes, so that lines through
+    many shells cost more.
+
+    Attributes
+    ----------
+    left : float
+        Rays that may still be cast; `inf` without a limit.
+    n_lines, n_rays : int
+        Lines and rays that were cast.
+    """
+
+    left: float = np.inf
+    n_lines: int = 0
+    n_rays: int = 0
+
+    @property
+    def lines_left(self) -> float:
+        """Number of lines that the rays left are expected to suffice for."""
+        return self.left * max(self.n_lines, 1) / max(self.n_rays, 1)
+
+    def spend(self, n_lines: int, n_rays: int) -> None:
+        """Note that some lines took some rays."""
+        self.n_lines += n_lines
+        self.n_rays += n_rays
+        self.left -= n_rays
 
 
 def faces_inside(
@@ -43,7 +69,7 @@ def faces_inside(
     views : Viewpoints
         Viewpoints of `samples`.
     first, second : (M,) int
-        Rows of `samples` of each pair.
+        Rows of `samples` of each pair. Arrays of other shapes are broadcast.
 
     Returns
     -------
@@ -52,10 +78,10 @@ def faces_inside(
 
     def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
         towards = views.positions[others] - samples.positions[ends]
-        heights = np.einsum("md,md->m", towards, samples.normals[ends])
+        heights = np.einsum("...d,...d->...", towards, samples.normals[ends])
         allowed = 0.0
         if marcher.tilt:
-            allowed = marcher.tilt * np.linalg.norm(towards, axis=1)
+            allowed = marcher.tilt * np.linalg.norm(towards, axis=-1)
         under: NDArray[np.bool_] = (heights < allowed) | views.enclosed[ends]
         return under
 
@@ -68,6 +94,7 @@ def see_pairs(
     views: Viewpoints,
     first: NDArray[np.int64],
     second: NDArray[np.int64],
+    budget: RayBudget | None = None,
 ) -> Steps[NDArray[np.bool_]]:
     """Find out which of the given pairs of samples are in line of sight.
 
@@ -81,93 +108,57 @@ def see_pairs(
         Viewpoints of `samples`.
     first, second : (M,) int
         Rows of `samples` of each pair.
+    budget : RayBudget, optional
+        Unlimited by default.
 
     Returns
     -------
-    Steps of (M,) bool
+    Steps of (L,) bool
+        For the first L pairs: all M if the budget suffices.
     """
     visible = first == second
-    candidates = np.flatnonzero(
-        ~visible & faces_inside(marcher, samples, views, first, second)
-    )
-    for start in range(0, len(candidates), RAYS_PER_STEP):
-        yield Progress("Lines of sight", start / len(candidates))
-        chunk = candidates[start : start + RAYS_PER_STEP]
-        visible[chunk] = _sees(marcher, views, first[chunk], second[chunk])
-    return visible
+    facing = faces_inside(marcher, samples, views, first, second)
+    candidates = np.flatnonzero(~visible & facing)
+    lines = first[candidates], second[candidates]
+    seen = yield from cast_lines(marcher, views, *lines, budget or RayBudget())
+    visible[candidates[: len(seen)]] = seen
+    return visible[: candidates[len(seen)]] if len(seen) < len(candidates) else visible
 
 
-def see_all_pairs(
-    marcher: RayMarcher, samples: Samples, views: Viewpoints
-) -> Steps[PairVisibility]:
-    """Compute the LoS matrix of all pairs of samples (eq. 3).
-
-    Parameters
-    ----------
-    marcher : RayMarcher
-        Rays through the inside of the shape.
-    samples : Samples
-        N points on its surface.
-    views : Viewpoints
-        Viewpoints of `samples`.
-
-    Returns
-    -------
-    Steps of PairVisibility
-        A dense matrix (N, N). Every sample sees itself.
-    """
-    n_samples = len(samples)
-    los = np.eye(n_samples, dtype=bool)
-    start = 0
-    while start < n_samples - 1:
-        # Take a few rows of the upper triangle at a time, to bound the memory.
-        stop = start + max(1, _PAIRS_PER_BLOCK // (n_samples - start))
-        rows = np.arange(start, min(stop, n_samples - 1))
-        first = np.repeat(rows, n_samples - 1 - rows)
-        second = np.concatenate([np.arange(row + 1, n_samples) for row in rows])
-        done, share = (
-            1 - ((n_samples - row) / n_samples) ** 2 for row in (start, rows[-1] + 1)
-        )
-        visible = yield from within(
-            see_pairs(marcher, samples, views, first, second), done, share
-        )
-        los[first[visible], second[visible]] = True
-        start = int(rows[-1]) + 1
-    return PairVisibility((los | los.T).astype(np.float32), None)
-
-
-def see_uniform_pairs(
+def cast_lines(
     marcher: RayMarcher,
-    samples: Samples,
     views: Viewpoints,
-    rng: np.random.Generator,
-) -> Steps[PairVisibility]:
-    """Find out whether random pairs of samples see each other.
+    first: NDArray[np.int64],
+    second: NDArray[np.int64],
+    budget: RayBudget,
+) -> Steps[NDArray[np.bool_]]:
+    """Find out by rays which pairs, of those that face each other, see each other.
 
     Parameters
     ----------
     marcher : RayMarcher
         Rays through the inside of the shape.
-    samples : Samples
-        N points on its surface.
     views : Viewpoints
-        Viewpoints of `samples`.
-    rng : numpy.random.Generator
-        Draws the pairs uniformly, with replacement.
+        Viewpoints of the samples.
+    first, second : (M,) int
+        Rows of samples of each pair.
+    budget : RayBudget
+        Where it ends, the pairs that follow are left out. What is cast is noted in it.
 
     Returns
     -------
-    Steps of PairVisibility
-        Sparse matrices (N, N) with the number of draws of each pair.
+    Steps of (L,) bool
+        For the first L pairs: all M if the budget suffices.
     """
-    n_samples = len(samples)
-    first, second = rng.integers(n_samples, size=(2, _UNIFORM_PAIRS))
-    visible = yield from see_pairs(marcher, samples, views, first, second)
-
-    def counted(chosen: NDArray[np.bool_]) -> sparse.csr_array:
-        return pair_counts(first[chosen], second[chosen], n_samples)
-
-    return PairVisibility(counted(visible), counted(np.ones_like(visible)))
+    visible, done = np.zeros(len(first), dtype=bool), 0
+    while done < len(first) and budget.lines_left >= 1:
+        yield Progress("Lines of sight", done / len(first))
+        stop = done + int(min(RAYS_PER_STEP, budget.lines_left, len(first) - done))
+        before = marcher.n_cast
+        visible[done:stop] = _sees(marcher, views, first[done:stop], second[done:stop])
+        budget.spend(stop - done, marcher.n_cast - before)
+        done = stop
+    return visible[:done]
 
 
 def _sees(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -82,11 +82,18 @@ class PairVisibility:
     visible : (N, N) float32 or sparse
         How often each pair was tested and visible; 0 or 1 if tested once. Symmetric.
     known : (N, N) sparse or None
-        How often each pair was tested. None if every pair was tested once.
+        How often each pair was tested. None if all pairs have one answer.
+    n_cast : int
+        Number of pairs that rays were cast between. Other pairs need none: they do not
+        face each other through the inside.
+    n_inferred : int
+        Number of pairs whose answer is that of similar pairs.
     """
 
     visible: Matrix
     known: sparse.csr_array | None
+    n_cast: int = 0
+    n_inferred: int = 0
 
     @property
     def n_samples(self) -> int:
@@ -166,8 +173,7 @@ class PairVisibility:
         if self.known is None:
             visible = np.array(self.visible)
             visible[first, second] = visible[second, first] = 1.0
-            return PairVisibility(visible, None)
+            return replace(self, visible=visible)
         chosen = pair_counts(first, second, self.n_samples)
-        return PairVisibility(
-            sparse.csr_array(self.visible + self.known * chosen), self.known
-        )
+        more = sparse.csr_array(self.visible + self.known * chosen)
+        return replace(self, visible=more)

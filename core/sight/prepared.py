@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
 from ..geometry.convexity import is_convex
+from ..geometry.doubled import with_doubles, without_doubles
 from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import FlatMesh, flat_mesh
 from ..geometry.mesh import TriangleMesh
@@ -160,17 +161,19 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
         return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
     yield Progress("Surface", 0.4)
     shells = find_shells(mesh)
+    single, rows = without_doubles(mesh) if shells.crowded else (mesh, nodes)
+    shells = shells if single is mesh else find_shells(single)
     yield Progress("Surface", 0.6)
-    mesh, notes = oriented(mesh, shells)
+    turned, notes = oriented(single, shells)
     yield Progress("Surface", 0.8)
-    targets = set_apart(mesh, shells)
-    if targets is not mesh and shells.crowded:  # those that touched are apart now
+    targets = set_apart(turned, shells)
+    if targets is not turned and shells.crowded:  # those that touched are apart now
         shells = find_shells(targets)
-    closed = shells.closed[shells.of_triangle]
+    mesh = turned if single is mesh else with_doubles(mesh, turned, rows)
     return PreparedShape(
         *frame,
         targets,
-        RayMarcher(targets, make_caster, closed),
+        RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
         len(nodes),
         nodes,
         lambda: face_graph(mesh),

@@ -84,6 +84,8 @@ class RayMarcher:
         Outward unit normals of the triangles.
     area, diagonal : float
         Area of `mesh` and diagonal of its bounding box.
+    n_cast : int
+        Number of rays that `march` has cast: one for each surface that it meets.
     """
 
     def __init__(
@@ -101,6 +103,7 @@ class RayMarcher:
         self.diagonal = mesh.diagonal
         self.splat_size = splat_size
         self.tilt = tilt
+        self.n_cast = 0
         self._make_caster = make_caster
 
     @cached_property
@@ -141,7 +144,7 @@ class RayMarcher:
         reach, travelled, depths = reach - skipped, skipped, depths.copy()
         for _ in range(_MOST_CROSSINGS):
             starts = origins[going] + travelled[going, None] * directions[going]
-            triangles, lengths = self.caster.first_hit(
+            triangles, lengths = self._first_hit(
                 starts, directions[going], reach[going] - travelled[going]
             )
             met = triangles >= 0
@@ -158,6 +161,13 @@ class RayMarcher:
             if len(going) == 0:
                 break
         return exits, distances, depths
+
+    def _first_hit(
+        self, *rays: NDArray[np.float64]
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Cast rays, as `RayCaster.first_hit` does, and count them."""
+        self.n_cast += len(rays[0])
+        return self.caster.first_hit(*rays)
 
     def surfaces_along(
         self,

@@ -11,9 +11,11 @@ from ..geometry.sampling import Samples, take_samples
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps, within
+from .all_pairs import see_all_pairs, see_uniform_pairs
+from .blocks import see_blocks
 from .cone import see_cones
 from .containers import see_through_containers
-from .lines import see_all_pairs, see_uniform_pairs
+from .lines import RayBudget
 from .pair_visibility import Matrix, PairVisibility
 from .prepared import PreparedShape
 from .viewpoints import viewpoints
@@ -103,22 +105,25 @@ def find_lines_of_sight(
     _ = shape.marcher.caster  # takes half of the time of this stage: a separate step
     yield Progress("Ray tree", 0.01)
     views = viewpoints(shape.marcher, samples)
-    if parameters.sight == "ALL_PAIRS":
-        pairs = yield from within(
-            see_all_pairs(shape.marcher, samples, views), 0.02, 1.0
-        )
-        return LinesOfSight(samples, pairs, pairs)
-    drawn = None
-    if parameters.psi_pairs == "UNIFORM":
-        drawn = yield from within(
-            see_uniform_pairs(shape.marcher, samples, views, rng), 0.02, 0.2
-        )
-    in_cones = yield from within(
-        see_cones(shape, samples, views, parameters.rays, parameters.cone_angle),
-        0.2,
-        1.0,
-    )
-    return LinesOfSight(samples, in_cones, drawn or in_cones)
+    looking = shape.marcher, samples, views
+    n_rays = parameters.rays
+    if parameters.sight == "CONE":
+        drawn = None
+        if parameters.psi_pairs == "UNIFORM":
+            steps = see_uniform_pairs(*looking, rng)
+            drawn = yield from within(steps, 0.02, 0.2)
+        steps = see_cones(shape, samples, views, n_rays, parameters.cone_angle)
+        in_cones = yield from within(steps, 0.2, 1.0)
+        return LinesOfSight(samples, in_cones, drawn or in_cones)
+    if parameters.sight == "BLOCKS":
+        steps = see_blocks(*looking, n_rays, rng)
+    elif 0 < 2 * n_rays < len(samples):
+        n_pairs = n_rays * len(samples)
+        steps = see_uniform_pairs(*looking, rng, n_pairs, RayBudget(n_pairs))
+    else:
+        steps = see_all_pairs(*looking)
+    pairs = yield from within(steps, 0.02, 1.0)
+    return LinesOfSight(samples, pairs, pairs)
 
 
 def _samples_of(
@@ -128,7 +133,7 @@ def _samples_of(
     samples = take_samples(
         shape.targets, shape.sampled, parameters.sampling, parameters.samples, rng
     )
-    if parameters.sight == "ALL_PAIRS" and len(samples) > _MOST_FOR_ALL_PAIRS:
+    if parameters.sight != "CONE" and len(samples) > _MOST_FOR_ALL_PAIRS:
         raise DecompositionError(
             f"{len(samples):,} faces have too many pairs to look up all lines of"
             " sight; choose Cone for Lines of Sight or By Area for Sampling."

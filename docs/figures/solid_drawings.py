@@ -59,7 +59,7 @@ def matrices() -> np.ndarray:
     """Draw a shape, its matrices of lines of sight, and its embedding (fig. 7)."""
     rows = []
     for text, parameters in (
-        ("all pairs", {}),
+        ("all pairs", {"sight": "ALL_PAIRS"}),
         ("rays in a cone", {"sight": "CONE", "samples": 1200}),
     ):
         obj = shapes.dog()

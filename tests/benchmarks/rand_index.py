@@ -87,7 +87,7 @@ def on_fresh_samples(
     """Return psi (eq. 5) by all pairs of samples that no parts were found from."""
     shape = run(cache.prepare(mesh))
     memo = run(cache.see(shape, parameters))
-    others = Parameters(seed=parameters.seed + 1)
+    others = Parameters(sight="ALL_PAIRS", seed=parameters.seed + 1)
     fresh = run(find_lines_of_sight(shape, others))
     polygons = mesh.polygons[fresh.samples.triangles]
 

@@ -45,3 +45,16 @@ class BruteCaster:
             along = (origins @ self._normals.T - self._heights) * inverse
             hit = (u >= 0) & (v >= 0) & (u + v <= 1) & (along >= 0)
         return np.where(hit, along, np.inf)
+
+
+class CountingCaster(BruteCaster):
+    """The oracle, which counts its calls and the rays that it is asked for."""
+
+    def __init__(self, mesh):
+        super().__init__(mesh)
+        self.n_calls = self.n_rays = 0
+
+    def first_hit(self, origins, directions, reach):
+        self.n_calls += 1
+        self.n_rays += len(origins)
+        return super().first_hit(origins, directions, reach)

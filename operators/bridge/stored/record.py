@@ -102,6 +102,8 @@ def write_result(
         "psi_before": float(decomposition.psi_before),
         "psi_by_k": {str(k): float(v) for k, v in decomposition.psi_by_k.items()},
         "best_k": decomposition.best_k,
+        "pairs_cast": decomposition.pairs_cast,
+        "pairs_inferred": decomposition.pairs_inferred,
         "parts": [
             {
                 "name": identity.name,
@@ -140,6 +142,7 @@ def write_measurement(
         "convexity_rank": float(measurement.rank),
         "standard_error": float(measurement.standard_error),
         "samples": int(measurement.n_samples),
+        "pairs_cast": measurement.pairs_cast,
         "parameters": parameters,
         "notes": list(measurement.notes),
     }

@@ -64,7 +64,8 @@ def test_options_reach_the_parameters():
     assert parameters.parts == 4
     assert parameters.cone_angle == pytest.approx(math.radians(60))
     assert (parameters.sight, parameters.psi_pairs) == ("CONE", "RAYS")
-    assert parse(["a.obj", "--sight", "All_Pairs"], "wcd").parameters == Parameters()
+    parameters = parse(["a.obj", "--sight", "All_Pairs"], "wcd").parameters
+    assert parameters == Parameters(sight="ALL_PAIRS")
 
 
 def test_options_change_a_preset():
@@ -82,7 +83,7 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
         ("a.obj --cone-angle wide", "invalid angle value"),
         ("a.obj --cone-angle nan", "nan is not from 1 to 180 degrees"),
         ("a.obj --alpha nan", "must be a number"),
-        ("a.obj --sight far", "not one of all-pairs, cone"),
+        ("a.obj --sight far", "not one of blocks, all-pairs, cone"),
         ("a.obj --min-parts 9 --max-parts 3", "above Most Parts"),
         ("a.obj --output {tmp}/b.stl", "--output has to end in one of .blend"),
         ("a.obj --picture {tmp}/b.jpg", "--picture has to end in one of .png"),

@@ -9,11 +9,11 @@ from weak_convex_decomposition.core.geometry.frames import (
     fan_directions,
 )
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
-from weak_convex_decomposition.core.sight.cone import see_cones
-from weak_convex_decomposition.core.sight.lines import (
+from weak_convex_decomposition.core.sight.all_pairs import (
     see_all_pairs,
     see_uniform_pairs,
 )
+from weak_convex_decomposition.core.sight.cone import see_cones
 from weak_convex_decomposition.core.sight.viewpoints import viewpoints
 from weak_convex_decomposition.core.steps.progress import run
 

@@ -3,11 +3,8 @@ import pytest
 import shapes
 from computed import marcher_of
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
-from weak_convex_decomposition.core.sight.lines import (
-    faces_inside,
-    see_all_pairs,
-    see_pairs,
-)
+from weak_convex_decomposition.core.sight.all_pairs import see_all_pairs
+from weak_convex_decomposition.core.sight.lines import faces_inside, see_pairs
 from weak_convex_decomposition.core.sight.viewpoints import viewpoints
 from weak_convex_decomposition.core.steps.progress import run
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from changes import any_rotation, moved
@@ -80,7 +82,7 @@ def centers(mesh):
 
 def test_all_faces_have_the_rank_of_the_shape():
     mesh = l_prism()
-    sight = lines_of_sight(mesh, PARAMETERS)
+    sight = lines_of_sight(mesh, replace(PARAMETERS, sight="ALL_PAIRS"))
     expected, _ = sight.rank_pairs.rank_of_all()
     everything = np.ones(mesh.n_polygons, dtype=bool)
     found = measure(mesh, PARAMETERS, everything)

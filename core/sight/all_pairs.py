@@ -1,0 +1,125 @@
+"""Lines of sight of all pairs of samples, or of random ones (sections 3 and 5)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from ..geometry.sampling import Samples
+from ..steps.progress import Steps, within
+from .lines import RayBudget, cast_lines, faces_inside, see_pairs
+from .pair_visibility import PairVisibility, pair_counts
+from .ray_march import RayMarcher
+from .viewpoints import Viewpoints
+
+# Pairs of the LoS matrix that are tested at a time.
+_PAIRS_PER_STEP = 65536
+# Number of random pairs that psi is estimated from. The estimate is unbiased; its
+# standard error is about 0.002.
+UNIFORM_PAIRS = 60_000
+
+
+def facing_pairs(
+    marcher: RayMarcher,
+    samples: Samples,
+    views: Viewpoints,
+    rows: NDArray[np.int64],
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the pairs of some samples with later ones that face each other.
+
+    Parameters
+    ----------
+    marcher, samples, views : RayMarcher, Samples, Viewpoints
+        As for `faces_inside`.
+    rows : (R,) int
+        Consecutive rows of `samples`.
+
+    Returns
+    -------
+    first, second : (M,) int
+        Rows of `samples`; the first one is in `rows`, and smaller than the second one.
+    """
+    columns = np.arange(rows[0], len(samples))
+    facing = faces_inside(marcher, samples, views, rows[:, None], columns[None])
+    first, second = np.nonzero(np.triu(facing, 1))
+    return rows[first], columns[second]
+
+
+def see_all_pairs(
+    marcher: RayMarcher, samples: Samples, views: Viewpoints
+) -> Steps[PairVisibility]:
+    """Compute the LoS matrix of all pairs of samples (eq. 3).
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
+    views : Viewpoints
+        Viewpoints of `samples`.
+
+    Returns
+    -------
+    Steps of PairVisibility
+        A dense matrix (N, N). Every sample sees itself.
+    """
+    n_samples, budget = len(samples), RayBudget()
+    los = np.eye(n_samples, dtype=bool)
+    start = 0
+    while start < n_samples - 1:
+        # Take a few rows of the upper triangle at a time, to bound the memory.
+        stop = start + max(1, _PAIRS_PER_STEP // (n_samples - start))
+        stop = min(stop, n_samples - 1)
+        first, second = facing_pairs(marcher, samples, views, np.arange(start, stop))
+        done, share = (
+            1 - ((n_samples - row) / n_samples) ** 2 for row in (start, stop)
+        )
+        steps = cast_lines(marcher, views, first, second, budget)
+        visible = yield from within(steps, done, share)
+        los[first[visible], second[visible]] = True
+        start = stop
+    return PairVisibility((los | los.T).astype(np.float32), None, budget.n_lines)
+
+
+def see_uniform_pairs(
+    marcher: RayMarcher,
+    samples: Samples,
+    views: Viewpoints,
+    rng: np.random.Generator,
+    n_pairs: int = UNIFORM_PAIRS,
+    budget: RayBudget | None = None,
+) -> Steps[PairVisibility]:
+    """Find out whether random pairs of samples see each other.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
+    views : Viewpoints
+        Viewpoints of `samples`.
+    rng : numpy.random.Generator
+        Draws the pairs uniformly, with replacement.
+    n_pairs : int, optional
+        Number of pairs.
+    budget : RayBudget, optional
+        Where it ends, the rest of the pairs stay unknown. Unlimited by default.
+
+    Returns
+    -------
+    Steps of PairVisibility
+        Sparse matrices (N, N) with the number of draws of each pair.
+    """
+    n_samples, budget = len(samples), budget or RayBudget()
+    first, second = rng.integers(n_samples, size=(2, n_pairs))
+    visible = yield from see_pairs(marcher, samples, views, first, second, budget)
+    first, second = first[: len(visible)], second[: len(visible)]
+
+    def counted(chosen: NDArray[np.bool_]) -> sparse.csr_array:
+        return pair_counts(first[chosen], second[chosen], n_samples)
+
+    known = counted(np.ones_like(visible))
+    return PairVisibility(counted(visible), known, budget.n_lines)
