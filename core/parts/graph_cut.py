@@ -10,9 +10,6 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 from ..geometry.face_graph import FaceGraph
 from ..steps.progress import Progress, Steps
 
-# An edge costs exp(-_CREASE * bend) of its length; `bend` is its concave angle in
-# radians.
-_CREASE = 4.0
 # Largest cost of a label for a sample.
 _MOST_DISLIKE = 4.0
 # Cost of a seam as long as the square root of the area, at lambda = 1.
@@ -88,9 +85,7 @@ def cut_seams(
     """
     data = costs * graph.weights[:, None]
     unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
-    seams = smoothness * unit * graph.lengths
-    seams = seams * np.exp(-_CREASE * np.maximum(graph.bends, 0.0))
-    cutter = _Expansion(graph.neighbors, data, seams)
+    cutter = _Expansion(graph.neighbors, data, smoothness * unit * graph.seam_costs)
     labels, n_labels = labels.copy(), costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)
     seen = np.zeros((n_labels, len(labels)), dtype=bool)

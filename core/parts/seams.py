@@ -36,13 +36,21 @@ class SeamCutter:
         self._smoothness = partitioner.parameters.smoothness
         self._memo = memo
 
-    def cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+    def cut(
+        self, parts: NDArray[np.int64], enough: float | None = None
+    ) -> Steps[NDArray[np.int64]]:
         """Return the parts with smooth seams; their number stays the same.
+
+        Smooth seams cost psi. If a part would become too small, its nodes keep their
+        labels.
 
         Parameters
         ----------
         parts : (P,) int
             Part of each node, in 0…K − 1.
+        enough : float, optional
+            Least psi. By default seams cost at most what the moves of samples gained
+            over k-means.
 
         Returns
         -------
@@ -50,19 +58,18 @@ class SeamCutter:
             The steps yield `Progress`; `run` returns the new parts.
         """
         key = self._smoothness, digest(parts)
-        return self._memo.recall_steps(key, lambda: self._cut(parts))
+        return self._memo.recall_steps(key, lambda: self._cut(parts, enough))
 
-    def _cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Return the parts with smooth seams.
-
-        Smooth seams cost psi, but at most what the moves of samples gained over
-        k-means. If a part would become too small, its nodes keep their labels.
-        """
+    def _cut(
+        self, parts: NDArray[np.int64], enough: float | None
+    ) -> Steps[NDArray[np.int64]]:
+        """Return the parts with smooth seams."""
         n_parts, partitioner = count_parts(parts), self._partitioner
         if n_parts == 1 or self._smoothness == 0:
             return parts
-        enough = -np.inf
-        if partitioner.by_psi:
+        if not partitioner.by_psi:
+            enough = -np.inf
+        elif enough is None:
             enough = min(
                 partitioner.psi(partitioner.plain(n_parts)), partitioner.psi(parts)
             )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
+from ..geometry.connectivity import sort_edges
 from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import FlatMesh, flat_mesh
 from ..geometry.mesh import TriangleMesh
@@ -18,7 +19,7 @@ from ..geometry.orientation import oriented
 from ..geometry.point_cloud import PointCloud
 from ..geometry.shape import Shape
 from ..geometry.shells import find_shells, set_apart
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, run, within
 from .ray_march import MakeCaster, RayMarcher
 
 
@@ -46,7 +47,7 @@ class PreparedShape:
     nodes : (P,) int
         Node of each polygon of the mesh, or of each point of the cloud.
     make_graph : callable
-        Returns `graph`.
+        Returns the steps that make `graph`.
     solid : TriangleMesh or None
         The normalized mesh, None for a point cloud.
     notes : tuple of str
@@ -63,7 +64,7 @@ class PreparedShape:
     marcher: RayMarcher
     n_nodes: int
     nodes: NDArray[np.int64]
-    make_graph: Callable[[], FaceGraph]
+    make_graph: Callable[[], Steps[FaceGraph]]
     solid: TriangleMesh | None = None
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
@@ -72,7 +73,18 @@ class PreparedShape:
     @cached_property
     def graph(self) -> FaceGraph:
         """Graph of neighboring polygons, or of neighboring points of a cloud."""
-        return self.make_graph()
+        return run(self.make_graph())
+
+    def graph_in_steps(self) -> Steps[FaceGraph]:
+        """Return `graph`, made in steps if it is not known yet.
+
+        Returns
+        -------
+        Steps of FaceGraph
+        """
+        if "graph" not in self.__dict__:
+            self.__dict__["graph"] = yield from self.make_graph()
+        return self.graph
 
     @property
     def sampled(self) -> NDArray[np.int64]:
@@ -119,9 +131,13 @@ class PreparedShape:
             targets=replace(self.targets, polygons=polygons),
             n_nodes=len(kept),
             nodes=places[self.nodes[members]],
-            make_graph=lambda: self.graph.part(kept),
+            make_graph=lambda: self._part_of_graph(kept),
             normals=None if self.normals is None else self.normals[members],
         )
+
+    def _part_of_graph(self, kept: NDArray[np.int64]) -> Steps[FaceGraph]:
+        """Return the graph of some nodes."""
+        return (yield from self.graph_in_steps()).part(kept)
 
 
 def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedShape]:
@@ -147,29 +163,35 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
         return (yield from _prepare_cloud(shape, make_caster))
-    mesh = shape.normalized()
+    mesh = yield from within(shape.normalized_in_steps(), 0.0, 0.2)
     nodes = np.arange(mesh.n_polygons)
     frame = shape.center, shape.diagonal
-    yield Progress("Surface", 0.3)
+    yield Progress("Surface", 0.2)
     if flat := flat_mesh(mesh):
         return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
-    yield Progress("Surface", 0.4)
-    shells = find_shells(mesh)
-    yield Progress("Surface", 0.6)
-    mesh, notes = oriented(mesh, shells)
-    yield Progress("Surface", 0.8)
-    targets = set_apart(mesh, shells)
-    if targets is not mesh and shells.crowded:  # those that touched are apart now
-        shells = find_shells(targets)
+    edges = yield from within(sort_edges(mesh), 0.2, 0.5)
+    shells = yield from within(find_shells(mesh, edges), 0.5, 0.6)
+    solid, notes = yield from within(oriented(mesh, shells), 0.6, 0.8)
+    targets = yield from within(set_apart(solid, shells), 0.8, 0.9)
+    yield from within(targets.normals_in_steps(), 0.9, 1.0)
+    if targets is not solid and shells.crowded:  # those that touched are apart now
+        apart = yield from within(sort_edges(targets), 0.9, 1.0)
+        shells = yield from within(find_shells(targets, apart), 0.9, 1.0)
     closed = shells.closed[shells.of_triangle]
+
+    def make_graph() -> Steps[FaceGraph]:
+        # Turned triangles have other sides.
+        known = edges if solid is mesh else (yield from sort_edges(solid))
+        return (yield from face_graph(solid, known))
+
     return PreparedShape(
         *frame,
         targets,
         RayMarcher(targets, make_caster, closed),
         len(nodes),
         nodes,
-        lambda: face_graph(mesh),
-        mesh,
+        make_graph,
+        solid,
         notes,
     )
 
