@@ -59,6 +59,31 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
     return Edges(sides, np.flatnonzero(new))
 
 
+def shared_edges(
+    mesh: TriangleMesh, edges: Edges
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return which polygons have a common edge.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    edges : Edges
+        Its edges.
+
+    Returns
+    -------
+    neighbors : (E, 2) int32
+        Pairs of polygons.
+    sides : (E,) int32
+        A side of a triangle along the edge of each pair.
+    """
+    owners = mesh.polygons.astype(np.int32)[edges.sides // 3]
+    shared = owners[1:] != owners[:-1]
+    shared[edges.first[1:] - 1] = False
+    neighbors = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
+    return neighbors, edges.sides[:-1][shared]
+
+
 def components(
     pairs: NDArray[np.integer[Any]], n_nodes: int
 ) -> Steps[NDArray[np.int64]]:

@@ -11,7 +11,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from ..steps.progress import Progress, Steps
-from .connectivity import Edges, graph_of
+from .connectivity import Edges, graph_of, shared_edges
 from .frames import unit
 from .mesh import TriangleMesh, blocks
 
@@ -63,7 +63,7 @@ class FaceGraph:
 
     @property
     def seam_costs(self) -> NDArray[np.float64]:
-        """Cost of a seam along each edge, (E,): creases count less than their length."""
+        """Cost of a seam along each edge, (E,): creases cost less than ridges."""
         return self.lengths * np.exp(-CREASE * np.maximum(self.bends, 0.0))
 
     def areas_of(self, labels: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -221,7 +221,7 @@ def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
     first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
     centers[areas == 0] = mesh.vertices[first[areas == 0]]
     yield Progress("Surface", 0.5)
-    neighbors, starts = _shared_edges(mesh, edges)
+    neighbors, starts = shared_edges(mesh, edges)
     lengths, bends = np.empty((2, len(neighbors)))
     for rows in blocks(len(neighbors)):
         yield Progress("Surface", 0.5 + 0.5 * rows.start / len(neighbors))
@@ -247,17 +247,6 @@ def _bends(
     angles = np.arccos(np.clip((normals[one] * normals[other]).sum(axis=1), -1.0, 1.0))
     rises = ((centers[other] - centers[one]) * normals[one]).sum(axis=1)
     return np.where(rises > 0, angles, -angles)
-
-
-def _shared_edges(
-    mesh: TriangleMesh, edges: Edges
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return polygons (E, 2) with a common edge, and a side (E,) along each."""
-    owners = mesh.polygons.astype(np.int32)[edges.sides // 3]
-    shared = owners[1:] != owners[:-1]
-    shared[edges.first[1:] - 1] = False
-    neighbors = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
-    return neighbors, edges.sides[:-1][shared]
 
 
 def _components(graph: sparse.csr_array) -> NDArray[np.int64]:

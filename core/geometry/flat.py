@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from ..steps.progress import Steps
+from ..steps.progress import Steps, within
 from .connectivity import sort_edges
 from .face_graph import FaceGraph, face_graph
 from .frames import frames
@@ -60,8 +60,8 @@ class FlatMesh:
         -------
         Steps of FaceGraph
         """
-        edges = yield from sort_edges(self.faces)
-        graph = yield from face_graph(self.faces, edges)
+        edges = yield from within(sort_edges(self.faces), 0.0, 0.4)
+        graph = yield from within(face_graph(self.faces, edges), 0.4, 1.0)
         lengths = self.walls.areas / _HEIGHT
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)
         return replace(graph, outline=outline.astype(np.float64))

@@ -197,7 +197,10 @@ class TriangleMesh:
         Steps of (T, 3) float
         """
         if "normals" not in self.__dict__:
-            areas, normals = np.empty(len(self.triangles)), np.empty_like(self.triangles, float)
+            areas, normals = (
+                np.empty(len(self.triangles)),
+                np.empty_like(self.triangles, float),
+            )
             for rows in blocks(len(self.triangles)):
                 yield Progress("Surface", rows.start / len(self.triangles))
                 a, b, c = np.moveaxis(self.vertices[self.triangles[rows]], 1, 0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, within
 from .connectivity import Edges, components
 from .frames import unit
 from .mesh import TriangleMesh
@@ -143,8 +143,8 @@ def _wind(
     """
     # Triangles that are wound alike are one node, of which there is a flipped copy. An
     # edge connects the copies whose windings agree.
-    patches = yield from components(neighbors[opposed], n_triangles)
-    yield Progress("Surface", 0.5)
+    steps = components(neighbors[opposed], n_triangles)
+    patches = yield from within(steps, 0.2, 0.6)
     n_patches = int(patches.max()) + 1
     one, other = patches[neighbors[~opposed]].T
     ties = np.concatenate(
@@ -153,7 +153,7 @@ def _wind(
             np.stack([one + n_patches, other], axis=1),
         ]
     )
-    copies = yield from components(ties, 2 * n_patches)
+    copies = yield from within(components(ties, 2 * n_patches), 0.6, 0.8)
     copies = copies.reshape(2, n_patches)
     _, shells = np.unique(copies.min(axis=0), return_inverse=True)
     shells = shells.reshape(-1)

@@ -97,7 +97,7 @@ class Side:
 
 
 def find_sides(graph: FaceGraph, plane: Plane | None) -> Steps[tuple[Side, ...]]:
-    """Find the two sides of a shape's mirror plane.
+    """Find the two sides of a plane, or none without a plane.
 
     Parameters
     ----------
@@ -107,7 +107,6 @@ def find_sides(graph: FaceGraph, plane: Plane | None) -> Steps[tuple[Side, ...]]
     Returns
     -------
     Steps of tuple of Side
-        Empty without a plane.
     """
     if plane is None:
         return ()
@@ -151,12 +150,7 @@ def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, fl
 
 
 def find_plane(graph: FaceGraph) -> Steps[Plane | None]:
-    """Return the plane of best mirror symmetry, or None if there is none.
-
-    Parameters
-    ----------
-    graph : FaceGraph
-    """
+    """Return the plane of best mirror symmetry of a graph, None if there is none."""
     # Drawn evenly by area, without randomness.
     shares = np.cumsum(graph.areas) / graph.areas.sum()
     everywhere, asked = (

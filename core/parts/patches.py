@@ -124,10 +124,12 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
     small = areas < _LEAST_SHARE * area
     specks = pairs[inside & small[pairs].all(axis=1)]
     groups = yield from within(components(specks, len(areas)), 0.7, 0.8)
-    for _ in range(_ROUNDS):
-        yield Progress("Patches", 0.8)
+    for turn in range(_ROUNDS):
+        done = 0.8 + 0.1 * turn / _ROUNDS
+        yield Progress("Patches", done)
         joins = _joins(groups[pairs], weights, np.bincount(groups, areas), area)
-        parents = yield from components(joins, int(groups.max()) + 1)
+        n_groups = int(groups.max()) + 1
+        parents = yield from within(components(joins, n_groups), done, done)
         groups = parents[groups]
     patches = groups[patches]
     yield Progress("Patches", 0.9)

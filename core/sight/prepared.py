@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
-from ..geometry.connectivity import sort_edges
+from ..geometry.connectivity import Edges, sort_edges
 from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import FlatMesh, flat_mesh
 from ..geometry.mesh import TriangleMesh
@@ -169,31 +169,32 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     yield Progress("Surface", 0.2)
     if flat := flat_mesh(mesh):
         return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
-    edges = yield from within(sort_edges(mesh), 0.2, 0.5)
-    shells = yield from within(find_shells(mesh, edges), 0.5, 0.6)
-    solid, notes = yield from within(oriented(mesh, shells), 0.6, 0.8)
-    targets = yield from within(set_apart(solid, shells), 0.8, 0.9)
-    yield from within(targets.normals_in_steps(), 0.9, 1.0)
+    edges = yield from within(sort_edges(mesh), 0.2, 0.4)
+    shells = yield from within(find_shells(mesh, edges), 0.4, 0.5)
+    solid, notes = yield from within(oriented(mesh, shells), 0.5, 0.6)
+    targets = yield from within(set_apart(solid, shells), 0.6, 0.7)
+    yield from within(targets.normals_in_steps(), 0.7, 0.8)
     if targets is not solid and shells.crowded:  # those that touched are apart now
-        apart = yield from within(sort_edges(targets), 0.9, 1.0)
+        apart = yield from within(sort_edges(targets), 0.8, 0.9)
         shells = yield from within(find_shells(targets, apart), 0.9, 1.0)
     closed = shells.closed[shells.of_triangle]
-
-    def make_graph() -> Steps[FaceGraph]:
-        # Turned triangles have other sides.
-        known = edges if solid is mesh else (yield from sort_edges(solid))
-        return (yield from face_graph(solid, known))
-
     return PreparedShape(
         *frame,
         targets,
         RayMarcher(targets, make_caster, closed),
         len(nodes),
         nodes,
-        make_graph,
+        # Turned triangles have other sides.
+        lambda: _graph_of_mesh(solid, edges if solid is mesh else None),
         solid,
         notes,
     )
+
+
+def _graph_of_mesh(mesh: TriangleMesh, edges: Edges | None) -> Steps[FaceGraph]:
+    """Return the graph of a mesh's polygons; sort the edges if they are not known."""
+    edges = edges or (yield from within(sort_edges(mesh), 0.0, 0.4))
+    return (yield from within(face_graph(mesh, edges), 0.4, 1.0))
 
 
 def _prepare_flat(

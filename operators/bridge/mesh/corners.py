@@ -18,25 +18,28 @@ from .attributes import BoolArray, IntArray, read_floats, read_ints
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
     """Return the vertex of each corner, (C,)."""
-    return read_ints(mesh.loops, "vertex_index")
+    corners = mesh.attributes.get(".corner_vert")
+    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_ints(mesh.loops, "vertex_index")
+    return read_ints(corners.data, "value")  # a hundred times faster
 
 
 def triangles_of(
     mesh: bpy.types.Mesh,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+) -> tuple[NDArray[np.float64], IntArray, IntArray]:
     """Return the vertices of a mesh, its triangles, and the face of each triangle.
 
     Returns
     -------
     vertices : (V, 3) float
-    triangles : (T, 3) int
-    faces : (T,) int
+    triangles : (T, 3) int32
+    faces : (T,) int32
     """
     mesh.calc_loop_triangles()
     return (
         read_floats(mesh.vertices, "co", 3).astype(np.float64),
-        read_ints(mesh.loop_triangles, "vertices", 3).astype(np.int64),
-        read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
+        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)],
+        read_ints(mesh.loop_triangle_polygons, "value"),
     )
 
 

@@ -141,8 +141,7 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
     ) -> Steps[core.Change]:
         shape = memo.visibility.shape
         nodes = shape.labels_of_nodes(parts.labels)
-        smoothed = yield from core.smooth_seams(
-            shape.graph, nodes, chosen, smoothness)
+        smoothed = yield from core.smooth_seams(shape.graph, nodes, chosen, smoothness)
         return core.Change(smoothed[shape.nodes])
 
     return change

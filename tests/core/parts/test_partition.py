@@ -110,7 +110,7 @@ def test_psi_is_that_of_the_labels_of_the_samples(seen):
     visibility = memo.visibility
     partitioner = Partitioner(memo, replace(PARAMETERS, alpha=2.0))
     parts = partitioner.partition(3)
-    labels = parts[visibility.transfer.polygon_of]
+    labels = parts[visibility.nodes]
     same = labels[:, None] == labels
     los = visibility.psi_pairs.visible > 0
     expected = (los[same].sum() + 2.0 * (~los[~same]).sum()) / los.size
