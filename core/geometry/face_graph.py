@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +45,7 @@ class FaceGraph:
     areas: NDArray[np.float64]
     centers: NDArray[np.float64]
     normals: NDArray[np.float64]
-    neighbors: NDArray[np.int64]
+    neighbors: NDArray[np.integer[Any]]
     lengths: NDArray[np.float64]
     bends: NDArray[np.float64]
     links: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))

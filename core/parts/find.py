@@ -44,8 +44,8 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
         cut.searches,
     )
     wanted = search.given(parameters.parts) if parameters.parts else search.best()
-    parts, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
-    nodes = yield from within(labels_of_nodes(memo, parameters, parts), 0.9, 1.0)
+    seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
+    nodes = yield from within(labels_of_nodes(memo, parameters, seams), 0.9, 1.0)
     labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
     return replace(

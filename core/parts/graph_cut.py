@@ -197,23 +197,28 @@ def _minimum_cut(
     no capacity. Nodes on the source's side of the cut stay.
     """
     n_nodes = len(gain)
-    source, sink = n_nodes, n_nodes + 1
-    nodes = np.arange(n_nodes)
-    # An arc from the source is cut if a node moves that costs something. An arc to the
-    # sink is cut if a node stays that would save something.
-    holders = np.where(gain > 0, source, sink)
-    tails = np.concatenate([tails, nodes, holders])
-    heads = np.concatenate([heads, holders, nodes])
-    capacities = np.concatenate(
-        [capacities, np.maximum(-gain, 0.0), np.maximum(gain, 0.0)]
-    )
-    largest = capacities.max(initial=0.0)
+    largest = max(capacities.max(initial=0.0), np.abs(gain).max(initial=0.0))
     if largest <= 0:
         return np.zeros(n_nodes, dtype=bool)
-    order = np.argsort(tails * (n_nodes + 2) + heads, kind="stable")
-    capacities = np.round(capacities[order] / largest * _LARGEST_CAPACITY)
-    heads = heads[order].astype(np.int32)
-    starts = np.searchsorted(tails[order], np.arange(n_nodes + 3)).astype(np.int32)
+    source, sink = n_nodes, n_nodes + 1
+    # An arc from the source is cut if a node moves that costs something. An arc to the
+    # sink is cut if a node stays that would save something.
+    costly = gain > 0
+    # The arcs of a node come first, then the arc to the source or sink; these have the
+    # highest numbers. Last come their own arcs. So all are sorted without a search.
+    ends = np.cumsum(np.bincount(tails, minlength=n_nodes) + 1)
+    own = np.ones(len(tails) + n_nodes, dtype=bool)
+    own[ends - 1] = False
+    all_heads = np.empty(len(own), dtype=np.int32)
+    all_heads[own], all_heads[~own] = heads, np.where(costly, source, sink)
+    weights = np.empty(len(own))
+    weights[own], weights[~own] = capacities, np.maximum(-gain, 0.0)
+    held = [np.flatnonzero(costly), np.flatnonzero(~costly)]
+    heads = np.concatenate([all_heads, *held]).astype(np.int32)
+    capacities = np.concatenate([weights, gain[held[0]], np.zeros(len(held[1]))])
+    capacities = np.round(capacities / largest * _LARGEST_CAPACITY)
+    starts = np.concatenate([[0], ends, ends[-1:] + len(held[0]), [len(heads)]])
+    starts = starts.astype(np.int32)
     shape = n_nodes + 2, n_nodes + 2
     graph = sparse.csr_array((capacities.astype(np.int32), heads, starts), shape)
     flow = maximum_flow(graph, source, sink, method="dinic").flow

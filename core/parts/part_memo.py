@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hashlib import blake2b
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,7 +83,7 @@ class CutMemo:
         self.plain: Memo[int, Labels] = Memo()
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
-        self.seams: Memo[tuple[float, bytes], Labels] = Memo(32)
+        self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
 
 
 class PartMemo:
@@ -202,8 +202,8 @@ class PartMemo:
             graph = yield from within(self.visibility.shape.graph_in_steps(), 0.0, 0.6)
             nodes = self.visibility.nodes
             if graph.n_polygons > self._most_nodes:
-                steps = find_patches(graph, self._most_nodes // 2)
-                self.patches = yield from within(steps, 0.6, 0.9)
+                grouping = find_patches(graph, self._most_nodes // 2)
+                self.patches = yield from within(grouping, 0.6, 0.9)
                 graph, nodes = self.patches.coarse, self.patches.of_nodes[nodes]
             steps = carry(self.visibility.samples, nodes, graph)
             self._transfer = yield from within(steps, 0.9, 1.0)

@@ -8,6 +8,7 @@ count on their own again, when the seams are cut.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,7 +128,7 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
     for turn in range(_ROUNDS):
         done = 0.8 + 0.1 * turn / _ROUNDS
         yield Progress("Patches", done)
-        joins = _joins(groups[pairs], weights, np.bincount(groups, areas), area)
+        joins = _joins(groups[pairs], weights, np.bincount(groups, areas) / area)
         n_groups = int(groups.max()) + 1
         parents = yield from within(components(joins, n_groups), done, done)
         groups = parents[groups]
@@ -139,16 +140,16 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
 def _joins(
     pairs: NDArray[np.int64],
     weights: NDArray[np.float64],
-    areas: NDArray[np.float64],
-    mean_area: float,
+    areas: NDArray[Any],
 ) -> NDArray[np.int64]:
     """Return small patches and the neighbors that they join, (J, 2).
 
-    It is the larger neighbor with the longest common border.
+    It is the larger neighbor with the longest common border. `areas` are shares of the
+    mean area.
     """
     n_patches = len(areas)
     places = np.argsort(np.argsort(-areas, kind="stable"))
-    tiny = areas < _LEAST_SHARE * mean_area
+    tiny = areas < _LEAST_SHARE
     both = np.concatenate([pairs, pairs[:, ::-1]])
     wanted = tiny[both[:, 0]] & (places[both[:, 1]] < places[both[:, 0]])
     keys, owners = np.unique(both[wanted] @ (n_patches, 1), return_inverse=True)

@@ -78,7 +78,7 @@ def marcher_of(mesh):
 def cut_seams_of(partitioner, memo, parts):
     """Return parts of a partitioner with their seams cut."""
     cutter = SeamCutter(partitioner, memo.cut(partitioner.parameters).seams)
-    return run(cutter.cut(parts))
+    return run(cutter.cut(parts)).parts
 
 
 def search_part_count(memo, parameters, low, high):

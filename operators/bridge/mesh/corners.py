@@ -26,20 +26,22 @@ def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
 
 def triangles_of(
     mesh: bpy.types.Mesh,
-) -> tuple[NDArray[np.float64], IntArray, IntArray]:
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
     """Return the vertices of a mesh, its triangles, and the face of each triangle.
 
     Returns
     -------
     vertices : (V, 3) float
-    triangles : (T, 3) int32
-    faces : (T,) int32
+    triangles : (T, 3) int
+    faces : (T,) int
     """
     mesh.calc_loop_triangles()
     return (
         read_floats(mesh.vertices, "co", 3).astype(np.float64),
-        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)],
-        read_ints(mesh.loop_triangle_polygons, "value"),
+        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)].astype(
+            np.int64
+        ),
+        read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
     )
 
 
