@@ -145,13 +145,7 @@ class FaceGraph:
         return borders.tocsr()
 
     def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
-        """Return whether each label touches no other label, (K,) bool.
-
-        Parameters
-        ----------
-        labels : (P,) int
-        n_labels : int
-        """
+        """Return whether each label 0…K − 1 touches no other label, (K,) bool."""
         alone = np.ones(n_labels, dtype=bool)
         for pairs in (labels[self.neighbors], labels[self.links]):
             alone[pairs[pairs[:, 0] != pairs[:, 1]]] = False
@@ -191,8 +185,6 @@ class FaceGraph:
 
 def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
     """Return the polygons of `mesh` as a FaceGraph without links and outline.
-
-    Vertices at the same position count as one, since many file formats split them.
 
     Parameters
     ----------
@@ -251,5 +243,4 @@ def _bends(
 
 
 def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
-    """Return the connected component of each node, (n_nodes,)."""
     return connected_components(graph, directed=False)[1].astype(np.int64)

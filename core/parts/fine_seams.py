@@ -17,6 +17,7 @@ from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .part_memo import PartMemo
 from .partition import Partitioner, count_parts
+from .patches import Patches
 from .seams import SeamCutter, Seams
 
 # Most times that seams are cut: again if one has reached patches farther away.
@@ -53,14 +54,13 @@ def labels_of_nodes(
     enough = by.psi(parts) - by.negligible
     same = max(seams.smoothness, _LEAST_SMOOTHNESS)
     parameters = replace(parameters, smoothness=same)
-    reached = _along_seams(patches.coarse, parts)
+    neighbors, reached = patches.coarse.neighbors, _along_seams(patches.coarse, parts)
     for turn in range(_ROUNDS):
         chosen[reached] = True
-        chosen[
-            patches.coarse.neighbors[chosen[patches.coarse.neighbors].any(axis=1)]
-        ] = True
+        beside = chosen[neighbors].any(axis=1)
+        chosen[neighbors[beside]] = True
         cutting = within_turn(
-            _cut(memo, parameters, labels, chosen, enough), turn, _ROUNDS
+            _cut(memo, patches, parameters, labels, chosen, enough), turn, _ROUNDS
         )
         labels, reached = yield from cutting
         if len(reached) == 0:
@@ -70,6 +70,7 @@ def labels_of_nodes(
 
 def _cut(
     memo: PartMemo,
+    patches: Patches,
     parameters: Parameters,
     labels: NDArray[np.int64],
     chosen: NDArray[np.bool_],
@@ -80,7 +81,7 @@ def _cut(
     Return the labels of all nodes, and the other patches that a seam has reached.
     """
     yield Progress("Seams", 0.0)
-    graph, places = memo.patches.opened(chosen)
+    graph, places = patches.opened(chosen)
     nodes = places[memo.visibility.nodes]
     on_nodes = yield from within(memo.on(graph, nodes), 0.1, 0.3)
     start = np.zeros(graph.n_polygons, dtype=np.int64)

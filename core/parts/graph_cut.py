@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -114,7 +116,7 @@ class _Expansion:
 
     def __init__(
         self,
-        neighbors: NDArray[np.int64],
+        neighbors: NDArray[np.integer[Any]],
         data: NDArray[np.float64],
         seams: NDArray[np.float64],
     ) -> None:
