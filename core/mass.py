@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from .geometry.mesh import TriangleMesh
 from .geometry.orientation import oriented
-from .geometry.shells import find_shells
+from .geometry.shells import shells_of
 from .results import MassProperties
+from .steps.progress import run
 
 # A solid with less volume, in cubed diagonals, is a sheet with two sides.
 _LEAST_VOLUME = 1e-9
@@ -101,8 +102,8 @@ def mass_of_mesh(mesh: TriangleMesh, density: float) -> MassProperties | None:
     MassProperties or None
         None if the mesh is not closed, or encloses nothing.
     """
-    shells = find_shells(mesh)
+    shells = run(shells_of(mesh))
     if not shells.closed.all():
         return None
-    turned, _ = oriented(mesh, shells)
+    turned, _ = run(oriented(mesh, shells))
     return mass_of_surface(turned.vertices, turned.triangles, density)

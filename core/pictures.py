@@ -55,8 +55,7 @@ def draw_picture(
     Picture
     """
     visibility = memo.visibility
-    nodes = visibility.shape.labels_of_nodes(labels)
-    of_samples = visibility.transfer.to_samples(nodes)
+    of_samples = visibility.shape.labels_of_nodes(labels)[visibility.nodes]
     pixels = _DRAWN[kind](memo, parameters, of_samples, colors)
     return Picture(pixels, visibility.shape.notes)
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.face_graph import FaceGraph
+from ..steps.progress import Progress, Steps
 from .splats import nearest_points
 
 # Nearest neighbors of each point.
@@ -19,7 +20,7 @@ def neighbor_graph(
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
     areas: NDArray[np.float64],
-) -> FaceGraph:
+) -> Steps[FaceGraph]:
     """Return the graph of nearest neighbors on an oriented point cloud.
 
     Parameters
@@ -31,9 +32,10 @@ def neighbor_graph(
 
     Returns
     -------
-    FaceGraph
+    Steps of FaceGraph
         Its nodes are the points.
     """
+    yield Progress("Surface", 0.0)
     n_neighbors = min(_NEIGHBORS, len(points) - 1)
     nearest = nearest_points(points, normals, (points, normals), n_neighbors + 1)
     one = np.repeat(np.arange(len(points)), n_neighbors)

@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from ..steps.progress import Progress, Steps
+from .connectivity import Edges
 from .frames import heights_above
 from .mesh import TriangleMesh
 from .shells import Shells
@@ -17,9 +19,11 @@ _ROUNDING = 1e-6
 _SAME_VOLUME = 1e-5
 # Largest number of heights above planes that are computed at a time.
 _MOST_HEIGHTS = 1_000_000
+# Largest number of edges that are looked at in a step.
+_MOST_EDGES = 2**17
 
 
-def is_convex(mesh: TriangleMesh, shells: Shells) -> bool:
+def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     """Return whether a mesh is the surface of one convex solid, but for rounding.
 
     It is if it is one closed shell, no edge is concave, all vertices lie on its convex
@@ -31,15 +35,20 @@ def is_convex(mesh: TriangleMesh, shells: Shells) -> bool:
     mesh : TriangleMesh
         Oriented: closed shells face outwards.
     shells : Shells
-        Shells of `mesh`.
+        Its shells.
+    edges : Edges
+        Its edges.
 
     Returns
     -------
-    bool
+    Steps of bool
     """
     one_closed = len(shells.closed) == 1 and bool(shells.closed[0])
-    if not one_closed or shells.crowded or _has_concave_edge(mesh):
+    if not one_closed or shells.crowded:
         return False
+    if (yield from _has_concave_edge(mesh, edges)):
+        return False
+    yield Progress("Surface", 1.0)
     corners = mesh.vertices[mesh.triangles]
     try:
         hull = ConvexHull(np.unique(corners.reshape(-1, 3), axis=0))
@@ -53,19 +62,24 @@ def is_convex(mesh: TriangleMesh, shells: Shells) -> bool:
     return _on_planes(hull.points[within], hull.equations, _ROUNDING * mesh.diagonal)
 
 
-def _has_concave_edge(mesh: TriangleMesh) -> bool:
+def _has_concave_edge(mesh: TriangleMesh, edges: Edges) -> Steps[bool]:
     """Return whether a triangle has a neighbor that rises above it.
 
     Every edge of the mesh has exactly two triangles.
     """
-    order = np.argsort(mesh.edge_keys, kind="stable")
-    one, other = order.reshape(-1, 2).T  # sides, three for each triangle
-    # Side i of a triangle runs from corner i to the next: corner i + 2 lies opposite.
-    opposite = mesh.triangles[other // 3, (other + 2) % 3]
-    starts = mesh.triangles[one // 3, one % 3]
-    offsets = mesh.vertices[opposite] - mesh.vertices[starts]
-    heights = np.einsum("ed,ed->e", offsets, mesh.normals[one // 3])
-    return bool(heights.max() > _ROUNDING * mesh.diagonal)
+    yield from mesh.normals_in_steps()
+    pairs = edges.sides.reshape(-1, 2)  # sides, three for each triangle
+    for start in range(0, len(pairs), _MOST_EDGES):
+        yield Progress("Surface", start / len(pairs))
+        one, other = pairs[start : start + _MOST_EDGES].T
+        # Side i of a triangle runs from corner i to the next: i + 2 lies opposite.
+        opposite = mesh.triangles[other // 3, (other + 2) % 3]
+        starts = mesh.triangles[one // 3, one % 3]
+        offsets = mesh.vertices[opposite] - mesh.vertices[starts]
+        heights = np.einsum("ed,ed->e", offsets, mesh.normals[one // 3])
+        if heights.max() > _ROUNDING * mesh.diagonal:
+            return True
+    return False
 
 
 def _on_planes(

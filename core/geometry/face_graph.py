@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from ..steps.progress import Progress, Steps
+from .connectivity import Edges, graph_of, shared_edges
 from .frames import unit
-from .mesh import TriangleMesh
+from .mesh import TriangleMesh, blocks
+
+# A seam along an edge costs exp(-CREASE * bend) of the edge's length; `bend` is its
+# concave angle in radians.
+CREASE = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +45,7 @@ class FaceGraph:
     areas: NDArray[np.float64]
     centers: NDArray[np.float64]
     normals: NDArray[np.float64]
-    neighbors: NDArray[np.int64]
+    neighbors: NDArray[np.integer[Any]]
     lengths: NDArray[np.float64]
     bends: NDArray[np.float64]
     links: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
@@ -54,6 +61,11 @@ class FaceGraph:
         """Expected share of the samples on each polygon, (P,), sum 1."""
         sampled = self.areas if self.outline is None else self.outline
         return sampled / sampled.sum()
+
+    @property
+    def seam_costs(self) -> NDArray[np.float64]:
+        """Cost of a seam along each edge, (E,): creases cost less than ridges."""
+        return self.lengths * np.exp(-CREASE * np.maximum(self.bends, 0.0))
 
     def areas_of(self, labels: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the total area of each label 0…K − 1, (K,) float.
@@ -71,7 +83,7 @@ class FaceGraph:
     @cached_property
     def _graph(self) -> sparse.csr_array:
         """Adjacency matrix (P, P) of the polygons, without links."""
-        return _graph_of(self.neighbors, self.n_polygons)
+        return graph_of(self.neighbors, self.n_polygons)
 
     @cached_property
     def _tails(self) -> NDArray[np.int64]:
@@ -99,7 +111,7 @@ class FaceGraph:
         whole[one[crossing]] = whole[other[crossing]] = False
         tied = (firm | whole)[pieces][self.links].all(axis=1)
         tied &= labels[self.links[:, 0]] == labels[self.links[:, 1]]
-        return _components(_graph_of(pieces[self.links[tied]], len(firm)))[pieces]
+        return _components(graph_of(pieces[self.links[tied]], len(firm)))[pieces]
 
     def _pieces_of_shells(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the piece of each polygon, (P,), without regard to links."""
@@ -133,13 +145,7 @@ class FaceGraph:
         return borders.tocsr()
 
     def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
-        """Return whether each label touches no other label, (K,) bool.
-
-        Parameters
-        ----------
-        labels : (P,) int
-        n_labels : int
-        """
+        """Return whether each label 0…K − 1 touches no other label, (K,) bool."""
         alone = np.ones(n_labels, dtype=bool)
         for pairs in (labels[self.neighbors], labels[self.links]):
             alone[pairs[pairs[:, 0] != pairs[:, 1]]] = False
@@ -177,36 +183,57 @@ class FaceGraph:
         return replace(self, links=links)
 
 
-def face_graph(mesh: TriangleMesh) -> FaceGraph:
+def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
     """Return the polygons of `mesh` as a FaceGraph without links and outline.
-
-    Vertices at the same position count as one, since many file formats split them.
 
     Parameters
     ----------
     mesh : TriangleMesh
+    edges : Edges
+        Its edges.
+
+    Returns
+    -------
+    Steps of FaceGraph
     """
-    n_polygons = mesh.n_polygons
-    areas = np.bincount(mesh.polygons, mesh.areas, n_polygons).astype(np.float64)
-    weighted = mesh.areas[:, None] * mesh.vertices[mesh.triangles].mean(axis=1)
-    centers = _sum_by(mesh.polygons, weighted, n_polygons)
-    safe = np.where(areas > 0, areas, 1.0)[:, None]
+    yield from mesh.normals_in_steps()
+    # Area of each polygon, and its center and normal times its area.
+    sums = np.zeros((7, mesh.n_polygons))
+    for rows in blocks(len(mesh.triangles)):
+        yield Progress("Surface", 0.4 * rows.start / len(mesh.triangles))
+        weights = mesh.areas[rows]
+        middles = mesh.vertices[mesh.triangles[rows]].sum(axis=1) / 3
+        columns = [np.ones_like(weights), *middles.T, *mesh.normals[rows].T]
+        for total, column in zip(sums, columns, strict=True):
+            np.add.at(total, mesh.polygons[rows], weights * column)
+    yield Progress("Surface", 0.4)
+    areas, normals = sums[0].copy(), unit(sums[4:].T.copy())
+    centers = sums[1:4].T / np.where(areas > 0, areas, 1.0)[:, None]
     # A polygon without area takes a vertex as its center.
-    first = np.zeros(n_polygons, dtype=np.int64)
+    first = np.zeros(len(areas), dtype=np.int64)
     first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
-    centers = np.where(areas[:, None] > 0, centers / safe, mesh.vertices[first])
-    sums = _sum_by(mesh.polygons, mesh.areas[:, None] * mesh.normals, n_polygons)
-    normals = unit(sums)
-    neighbors, ends = _shared_edges(mesh)
-    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
-    bends = _bends(centers, normals, neighbors)
+    centers[areas == 0] = mesh.vertices[first[areas == 0]]
+    yield Progress("Surface", 0.5)
+    neighbors, starts = shared_edges(mesh, edges)
+    lengths, bends = np.empty((2, len(neighbors)))
+    for rows in blocks(len(neighbors)):
+        yield Progress("Surface", 0.5 + 0.5 * rows.start / len(neighbors))
+        lengths[rows] = _lengths(mesh, starts[rows])
+        bends[rows] = _bends(centers, normals, neighbors[rows])
     return FaceGraph(areas, centers, normals, neighbors, lengths, bends)
+
+
+def _lengths(mesh: TriangleMesh, sides: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return the lengths (S,) of sides of triangles."""
+    corners = mesh.triangles.ravel()
+    ends = mesh.vertices[corners[sides + np.where(sides % 3 < 2, 1, -2)]]
+    return np.linalg.norm(mesh.vertices[corners[sides]] - ends, axis=1)
 
 
 def _bends(
     centers: NDArray[np.float64],
     normals: NDArray[np.float64],
-    neighbors: NDArray[np.int64],
+    neighbors: NDArray[np.int32],
 ) -> NDArray[np.float64]:
     """Return the signed angle (E,) between neighbors, positive at creases."""
     one, other = neighbors.T
@@ -215,36 +242,5 @@ def _bends(
     return np.where(rises > 0, angles, -angles)
 
 
-def _shared_edges(
-    mesh: TriangleMesh,
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Return polygons (E, 2) with a common edge, and its ends (E, 2, 3)."""
-    keys = mesh.edge_keys
-    order = np.argsort(keys, kind="stable")
-    keys, owners = keys[order], mesh.polygons[order // 3]
-    shared = (keys[1:] == keys[:-1]) & (owners[1:] != owners[:-1])
-    neighbors = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
-    starts = order[:-1][shared]
-    ends = np.stack([starts, starts + np.where(starts % 3 < 2, 1, -2)], axis=1)
-    return neighbors, mesh.vertices[mesh.triangles.ravel()[ends]]
-
-
-def _sum_by(
-    groups: NDArray[np.int64], rows: NDArray[np.float64], n_groups: int
-) -> NDArray[np.float64]:
-    """Return the sum of the rows of each group, (n_groups, 3)."""
-    return np.stack(
-        [np.bincount(groups, rows[:, axis], n_groups) for axis in range(3)], axis=1
-    )
-
-
-def _graph_of(pairs: NDArray[np.int64], n_nodes: int) -> sparse.csr_array:
-    """Return the adjacency matrix (n_nodes, n_nodes) of pairs of nodes."""
-    return sparse.csr_array(
-        (np.ones(len(pairs)), tuple(pairs.T)), shape=(n_nodes, n_nodes)
-    )
-
-
 def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
-    """Return the connected component of each node, (n_nodes,)."""
     return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from ..steps.progress import Steps, within
+from .connectivity import sort_edges
 from .face_graph import FaceGraph, face_graph
 from .frames import frames
 from .mesh import TriangleMesh
@@ -51,16 +53,18 @@ class FlatMesh:
     walls: TriangleMesh
     normal: NDArray[np.float64]
 
-    def graph(self) -> FaceGraph:
+    def graph(self) -> Steps[FaceGraph]:
         """Return the graph of the faces, with the outline length of each polygon.
 
         Returns
         -------
-        FaceGraph
+        Steps of FaceGraph
         """
+        edges = yield from within(sort_edges(self.faces), 0.0, 0.4)
+        graph = yield from within(face_graph(self.faces, edges), 0.4, 1.0)
         lengths = self.walls.areas / _HEIGHT
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)
-        return replace(face_graph(self.faces), outline=outline.astype(np.float64))
+        return replace(graph, outline=outline.astype(np.float64))
 
     @property
     def notes(self) -> tuple[str, ...]:

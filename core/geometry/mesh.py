@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
+from ..steps.progress import Progress, Steps, run, within
 from .array_checks import check_size, checked_numbers, rows_of_three
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
@@ -18,6 +21,8 @@ _LEAST_AREA = 1e-9
 _SAME_PLACE = 1e-6
 # Grid cells along each axis. They span more than two diagonals.
 _CELLS = 2**21
+# Rows that are computed with in one step: few enough for the processor's cache.
+_BLOCK = 2**16
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,11 +65,11 @@ class TriangleMesh:
 
     def __post_init__(self) -> None:
         """Check the arrays and keep read-only copies of the right types."""
-        vertices = rows_of_three(self.vertices, "Vertices").astype(np.float64)
+        vertices = _kept(rows_of_three(self.vertices, "Vertices"), np.float64)
         triangles = rows_of_three(self.triangles, "Triangles", whole=True)
-        triangles = triangles.astype(np.int64)
+        triangles = _kept(triangles, np.int64)
         polygons = checked_numbers(self.polygons, "Polygons", whole=True)
-        polygons = polygons.astype(np.int64)
+        polygons = _kept(polygons, np.int64)
         if len(triangles) == 0:
             raise DecompositionError(
                 "The mesh has no faces; add faces or choose another object."
@@ -98,8 +103,10 @@ class TriangleMesh:
     @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
-        used = self.vertices[self.triangles.ravel()]
-        return used.min(axis=0), used.max(axis=0)
+        used = np.zeros(len(self.vertices), dtype=bool)
+        used[self.triangles.ravel()] = True
+        columns = self.vertices[used].T.copy()
+        return columns.min(axis=1), columns.max(axis=1)
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -115,13 +122,17 @@ class TriangleMesh:
         return float(np.linalg.norm(high - low))
 
     def normalized(self) -> TriangleMesh:
+        """Return the mesh at once that `normalized_in_steps` returns."""
+        return run(self.normalized_in_steps())
+
+    def normalized_in_steps(self) -> Steps[TriangleMesh]:
         """Return the mesh centered at the origin, with a bounding box of diagonal 1.
 
         Ray casters work in single precision, and tolerances are in diagonals.
 
         Returns
         -------
-        TriangleMesh
+        Steps of TriangleMesh
 
         Raises
         ------
@@ -129,7 +140,9 @@ class TriangleMesh:
             If the faces have no area, the mesh is too large or too small to compute
             with, or some polygon has no triangle.
         """
+        yield Progress("Surface", 0.0)
         check_size(*self.bounds)
+        yield Progress("Surface", 0.2)
         n_triangles = len(self.triangles)
         if self.n_polygons > n_triangles or not np.bincount(self.polygons).all():
             raise DecompositionError(
@@ -139,6 +152,7 @@ class TriangleMesh:
         if self.diagonal > 0:
             scale = self.diagonal
             scaled = replace(self, vertices=(self.vertices - self.center) / scale)
+            yield from within(scaled.normals_in_steps(), 0.4, 1.0)
             if scaled.areas.sum() > _LEAST_AREA:
                 return scaled
         raise DecompositionError(
@@ -146,13 +160,14 @@ class TriangleMesh:
         )
 
     @cached_property
-    def welded_triangles(self) -> NDArray[np.int64]:
-        """(T, 3) int, position numbers of the corners, equal for coinciding vertices.
+    def welded_triangles(self) -> NDArray[np.int32]:
+        """(T, 3) int32, position numbers of the corners, equal for coinciding vertices.
 
         Many file formats split vertices, and tools close a surface with vertices that
         differ by rounding.
         """
-        center = self.vertices[self.triangles.ravel()].mean(axis=0)
+        counts = np.bincount(self.triangles.ravel(), minlength=len(self.vertices))
+        center = counts @ self.vertices / self.triangles.size
         step = _SAME_PLACE * self.diagonal or 1.0
         rounded = np.round((self.vertices - center) / step).astype(np.int64)
         # One number sorts faster than three. Only vertices that no face uses lie
@@ -160,37 +175,58 @@ class TriangleMesh:
         cells = np.clip(rounded + _CELLS // 2, 0, _CELLS - 1)
         places = cells @ (_CELLS**2, _CELLS, 1)
         _, place_of = np.unique(places, return_inverse=True)
-        welded: NDArray[np.int64] = place_of.reshape(-1)[self.triangles]
-        return welded
-
-    @property
-    def edge_keys(self) -> NDArray[np.int64]:
-        """(3T,) int, numbers of the triangles' sides, equal for sides of one edge."""
-        tails = self.welded_triangles
-        heads = np.roll(tails, -1, axis=1)
-        keys = np.minimum(tails, heads) * (tails.max() + 1) + np.maximum(tails, heads)
-        return keys.ravel()
-
-    @cached_property
-    def _cross_products(self) -> NDArray[np.float64]:
-        """(T, 3) normals of the triangles; their length is twice the area."""
-        a, b, c = np.moveaxis(self.vertices[self.triangles], 1, 0)
-        return np.cross(b - a, c - a)
+        return place_of.reshape(-1).astype(np.int32)[self.triangles]
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(T,) areas of the triangles."""
-        areas: NDArray[np.float64] = np.linalg.norm(self._cross_products, axis=1) / 2
+        run(self.normals_in_steps())
+        areas: NDArray[np.float64] = self.__dict__["areas"]
         return areas
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:
         """(T, 3) outward unit normals of the triangles, 0 for degenerate ones."""
-        lengths = 2 * self.areas[:, None]
-        normals: NDArray[np.float64] = np.divide(
-            self._cross_products,
-            lengths,
-            out=np.zeros_like(self._cross_products),
-            where=lengths > 0,
-        )
-        return normals
+        return run(self.normals_in_steps())
+
+    def normals_in_steps(self) -> Steps[NDArray[np.float64]]:
+        """Return `normals`; they and `areas` are computed in short steps.
+
+        Returns
+        -------
+        Steps of (T, 3) float
+        """
+        if "normals" not in self.__dict__:
+            areas, normals = (
+                np.empty(len(self.triangles)),
+                np.empty_like(self.triangles, float),
+            )
+            for rows in blocks(len(self.triangles)):
+                yield Progress("Surface", rows.start / len(self.triangles))
+                a, b, c = np.moveaxis(self.vertices[self.triangles[rows]], 1, 0)
+                crosses = np.cross(b - a, c - a)
+                lengths = np.linalg.norm(crosses, axis=1)
+                areas[rows] = lengths / 2
+                zero = lengths == 0
+                lengths[zero] = 1.0
+                normals[rows] = crosses / lengths[:, None]
+            self.__dict__.update(areas=areas, normals=normals)
+        found: NDArray[np.float64] = self.__dict__["normals"]
+        return found
+
+
+def blocks(n_rows: int) -> Iterator[slice]:
+    """Yield slices that together cover some rows, each a step's worth of work.
+
+    Parameters
+    ----------
+    n_rows : int
+    """
+    for start in range(0, n_rows, _BLOCK):
+        yield slice(start, min(start + _BLOCK, n_rows))
+
+
+def _kept(array: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:
+    """Return a copy of an array, or the array if it is a read-only one of that type."""
+    shared = array.dtype == dtype and array.flags.owndata and not array.flags.writeable
+    return array if shared else array.astype(dtype)

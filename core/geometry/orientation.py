@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import TriangleMesh
+from ..steps.progress import Progress, Steps
+from .mesh import TriangleMesh, blocks
 from .shells import Shells
 
 # Greatest missing area of a solid open shell, as a share of its area. A cube without
@@ -17,7 +18,7 @@ _MOST_MISSING = 0.25
 
 def oriented(
     mesh: TriangleMesh, shells: Shells
-) -> tuple[TriangleMesh, tuple[str, ...]]:
+) -> Steps[tuple[TriangleMesh, tuple[str, ...]]]:
     """Return `mesh` with its solid shells wound consistently and outwards.
 
     A shell is solid if it is closed, or if little of its area is missing in holes. A
@@ -38,10 +39,17 @@ def oriented(
     notes : tuple of str
         A sentence to the user if triangles were turned.
     """
-    solid = _solid(mesh, shells)
+    areas, missing, volumes = yield from _measured(mesh, shells)
+    # The area vectors of a closed surface sum to zero. The length of the sum is thus a
+    # lower bound of the missing area.
+    nearly = shells.windable & (missing <= _MOST_MISSING * areas)
+    solid = shells.closed | nearly
     turned = np.zeros(len(solid), dtype=bool)
-    turned[list(_inverted(mesh, shells, solid))] = True
-    areas = np.bincount(shells.of_triangle, mesh.areas)
+    inward = np.flatnonzero(solid & (volumes < 0))
+    if len(inward):
+        yield Progress("Surface", 0.6)
+        inverted = yield from _inverted(mesh, shells, solid, inward)
+        turned[inverted] = True
     if areas[turned].sum() > areas[solid].sum() / 2:
         # The whole object is inside out, so its open shells are turned as well.
         turned |= ~solid
@@ -56,73 +64,66 @@ def oriented(
     )
 
 
-def _solid(mesh: TriangleMesh, shells: Shells) -> NDArray[np.bool_]:
-    """Return whether each shell is closed, or nearly so, (S,) bool.
+def _measured(
+    mesh: TriangleMesh, shells: Shells
+) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
+    """Return the area of each shell (S,), missing area, and six times its volume.
 
-    The area vectors of a closed surface sum to zero. The length of the sum is thus a
-    lower bound of the missing area.
+    Triangles are taken as wound consistently.
     """
-    vectors = mesh.areas[:, None] * mesh.normals
-    vectors = np.where(shells.against[:, None], -vectors, vectors)
-    sums = np.stack(
-        [np.bincount(shells.of_triangle, vectors[:, axis]) for axis in range(3)]
-    )
-    missing = np.linalg.norm(sums, axis=0)
-    areas = np.bincount(shells.of_triangle, mesh.areas)
-    return shells.closed | (shells.windable & (missing <= _MOST_MISSING * areas))
+    # Number of triangles, their area, area vectors and centers, and volume about 0.
+    sums = np.zeros((9, len(shells.closed)))
+    for rows in blocks(len(mesh.triangles)):
+        yield Progress("Surface", 0.6 * rows.start / len(mesh.triangles))
+        areas, corners = mesh.areas[rows], mesh.vertices[mesh.triangles[rows]]
+        signs = np.where(shells.against[rows], -areas, areas)
+        vectors, centers = signs[:, None] * mesh.normals[rows], corners.mean(axis=1)
+        volumes = 2 * np.einsum("td,td->t", centers, vectors)
+        columns = [np.ones_like(areas), areas, *vectors.T, *centers.T, volumes]
+        for total, column in zip(sums, columns, strict=True):
+            np.add.at(total, shells.of_triangle[rows], column)
+    # The volume of an open shell depends on the point it is measured about.
+    middles = sums[5:8] / sums[0]
+    volumes = sums[8] - 2 * (middles * sums[2:5]).sum(axis=0)
+    return sums[1], np.linalg.norm(sums[2:5], axis=0), volumes
 
 
 def _inverted(
     mesh: TriangleMesh,
     shells: Shells,
     solid: NDArray[np.bool_],
-) -> set[int]:
+    inward: NDArray[np.int64],
+) -> Steps[NDArray[np.int64]]:
     """Return the outermost inward-facing solid shells and all solid shells inside."""
-    flips = shells.against
-    corners = mesh.vertices[mesh.triangles]
-    volumes = _volumes(corners, shells.of_triangle, flips)
-    inward = np.flatnonzero(solid & (volumes < 0))
-    if len(inward) == 0:
-        return set()
     order = np.argsort(shells.of_triangle, kind="stable")
-    members = np.split(order, np.cumsum(np.bincount(shells.of_triangle))[:-1])
-    lows = np.array([corners[m].min(axis=(0, 1)) for m in members])
-    highs = np.array([corners[m].max(axis=(0, 1)) for m in members])
+    starts = np.cumsum(np.bincount(shells.of_triangle))[:-1]
+    members = np.split(order, starts)
+    firsts = np.concatenate([[0], starts])
+    corners = mesh.vertices[mesh.triangles[order]]
+    lows = np.minimum.reduceat(corners.min(axis=1), firsts)
+    highs = np.maximum.reduceat(corners.max(axis=1), firsts)
+    candidates = np.flatnonzero(solid)
 
     def encloses(outer: int, inner: int) -> bool:
-        boxed = (lows[outer] < lows[inner]).all() and (
-            highs[outer] > highs[inner]
-        ).all()
-        if outer == inner or not boxed:
-            return False
-        turned = np.where(flips[members[outer]], -1.0, 1.0)
-        point = corners[members[inner][0], 0]
-        return abs(_winding_number(point, corners[members[outer]], turned)) > 0.5
+        rows = members[outer]
+        turned = np.where(shells.against[rows], -1.0, 1.0)
+        point = mesh.vertices[mesh.triangles[members[inner][0], 0]]
+        around = mesh.vertices[mesh.triangles[rows]]
+        return abs(_winding_number(point, around, turned)) > 0.5
 
-    candidates = np.flatnonzero(solid)
     inverted: set[int] = set()
-    for shell in inward:
-        if not any(encloses(outer, shell) for outer in candidates):
+    for shell in inward.tolist():
+        yield Progress("Surface", 0.6)
+        outer = (lows[candidates] < lows[shell]).all(axis=1)
+        outer &= (highs[candidates] > highs[shell]).all(axis=1)
+        if not any(encloses(other, shell) for other in candidates[outer].tolist()):
             # Inner shells turn along, so they stay a cavity or a core.
-            inverted.add(int(shell))
-            inverted |= {int(c) for c in candidates if encloses(shell, c)}
-    return inverted
-
-
-def _volumes(
-    corners: NDArray[np.float64],
-    shells: NDArray[np.int64],
-    flips: NDArray[np.bool_],
-) -> NDArray[np.float64]:
-    """Return six times the signed volume of each shell, (S,), about its middle."""
-    counts = np.bincount(shells)[:, None]
-    centers = corners.mean(axis=1)
-    sums = [np.bincount(shells, centers[:, axis]) for axis in range(3)]
-    middles = np.stack(sums, axis=1) / counts
-    a, b, c = np.moveaxis(corners - middles[shells][:, None], 1, 0)
-    volumes = np.einsum("td,td->t", a, np.cross(b, c))
-    signed = np.where(flips, -volumes, volumes)
-    return np.bincount(shells, signed).astype(np.float64)
+            inverted.add(shell)
+            inner = (lows[candidates] > lows[shell]).all(axis=1)
+            inner &= (highs[candidates] < highs[shell]).all(axis=1)
+            inside = candidates[inner].tolist()
+            inverted |= {other for other in inside if encloses(shell, other)}
+    return np.array(sorted(inverted), dtype=np.int64)
 
 
 def _winding_number(

@@ -106,9 +106,9 @@ def sample_surface(
     -------
     Samples
     """
-    triangles, candidates = points_on(
-        mesh.vertices[mesh.triangles], n_samples * _CANDIDATES, rng
-    )
+    triangles, weights = _drawn(mesh.areas, n_samples * _CANDIDATES, rng)
+    corners = mesh.vertices[mesh.triangles[triangles]]
+    candidates = np.einsum("nc,ncd->nd", weights, corners)
     runs = np.argsort(_morton_codes(candidates), kind="stable")
     runs = runs.reshape(n_samples, _CANDIDATES)
     chosen = runs[np.arange(n_samples), rng.integers(_CANDIDATES, size=n_samples)]
@@ -136,15 +136,24 @@ def points_on(
     points : (N, 3) float
     """
     a, b, c = np.moveaxis(corners, 1, 0)
-    cumulative = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    triangles, weights = _drawn(areas, n_points, rng)
+    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", weights, corners[triangles])
+    return triangles, points
+
+
+def _drawn(
+    areas: NDArray[np.float64], n_points: int, rng: np.random.Generator
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Draw triangles (N,) by area, and weights (N, 3) of their corners."""
+    cumulative = np.cumsum(areas)
     # Systematic sampling: one draw from each equal slice of the cumulative area.
     draws = (np.arange(n_points) + rng.random(n_points)) / n_points
     triangles = np.searchsorted(cumulative, draws * cumulative[-1], side="right")
     triangles = np.minimum(triangles, len(cumulative) - 1)
     root, split = np.sqrt(rng.random(n_points)), rng.random(n_points)
     weights = np.stack([1 - root, root * (1 - split), root * split], axis=1)
-    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", weights, corners[triangles])
-    return triangles, points
+    return triangles, weights
 
 
 def sample_faces(mesh: TriangleMesh) -> Samples:

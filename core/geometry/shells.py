@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
+from ..steps.progress import Progress, Steps, within
+from .connectivity import Edges, components, sort_edges
 from .frames import unit
 from .mesh import TriangleMesh
 
@@ -46,8 +46,8 @@ class Shells:
     crowded: bool
 
 
-def find_shells(mesh: TriangleMesh) -> Shells:
-    """Return the connected shells of a mesh.
+def shells_of(mesh: TriangleMesh) -> Steps[Shells]:
+    """Return the shells of a mesh whose edges are not sorted yet.
 
     Parameters
     ----------
@@ -55,28 +55,42 @@ def find_shells(mesh: TriangleMesh) -> Shells:
 
     Returns
     -------
-    Shells
+    Steps of Shells
     """
+    edges = yield from within(sort_edges(mesh), 0.0, 0.6)
+    return (yield from within(find_shells(mesh, edges), 0.6, 1.0))
+
+
+def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
+    """Return the connected shells of a mesh.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    edges : Edges
+        Its edges.
+
+    Returns
+    -------
+    Steps of Shells
+    """
+    yield Progress("Surface", 0.0)
+    sides, first = edges
+    uses = np.diff(first, append=len(sides))
+    pairs = first[uses == 2]
+    one, other = sides[pairs], sides[pairs + 1]
     corners = mesh.welded_triangles
-    n_triangles = len(corners)
-    forward = (corners < np.roll(corners, -1, axis=1)).ravel()
-    keys = mesh.edge_keys
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    uses = np.diff(first, append=len(order))
-    paired = order[first[uses == 2][:, None] + [0, 1]]
-    opposed = forward[paired[:, 0]] != forward[paired[:, 1]]
-    copies = _wound_copies(paired // 3, opposed, n_triangles)
-    _, shells = np.unique(copies.min(axis=0), return_inverse=True)
-    shells = shells.reshape(-1)
-    n_shells = int(shells.max()) + 1
-    side = copies[0] > copies[1]
+    forward = (corners < corners[:, [1, 2, 0]]).ravel()
+    opposed = forward[one] != forward[other]
+    yield Progress("Surface", 0.2)
+    neighbors = np.stack([one // 3, other // 3], axis=1)
+    shells, side, windable = yield from _wind(neighbors, opposed, len(corners))
+    yield Progress("Surface", 0.8)
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)
-    windable = np.bincount(shells, copies[0] == copies[1], n_shells) == 0
     # At an edge of four triangles a shell may touch itself.
-    edge_of = np.repeat(np.arange(len(uses)), uses)
-    others = (uses != 2)[edge_of]
-    owners = shells[order[others] // 3] * len(uses) + edge_of[others]
+    edge_of = np.repeat(np.flatnonzero(uses != 2), uses[uses != 2])
+    others = sides[np.repeat(uses != 2, uses)]
+    owners = shells[others // 3] * len(uses) + edge_of
     uses_by_shell, counts = np.unique(owners, return_counts=True)
     open_edges = uses_by_shell[counts % 2 == 1] // len(uses)
     closed = windable.copy()
@@ -85,7 +99,7 @@ def find_shells(mesh: TriangleMesh) -> Shells:
     return Shells(shells, against, windable, closed, bool((uses > 2).any()))
 
 
-def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
+def set_apart(mesh: TriangleMesh, shells: Shells) -> Steps[TriangleMesh]:
     """Return `mesh` with its shells shrunk slightly, to different depths.
 
     Boxes are often put together flush. A ray cannot order faces at the same place, nor
@@ -100,7 +114,7 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
 
     Returns
     -------
-    TriangleMesh
+    Steps of TriangleMesh
         The same object if there is only one shell.
     """
     areas = np.bincount(shells.of_triangle, mesh.areas)
@@ -108,36 +122,56 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> TriangleMesh:
         return mesh
     ranks = np.argsort(np.argsort(-areas, kind="stable"))
     steps = ranks[shells.of_triangle] % _LAYERS
-    vectors = (mesh.areas[:, None] * mesh.normals).repeat(3, axis=0)
     corners = mesh.triangles.ravel()
-    normals = np.stack(
-        [np.bincount(corners, v, len(mesh.vertices)) for v in vectors.T], axis=1
-    )
+    normals = np.empty_like(mesh.vertices)
+    for axis, column in enumerate(mesh.normals.T):
+        yield Progress("Surface", axis / 4)
+        weights = (mesh.areas * column).repeat(3)
+        normals[:, axis] = np.bincount(corners, weights, len(mesh.vertices))
+    yield Progress("Surface", 0.8)
     depths = np.zeros(len(mesh.vertices))
     depths[corners] = _LAYER * mesh.diagonal * steps.repeat(3)
-    inwards = depths[:, None] * unit(np.asarray(normals, dtype=np.float64))
-    return replace(mesh, vertices=mesh.vertices - inwards)
+    return replace(mesh, vertices=mesh.vertices - depths[:, None] * unit(normals))
 
 
-def _wound_copies(
-    neighbors: NDArray[np.int64], opposed: NDArray[np.bool_], n_triangles: int
-) -> NDArray[np.int64]:
-    """Return the component of each triangle as it is, and of its flipped copy, (2, T).
+def _wind(
+    neighbors: NDArray[np.int32], opposed: NDArray[np.bool_], n_triangles: int
+) -> Steps[tuple[NDArray[np.int64], NDArray[np.bool_], NDArray[np.bool_]]]:
+    """Return the shell of each triangle, and how shells are wound.
 
-    An edge connects the copies whose windings agree. A shell can be wound consistently
-    if no triangle is in one component with its flipped copy.
+    Parameters
+    ----------
+    neighbors : (E, 2) int
+        Triangles with a common edge.
+    opposed : (E,) bool
+        Whether they run along it in opposite directions, as they should.
+
+    Returns
+    -------
+    shells : (T,) int
+        Numbered in the order of their first triangles.
+    side : (T,) bool
+        Triangles wound against the first one of their shell; False on shells that are
+        not windable.
+    windable : (S,) bool
+        Whether a shell can be wound consistently.
     """
-    one, other = neighbors.T
-    turned = np.where(opposed, 0, n_triangles)
-    ties = sparse.coo_array(
-        (
-            np.ones(2 * len(one), dtype=bool),
-            (
-                np.concatenate([one, one + n_triangles]),
-                np.concatenate([other + turned, other + n_triangles - turned]),
-            ),
-        ),
-        shape=(2 * n_triangles, 2 * n_triangles),
+    # Triangles that are wound alike are one node, of which there is a flipped copy. An
+    # edge connects the copies whose windings agree.
+    steps = components(neighbors[opposed], n_triangles)
+    patches = yield from within(steps, 0.2, 0.6)
+    n_patches = int(patches.max()) + 1
+    one, other = patches[neighbors[~opposed]].T
+    ties = np.concatenate(
+        [
+            np.stack([one, other + n_patches], axis=1),
+            np.stack([one + n_patches, other], axis=1),
+        ]
     )
-    _, components = connected_components(ties, directed=False)
-    return components.astype(np.int64).reshape(2, n_triangles)
+    copies = yield from within(components(ties, 2 * n_patches), 0.6, 0.8)
+    copies = copies.reshape(2, n_patches)
+    _, shells = np.unique(copies.min(axis=0), return_inverse=True)
+    shells = shells.reshape(-1)
+    windable = np.bincount(shells, copies[0] == copies[1]) == 0
+    side = copies[0] > copies[1]
+    return shells[patches], side[patches], windable

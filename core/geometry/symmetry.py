@@ -96,19 +96,18 @@ class Side:
         return labels
 
 
-def find_sides(graph: FaceGraph) -> Steps[tuple[Side, ...]]:
-    """Find the two sides of a shape's mirror plane.
+def find_sides(graph: FaceGraph, plane: Plane | None) -> Steps[tuple[Side, ...]]:
+    """Find the two sides of a plane, or none without a plane.
 
     Parameters
     ----------
     graph : FaceGraph
+    plane : Plane or None
 
     Returns
     -------
     Steps of tuple of Side
-        Empty if the shape has no mirror plane.
     """
-    plane = yield from _find_plane(graph)
     if plane is None:
         return ()
     sides = []
@@ -150,8 +149,8 @@ def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, fl
     return Side(images[near], found[near]), float(near.mean())
 
 
-def _find_plane(graph: FaceGraph) -> Steps[Plane | None]:
-    """Return the plane of best mirror symmetry, or None if there is none."""
+def find_plane(graph: FaceGraph) -> Steps[Plane | None]:
+    """Return the plane of best mirror symmetry of a graph, None if there is none."""
     # Drawn evenly by area, without randomness.
     shares = np.cumsum(graph.areas) / graph.areas.sum()
     everywhere, asked = (

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+from ..steps.progress import Progress, Steps
 from .face_graph import FaceGraph
 from .sampling import Samples
 
@@ -16,8 +17,46 @@ _NEAREST = 8
 _NORMAL_WEIGHT = 1.0
 # Distance at which a sample's weight has halved, in mean distances of samples.
 _SOFTENING = 0.3
+# Polygons whose nearest samples are found in one step.
+_BLOCK = 10_000
 # Shells touch where samples of both are this near, in mean distances of samples.
 _TOUCH = 1.5
+
+
+def carry(
+    samples: Samples, polygon_of: NDArray[np.int64], graph: FaceGraph
+) -> Steps[Transfer]:
+    """Find the samples nearest to each polygon, and with them make a `Transfer`.
+
+    Parameters
+    ----------
+    samples : Samples
+    polygon_of : (N,) int
+        Polygon that each sample lies on.
+    graph : FaceGraph
+        Graph of these polygons, or of the points of a cloud.
+
+    Returns
+    -------
+    Steps of Transfer
+    """
+    spacing = _spacing(samples, graph)
+    weight = _NORMAL_WEIGHT * spacing
+    tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))
+    places = np.hstack([graph.centers, weight * graph.normals])
+    found = []
+    for start in range(0, len(places), _BLOCK):
+        yield Progress("Surface", start / len(places))
+        block = places[start : start + _BLOCK]
+        found.append(tree.query(block, min(_NEAREST, len(samples))))
+    distances, nearest = (np.concatenate(arrays) for arrays in zip(*found, strict=True))
+    yield Progress("Surface", 1.0)
+    return Transfer(samples, polygon_of, graph, distances / spacing, nearest)
+
+
+def _spacing(samples: Samples, graph: FaceGraph) -> float:
+    """Return the mean distance of samples."""
+    return float(np.sqrt(graph.areas.sum() / len(samples)))
 
 
 class Transfer:
@@ -30,6 +69,9 @@ class Transfer:
         Polygon that each sample lies on.
     graph : FaceGraph
         Graph of these polygons, or of the points of a cloud.
+    distances, nearest : (P, n) float and int
+        The samples nearest to each polygon, and how far they are in mean distances of
+        samples.
 
     Attributes
     ----------
@@ -44,17 +86,15 @@ class Transfer:
     """
 
     def __init__(
-        self, samples: Samples, polygon_of: NDArray[np.int64], graph: FaceGraph
+        self,
+        samples: Samples,
+        polygon_of: NDArray[np.int64],
+        graph: FaceGraph,
+        distances: NDArray[np.float64],
+        nearest: NDArray[np.int64],
     ) -> None:
         self.polygon_of = polygon_of
-        spacing = float(np.sqrt(graph.areas.sum() / len(samples)))
-        weight = _NORMAL_WEIGHT * spacing
-        tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))
-        distances, nearest = tree.query(
-            np.hstack([graph.centers, weight * graph.normals]),
-            min(_NEAREST, len(samples)),
-        )
-        self.shares = self._shares(distances / spacing, nearest)
+        self.shares = self._shares(distances, nearest)
         shells = graph.shells()
         numbers, first = np.unique(shells, return_index=True)
         unsampled = np.setdiff1d(numbers, shells[polygon_of])
@@ -62,7 +102,7 @@ class Transfer:
         # A shell without a sample is linked to the polygon of the nearest sample.
         small = first[unsampled]
         hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
-        touching = self._touching(samples, shells, spacing)
+        touching = self._touching(samples, shells, _spacing(samples, graph))
         links = np.concatenate([touching, hung])
         self.graph = graph.linked(links)
 

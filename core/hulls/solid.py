@@ -12,8 +12,8 @@ from scipy.spatial import cKDTree
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
-from ..geometry.shells import find_shells
-from ..steps.progress import Progress, Steps
+from ..geometry.shells import shells_of
+from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
 from .measure.fragments import edge_lengths, fragments_of
 from .measure.inside import InsideTest
@@ -160,7 +160,7 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
         along, share = chords_along(corners, axis)
         centers.append(along)
         shares.append(share)
-    yield Progress("Solid", 1.0)
+    shells = yield from within(shells_of(mesh), 1.0, 1.0)
     chords, volumes = np.concatenate(centers), np.concatenate(shares) / 3
     if volumes.sum() < _NO_VOLUME:
         chords, volumes = chords[:0], volumes[:0]
@@ -172,5 +172,5 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
         chords,
         volumes,
         float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
-        bool(find_shells(mesh).closed.all()),
+        bool(shells.closed.all()),
     )

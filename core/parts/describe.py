@@ -40,12 +40,12 @@ def describe(
     -------
     Decomposition
     """
-    n_parts, transfer = count_parts(labels), visibility.transfer
+    n_parts = count_parts(labels)
     parts = visibility.shape.labels_of_nodes(labels)
-    samples = transfer.to_samples(parts)
+    samples = parts[visibility.nodes]
     pairs = visibility.psi_pairs
     whole = pairs.tally(np.zeros_like(samples), 1)
-    areas = np.bincount(parts, transfer.graph.areas, n_parts)
+    areas = np.bincount(parts, visibility.shape.graph.areas, n_parts)
     return Decomposition(
         labels=labels,
         areas=areas.astype(np.float64) * visibility.shape.diagonal**2,
@@ -80,15 +80,15 @@ def by_size(parts: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
 
 
 def notes_on(
-    found: Decomposition, visibility: Visibility, parameters: Parameters
+    found: Decomposition, transfer: Transfer, parameters: Parameters
 ) -> tuple[str, ...]:
     """Say what kept the parts from being as they were asked for.
 
     Parameters
     ----------
     found : Decomposition
-    visibility : Visibility
-        Visibility of the shape.
+    transfer : Transfer
+        From samples to the nodes that got labels.
     parameters : Parameters
         That the parts were found with.
 
@@ -97,7 +97,7 @@ def notes_on(
     tuple of str
         Sentences to the user.
     """
-    on_shells = _notes_on_shells(visibility.transfer)
+    on_shells = _notes_on_shells(transfer)
     return on_shells + _notes_on_count(parameters, max(found.psi_by_k))
 
 

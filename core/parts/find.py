@@ -7,8 +7,9 @@ from dataclasses import replace
 from ..parameters.parts import Parameters
 from ..results import Decomposition
 from ..steps.one_thread import on_one_thread
-from ..steps.progress import Steps
+from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on
+from .fine_seams import labels_of_nodes
 from .part_count import PartCountSearch
 from .part_memo import PartMemo
 from .partition import Partitioner
@@ -33,6 +34,7 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
         The steps yield `Progress`; `run` returns the decomposition.
     """
     visibility, cut = memo.visibility, memo.cut(parameters)
+    yield from within(memo.transfer_in_steps(), 0.0, 0.2)
     partitioner = Partitioner(memo, parameters)
     search = PartCountSearch(
         partitioner,
@@ -42,7 +44,10 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
         cut.searches,
     )
     wanted = search.given(parameters.parts) if parameters.parts else search.best()
-    parts, psi_by_k, best_k = yield from wanted
-    labels = by_size(parts, visibility.transfer.graph)[visibility.shape.nodes]
+    seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
+    nodes = yield from within(labels_of_nodes(memo, parameters, seams), 0.9, 1.0)
+    labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
-    return replace(found, notes=found.notes + notes_on(found, visibility, parameters))
+    return replace(
+        found, notes=found.notes + notes_on(found, memo.transfer, parameters)
+    )

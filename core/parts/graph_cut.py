@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -10,9 +12,6 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 from ..geometry.face_graph import FaceGraph
 from ..steps.progress import Progress, Steps
 
-# An edge costs exp(-_CREASE * bend) of its length; `bend` is its concave angle in
-# radians.
-_CREASE = 4.0
 # Largest cost of a label for a sample.
 _MOST_DISLIKE = 4.0
 # Cost of a seam as long as the square root of the area, at lambda = 1.
@@ -88,9 +87,7 @@ def cut_seams(
     """
     data = costs * graph.weights[:, None]
     unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
-    seams = smoothness * unit * graph.lengths
-    seams = seams * np.exp(-_CREASE * np.maximum(graph.bends, 0.0))
-    cutter = _Expansion(graph.neighbors, data, seams)
+    cutter = _Expansion(graph.neighbors, data, smoothness * unit * graph.seam_costs)
     labels, n_labels = labels.copy(), costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)
     seen = np.zeros((n_labels, len(labels)), dtype=bool)
@@ -119,7 +116,7 @@ class _Expansion:
 
     def __init__(
         self,
-        neighbors: NDArray[np.int64],
+        neighbors: NDArray[np.integer[Any]],
         data: NDArray[np.float64],
         seams: NDArray[np.float64],
     ) -> None:
@@ -202,23 +199,28 @@ def _minimum_cut(
     no capacity. Nodes on the source's side of the cut stay.
     """
     n_nodes = len(gain)
-    source, sink = n_nodes, n_nodes + 1
-    nodes = np.arange(n_nodes)
-    # An arc from the source is cut if a node moves that costs something. An arc to the
-    # sink is cut if a node stays that would save something.
-    holders = np.where(gain > 0, source, sink)
-    tails = np.concatenate([tails, nodes, holders])
-    heads = np.concatenate([heads, holders, nodes])
-    capacities = np.concatenate(
-        [capacities, np.maximum(-gain, 0.0), np.maximum(gain, 0.0)]
-    )
-    largest = capacities.max(initial=0.0)
+    largest = max(capacities.max(initial=0.0), np.abs(gain).max(initial=0.0))
     if largest <= 0:
         return np.zeros(n_nodes, dtype=bool)
-    order = np.argsort(tails * (n_nodes + 2) + heads, kind="stable")
-    capacities = np.round(capacities[order] / largest * _LARGEST_CAPACITY)
-    heads = heads[order].astype(np.int32)
-    starts = np.searchsorted(tails[order], np.arange(n_nodes + 3)).astype(np.int32)
+    source, sink = n_nodes, n_nodes + 1
+    # An arc from the source is cut if a node moves that costs something. An arc to the
+    # sink is cut if a node stays that would save something.
+    costly = gain > 0
+    # The arcs of a node come first, then the arc to the source or sink; these have the
+    # highest numbers. Last come their own arcs. So all are sorted without a search.
+    ends = np.cumsum(np.bincount(tails, minlength=n_nodes) + 1)
+    own = np.ones(len(tails) + n_nodes, dtype=bool)
+    own[ends - 1] = False
+    all_heads = np.empty(len(own), dtype=np.int32)
+    all_heads[own], all_heads[~own] = heads, np.where(costly, source, sink)
+    weights = np.empty(len(own))
+    weights[own], weights[~own] = capacities, np.maximum(-gain, 0.0)
+    held = [np.flatnonzero(costly), np.flatnonzero(~costly)]
+    heads = np.concatenate([all_heads, *held]).astype(np.int32)
+    capacities = np.concatenate([weights, gain[held[0]], np.zeros(len(held[1]))])
+    capacities = np.round(capacities / largest * _LARGEST_CAPACITY)
+    starts = np.concatenate([[0], ends, ends[-1:] + len(held[0]), [len(heads)]])
+    starts = starts.astype(np.int32)
     shape = n_nodes + 2, n_nodes + 2
     graph = sparse.csr_array((capacities.astype(np.int32), heads, starts), shape)
     flow = maximum_flow(graph, source, sink, method="dinic").flow

@@ -60,7 +60,7 @@ def with_pieces(
             ranks += others
             fresh += numbers
     nodes = visibility.shape.labels_of_nodes(labels)
-    numbered = by_size(nodes, visibility.transfer.graph)[visibility.shape.nodes]
+    numbered = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
     _, first = np.unique(numbered, return_index=True)
     before = labels[first]  # by the new number of each part
     described = describe(visibility, numbered, parameters, found.psi_by_k, found.best_k)

@@ -6,14 +6,11 @@ from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .part_memo import Candidate
 from .partition import Partitioner, count_parts
-from .seams import SeamCutter
+from .seams import SeamCutter, Seams
 
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
@@ -25,7 +22,7 @@ class Search(NamedTuple):
 
     Attributes
     ----------
-    parts : (P,) int
+    seams : Seams
         The chosen parts, with their seams cut.
     psi_by_k : dict of int to float
         Psi of one part, and of each k tried for which k parts were found, before seams
@@ -34,7 +31,7 @@ class Search(NamedTuple):
         The number of parts that the search chooses.
     """
 
-    parts: NDArray[np.int64]
+    seams: Seams
     psi_by_k: dict[int, float]
     best_k: int
 
@@ -93,8 +90,8 @@ class PartCountSearch:
             steps = self._first_like_clusters(tried, even)
             best_k = (yield from within(steps, 0.9, 1.0)) or best_k
         best_k = best_k or good[0]
-        parts = yield from self._seams.cut(tried[best_k].parts)
-        return Search(parts, psi_by_k, best_k)
+        seams = yield from self._seams.cut(tried[best_k].parts)
+        return Search(seams, psi_by_k, best_k)
 
     def given(self, n_parts: int) -> Steps[Search]:
         """Return `n_parts` parts, with the psi of other numbers for comparison.
@@ -116,9 +113,9 @@ class PartCountSearch:
         if n_parts > self._high:
             tried = yield from within(self._with_more(tried, n_parts), 0.7, 0.8)
         made = min(n_parts, max(tried))
-        parts = yield from within(self._seams.cut(tried[made].parts), 0.8, 1.0)
+        seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 1.0)
         psi_by_k = dict(sorted(({made: tried[made].psi} | searched.psi_by_k).items()))
-        return Search(parts, psi_by_k, searched.best_k)
+        return Search(seams, psi_by_k, searched.best_k)
 
     def _first_like_clusters(
         self, tried: dict[int, Candidate], numbers: Sequence[int]
@@ -128,12 +125,10 @@ class PartCountSearch:
         for number, k in enumerate(numbers):
             # Usually the first k is taken: each reports half of the remaining progress.
             steps = self._seams.cut(tried[k].parts)
-            parts = yield from within(
-                steps, 1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1)
-            )
+            cut = yield from within(steps, 1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1))
             if not by.by_psi:
                 return k
-            if by.psi_of_clusters(k) - by.psi(parts) <= by.negligible:
+            if by.psi_of_clusters(k) - by.psi(cut.parts) <= by.negligible:
                 return k
         return 0
 

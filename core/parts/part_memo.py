@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from hashlib import blake2b
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.embedding import embed
-from ..geometry.symmetry import Side, find_sides
+from ..geometry.face_graph import FaceGraph
+from ..geometry.symmetry import Plane, Side, find_plane, find_sides
+from ..geometry.transfer import Transfer, carry
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
 from ..steps.memo import Memo
-from ..steps.progress import Steps
+from ..steps.progress import Steps, run, within
+from .patches import MOST_NODES, Patches, find_patches
 
 Labels: TypeAlias = NDArray[np.int64]
 
@@ -80,7 +83,7 @@ class CutMemo:
         self.plain: Memo[int, Labels] = Memo()
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
-        self.seams: Memo[tuple[float, bytes], Labels] = Memo(32)
+        self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
 
 
 class PartMemo:
@@ -91,10 +94,15 @@ class PartMemo:
     Parameters
     ----------
     visibility : Visibility
+    most_nodes : int, optional
+        The nodes of a larger graph are grouped into half as many patches, which get
+        labels in their place.
 
     Attributes
     ----------
     visibility : Visibility
+    patches : Patches or None
+        The patches of a large graph, once `transfer_in_steps` has run.
     tallies : Memo
         Maps the digest and number of labels to the counts of pairs of samples.
     pieces : Memo
@@ -103,8 +111,12 @@ class PartMemo:
         Maps the digest of labels and alpha to the labels after all moves.
     """
 
-    def __init__(self, visibility: Visibility) -> None:
+    def __init__(self, visibility: Visibility, most_nodes: int = MOST_NODES) -> None:
         self.visibility = visibility
+        self.patches: Patches | None = None
+        self._most_nodes = most_nodes
+        self._transfer: Transfer | None = None
+        self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int], PairTally] = Memo(256)
         self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
         self.moves: Memo[tuple[bytes, float], Labels] = Memo(32)
@@ -174,6 +186,52 @@ class PartMemo:
             lambda: embed(self.visibility.affinity, n_coordinates, stochastic),
         )
 
+    @property
+    def transfer(self) -> Transfer:
+        """Carries labels of samples to the nodes of the graph, or to its patches."""
+        return run(self.transfer_in_steps())
+
+    def transfer_in_steps(self) -> Steps[Transfer]:
+        """Return `transfer`, made in steps if it is not known yet.
+
+        Returns
+        -------
+        Steps of Transfer
+        """
+        if self._transfer is None:
+            graph = yield from within(self.visibility.shape.graph_in_steps(), 0.0, 0.6)
+            nodes = self.visibility.nodes
+            if graph.n_polygons > self._most_nodes:
+                grouping = find_patches(graph, self._most_nodes // 2)
+                self.patches = yield from within(grouping, 0.6, 0.9)
+                graph, nodes = self.patches.coarse, self.patches.of_nodes[nodes]
+            steps = carry(self.visibility.samples, nodes, graph)
+            self._transfer = yield from within(steps, 0.9, 1.0)
+        return self._transfer
+
+    def on(self, graph: FaceGraph, nodes: NDArray[np.int64]) -> Steps[PartMemo]:
+        """Return a memo of the same visibility, for parts of another graph.
+
+        What depends on samples alone is shared.
+
+        Parameters
+        ----------
+        graph : FaceGraph
+            Of the same surface, without links.
+        nodes : (N,) int
+            Node of this graph that each sample lies on.
+
+        Returns
+        -------
+        Steps of PartMemo
+        """
+        memo = PartMemo(self.visibility)
+        memo._transfer = yield from carry(self.visibility.samples, nodes, graph)
+        memo._plane = self._plane
+        memo.tallies, memo.moves = self.tallies, self.moves
+        memo._embeddings, memo._clusters = self._embeddings, self._clusters
+        return memo
+
     def sides(self) -> Steps[tuple[Side, ...]]:
         """Return the two sides of the shape's mirror plane, none if it has no plane.
 
@@ -183,5 +241,9 @@ class PartMemo:
             The steps yield `Progress`; `run` returns the sides.
         """
         if self._sides is None:
-            self._sides = yield from find_sides(self.visibility.transfer.graph)
+            graph = (yield from self.transfer_in_steps()).graph
+            if self._plane is None:
+                self._plane = ((yield from find_plane(graph)),)
+            (plane,) = self._plane
+            self._sides = yield from find_sides(graph, plane)
         return self._sides

@@ -52,8 +52,8 @@ class Partitioner:
     def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
         self.parameters = parameters
         self.visibility = memo.visibility
-        self.transfer = memo.visibility.transfer
-        self.graph = memo.visibility.transfer.graph
+        self.transfer = memo.transfer
+        self.graph = self.transfer.graph
         self.by_psi = parameters.refinement == "PSI"
         self.negligible = _NEGLIGIBLE / np.sqrt(len(memo.visibility.samples))
         self.smallest_area = parameters.smallest_part * self.graph.areas.sum()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,21 @@ from .partition import Partitioner, count_parts
 _SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
 
 
+class Seams(NamedTuple):
+    """Parts with their seams cut.
+
+    Attributes
+    ----------
+    parts : (P,) int
+        Part of each node.
+    smoothness : float
+        The lambda that they were cut with, 0 if no seams were cut.
+    """
+
+    parts: NDArray[np.int64]
+    smoothness: float = 0.0
+
+
 class SeamCutter:
     """Cuts the seams of parts (eq. 4).
 
@@ -28,41 +45,44 @@ class SeamCutter:
     """
 
     def __init__(
-        self,
-        partitioner: Partitioner,
-        memo: Memo[tuple[float, bytes], NDArray[np.int64]],
+        self, partitioner: Partitioner, memo: Memo[tuple[float, bytes], Seams]
     ) -> None:
         self._partitioner = partitioner
         self._smoothness = partitioner.parameters.smoothness
         self._memo = memo
 
-    def cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+    def cut(
+        self, parts: NDArray[np.int64], enough: float | None = None
+    ) -> Steps[Seams]:
         """Return the parts with smooth seams; their number stays the same.
+
+        Smooth seams cost psi. If a part would become too small, its nodes keep their
+        labels.
 
         Parameters
         ----------
         parts : (P,) int
             Part of each node, in 0…K − 1.
+        enough : float, optional
+            Least psi. By default seams cost at most what the moves of samples gained
+            over k-means.
 
         Returns
         -------
-        Steps of (P,) int
+        Steps of Seams
             The steps yield `Progress`; `run` returns the new parts.
         """
         key = self._smoothness, digest(parts)
-        return self._memo.recall_steps(key, lambda: self._cut(parts))
+        return self._memo.recall_steps(key, lambda: self._cut(parts, enough))
 
-    def _cut(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
-        """Return the parts with smooth seams.
-
-        Smooth seams cost psi, but at most what the moves of samples gained over
-        k-means. If a part would become too small, its nodes keep their labels.
-        """
+    def _cut(self, parts: NDArray[np.int64], enough: float | None) -> Steps[Seams]:
+        """Return the parts with smooth seams."""
         n_parts, partitioner = count_parts(parts), self._partitioner
         if n_parts == 1 or self._smoothness == 0:
-            return parts
-        enough = -np.inf
-        if partitioner.by_psi:
+            return Seams(parts)
+        if not partitioner.by_psi:
+            enough = -np.inf
+        elif enough is None:
             enough = min(
                 partitioner.psi(partitioner.plain(n_parts)), partitioner.psi(parts)
             )
@@ -75,8 +95,9 @@ class SeamCutter:
             swallowed = areas <= partitioner.smallest_area
             cut = partitioner.tidied(np.where(swallowed[parts], parts, cut), n_parts)
             if count_parts(cut) == n_parts and partitioner.psi(cut) >= enough:
-                return (yield from within(self._evened(cut, enough), 0.9, 1.0))
-        return parts
+                cut = yield from within(self._evened(cut, enough), 0.9, 1.0)
+                return Seams(cut, share * self._smoothness)
+        return Seams(parts)
 
     def _evened(
         self, parts: NDArray[np.int64], enough: float

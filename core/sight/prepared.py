@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
+from ..geometry.connectivity import sort_edges
 from ..geometry.convexity import is_convex
 from ..geometry.doubled import with_doubles, without_doubles
 from ..geometry.face_graph import FaceGraph, face_graph
@@ -19,8 +20,8 @@ from ..geometry.mesh import TriangleMesh
 from ..geometry.orientation import oriented
 from ..geometry.point_cloud import PointCloud
 from ..geometry.shape import Shape
-from ..geometry.shells import find_shells, set_apart
-from ..steps.progress import Progress, Steps
+from ..geometry.shells import find_shells, set_apart, shells_of
+from ..steps.progress import Progress, Steps, run, within
 from .ray_march import MakeCaster, RayMarcher
 
 
@@ -48,7 +49,7 @@ class PreparedShape:
     nodes : (P,) int
         Node of each polygon of the mesh, or of each point of the cloud.
     make_graph : callable
-        Returns `graph`.
+        Returns the steps that make `graph`.
     solid : TriangleMesh or None
         The normalized mesh, None for a point cloud.
     notes : tuple of str
@@ -67,7 +68,7 @@ class PreparedShape:
     marcher: RayMarcher
     n_nodes: int
     nodes: NDArray[np.int64]
-    make_graph: Callable[[], FaceGraph]
+    make_graph: Callable[[], Steps[FaceGraph]]
     solid: TriangleMesh | None = None
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
@@ -77,7 +78,18 @@ class PreparedShape:
     @cached_property
     def graph(self) -> FaceGraph:
         """Graph of neighboring polygons, or of neighboring points of a cloud."""
-        return self.make_graph()
+        return run(self.make_graph())
+
+    def graph_in_steps(self) -> Steps[FaceGraph]:
+        """Return `graph`, made in steps if it is not known yet.
+
+        Returns
+        -------
+        Steps of FaceGraph
+        """
+        if "graph" not in self.__dict__:
+            self.__dict__["graph"] = yield from self.make_graph()
+        return self.graph
 
     @property
     def sampled(self) -> NDArray[np.int64]:
@@ -124,10 +136,14 @@ class PreparedShape:
             targets=replace(self.targets, polygons=polygons),
             n_nodes=len(kept),
             nodes=places[self.nodes[members]],
-            make_graph=lambda: self.graph.part(kept),
+            make_graph=lambda: self._part_of_graph(kept),
             normals=None if self.normals is None else self.normals[members],
             convex=False,
         )
+
+    def _part_of_graph(self, kept: NDArray[np.int64]) -> Steps[FaceGraph]:
+        """Return the graph of some nodes."""
+        return (yield from self.graph_in_steps()).part(kept)
 
 
 def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedShape]:
@@ -153,33 +169,36 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     yield Progress("Surface", 0.0)
     if isinstance(shape, PointCloud):
         return (yield from _prepare_cloud(shape, make_caster))
-    mesh = shape.normalized()
+    mesh = yield from within(shape.normalized_in_steps(), 0.0, 0.2)
     nodes = np.arange(mesh.n_polygons)
     frame = shape.center, shape.diagonal
-    yield Progress("Surface", 0.3)
+    yield Progress("Surface", 0.2)
     if flat := flat_mesh(mesh):
         return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
-    yield Progress("Surface", 0.4)
-    shells = find_shells(mesh)
+    edges = yield from within(sort_edges(mesh), 0.2, 0.4)
+    shells = yield from within(find_shells(mesh, edges), 0.4, 0.5)
     single, rows = without_doubles(mesh) if shells.crowded else (mesh, nodes)
-    shells = shells if single is mesh else find_shells(single)
-    yield Progress("Surface", 0.6)
-    turned, notes = oriented(single, shells)
-    yield Progress("Surface", 0.8)
-    targets = set_apart(turned, shells)
+    if single is not mesh:
+        shells = yield from shells_of(single)
+    turned, notes = yield from within(oriented(single, shells), 0.5, 0.6)
+    targets = yield from within(set_apart(turned, shells), 0.6, 0.7)
+    yield from within(targets.normals_in_steps(), 0.7, 0.8)
     if targets is not turned and shells.crowded:  # those that touched are apart now
-        shells = find_shells(targets)
-    mesh = turned if single is mesh else with_doubles(mesh, turned, rows)
+        shells = yield from within(shells_of(targets), 0.8, 0.9)
+    solid = turned if single is mesh else with_doubles(mesh, turned, rows)
+    if solid is not mesh:  # turned triangles have other sides
+        edges = yield from within(sort_edges(solid), 0.8, 0.9)
+    convex = yield from within(is_convex(solid, shells, edges), 0.9, 1.0)
     return PreparedShape(
         *frame,
         targets,
         RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
         len(nodes),
         nodes,
-        lambda: face_graph(mesh),
-        mesh,
+        lambda: face_graph(solid, edges),
+        solid,
         notes,
-        convex=is_convex(mesh, shells),
+        convex=convex,
     )
 
 

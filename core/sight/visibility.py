@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import DecompositionError
 from ..geometry.sampling import Samples, take_samples
-from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps, within
 from .all_pairs import see_all_pairs, see_uniform_pairs
@@ -64,8 +64,8 @@ class Visibility:
         Pairs that psi is counted from (eq. 5), also through containers.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1), through the inside only.
-    transfer : Transfer
-        Converts labels of samples to labels of nodes and back.
+    nodes : (N,) int
+        Node of the shape's graph that each sample lies on.
     """
 
     shape: PreparedShape
@@ -73,7 +73,7 @@ class Visibility:
     affinity: Matrix
     psi_pairs: PairVisibility
     rank_pairs: PairVisibility
-    transfer: Transfer
+    nodes: NDArray[np.int64]
 
 
 def find_lines_of_sight(
@@ -174,23 +174,19 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
         pairs does not fit into memory.
     """
     steps = find_lines_of_sight(shape, _for_size(shape, parameters))
-    sight = yield from within(steps, 0.0, 0.8)
+    sight = yield from within(steps, 0.0, 0.9)
     affinity, psi = sight.affinity_pairs, sight.rank_pairs
     if parameters.containers == "FILLED" and shape.plane is None:
         affinity, psi = yield from within(
             see_through_containers(shape.marcher, sight.samples, affinity, psi),
-            0.8,
             0.9,
+            1.0,
         )
-    yield Progress("Surface", 0.9)
-    graph = shape.graph
-    yield Progress("Surface", 0.95)
-    nodes = shape.targets.polygons[sight.samples.triangles]
     return Visibility(
         shape,
         sight.samples,
         affinity.visible,
         psi,
         sight.rank_pairs,
-        Transfer(sight.samples, nodes, graph),
+        shape.targets.polygons[sight.samples.triangles],
     )

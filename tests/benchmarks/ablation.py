@@ -39,7 +39,7 @@ def of_equal_length(embedding: np.ndarray) -> np.ndarray:
     return embedding / lengths * np.sqrt(len(embedding))
 
 
-def no_sides(_surface: object) -> Iterator[None]:
+def no_sides(*_: object) -> Iterator[None]:
     """Return, as steps, that a shape has no mirror plane."""
     yield from ()
     return ()
@@ -120,7 +120,7 @@ def outcomes(
                     run(decompose_in_steps(mesh, asked, cache))
                     for asked in (settings, given_settings)
                 )
-            samples = full.transfer.to_samples(auto.labels)
+            samples = auto.labels[full.nodes]
             tally = full.psi_pairs.tally(samples, auto.n_parts)
             found.append(
                 Outcome(

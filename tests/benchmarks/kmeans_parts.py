@@ -19,7 +19,7 @@ def clusters(memo: PartMemo, n_clusters: int, parameters: Parameters) -> np.ndar
     coordinates = memo.embedding(n_clusters, parameters)[:, :n_clusters]
     with mock.patch.object(clustering, "_STARTS", STARTS):
         labels = clustering.cluster(coordinates, n_clusters, parameters.seed)
-    return memo.visibility.transfer.to_polygons(labels, n_clusters)
+    return memo.transfer.to_polygons(labels, n_clusters)
 
 
 def connected_clusters(

@@ -4,12 +4,11 @@ import functools
 
 import numpy as np
 import pytest
-from computed import decompose
+from computed import decompose, graph_of
 from hand_made import subdivided_suzanne
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import Decomposition
@@ -99,6 +98,6 @@ def test_a_further_subdivision_does_not_matter():
 
 def test_parts_have_no_specks():
     mesh, found = suzanne(2), reference()
-    surface = face_graph(mesh)
+    surface = graph_of(mesh)
     areas = surface.areas_of(surface.pieces(found.labels, 0.0))
     assert areas.min() >= 0.005 * areas.sum()

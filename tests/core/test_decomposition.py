@@ -3,11 +3,10 @@ import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
-from computed import decompose, parts_of
+from computed import decompose, graph_of, parts_of
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
@@ -19,7 +18,7 @@ def split_up(mesh, **values):
 
 @pytest.mark.parametrize("make", [shapes.comb, shapes.plus, shapes.dumbbell])
 def test_the_figures_agree_with_each_other(decomposed, make):
-    found, surface = decomposed(make), face_graph(make())
+    found, surface = decomposed(make), graph_of(make())
     labels = found.labels
     assert labels.shape == (surface.n_polygons,)
     assert set(labels) == set(range(found.n_parts))

@@ -4,8 +4,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import decompose
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
 
@@ -23,7 +22,7 @@ def same_partition(agreement, found, other, areas, polygons=None):
 @pytest.fixture(scope="module")
 def table():
     mesh = shapes.table()
-    return mesh, face_graph(mesh).areas
+    return mesh, graph_of(mesh).areas
 
 
 SAME = {"max_parts": 6}
@@ -96,7 +95,7 @@ def test_a_crate_of_twelve_triangles_is_a_crate_of_many_quads():
     )
     found = [split_up(mesh, parts=2) for mesh in (coarse, fine)]
     for mesh, decomposition in zip((coarse, fine), found, strict=True):
-        left = face_graph(mesh).centers[:, 0] < 2
+        left = graph_of(mesh).centers[:, 0] < 2
         assert len(set(decomposition.labels[left])) == 1
         assert len(set(decomposition.labels[~left])) == 1
     assert found[0].areas == pytest.approx(found[1].areas)

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 import shapes
-from computed import decompose
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
 
@@ -13,7 +12,7 @@ def split_up(mesh, **values):
 
 def assert_names(agreement, decomposition, mesh, expected, at_least=0.9):
     """Check that parts agree with the labels that anyone would give the polygons."""
-    surface = face_graph(mesh)
+    surface = graph_of(mesh)
     numbers = expected(*surface.centers.T).astype(int)
     assert decomposition.n_parts == numbers.max() + 1
     assert agreement(decomposition.labels, numbers, surface.areas) >= at_least
@@ -59,7 +58,7 @@ def test_an_l_of_two_overlapping_boxes_has_two_arms(agreement):
 
 def tips_of_a_plus(found):
     """Return the part of each tip: at low and high x, at low and high y."""
-    surface = face_graph(shapes.plus())
+    surface = graph_of(shapes.plus())
     x, y, _ = surface.centers.T
     parts = [set(found.labels[tip]) for tip in (x < 2, x > 6, y < 2, y > 6)]
     assert [len(each) for each in parts] == [1] * 4

@@ -3,6 +3,8 @@
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
+from weak_convex_decomposition.core.geometry.connectivity import sort_edges
+from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.shells import find_shells
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.measurement import measure_in_steps
@@ -57,16 +59,26 @@ def parts_of(memo, parameters):
     return run(find_parts(memo, parameters))
 
 
+def graph_of(mesh):
+    """Return the graph of a mesh's polygons."""
+    return run(face_graph(mesh, run(sort_edges(mesh))))
+
+
+def shells_of(mesh):
+    """Return the shells of a mesh."""
+    return run(find_shells(mesh, run(sort_edges(mesh))))
+
+
 def marcher_of(mesh):
     """Return what sends rays through a mesh as it is."""
-    shells = find_shells(mesh)
+    shells = shells_of(mesh)
     return RayMarcher(mesh, BruteCaster, shells.closed[shells.of_triangle])
 
 
 def cut_seams_of(partitioner, memo, parts):
     """Return parts of a partitioner with their seams cut."""
     cutter = SeamCutter(partitioner, memo.cut(partitioner.parameters).seams)
-    return run(cutter.cut(parts))
+    return run(cutter.cut(parts)).parts
 
 
 def search_part_count(memo, parameters, low, high):

@@ -18,7 +18,10 @@ from .attributes import BoolArray, IntArray, read_floats, read_ints
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
     """Return the vertex of each corner, (C,)."""
-    return read_ints(mesh.loops, "vertex_index")
+    corners = mesh.attributes.get(".corner_vert")
+    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_ints(mesh.loops, "vertex_index")
+    return read_ints(corners.data, "value")  # a hundred times faster
 
 
 def triangles_of(
@@ -35,7 +38,9 @@ def triangles_of(
     mesh.calc_loop_triangles()
     return (
         read_floats(mesh.vertices, "co", 3).astype(np.float64),
-        read_ints(mesh.loop_triangles, "vertices", 3).astype(np.int64),
+        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)].astype(
+            np.int64
+        ),
         read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
     )
 

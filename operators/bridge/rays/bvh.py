@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
+import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
 from ....core.geometry.mesh import TriangleMesh
+from ..mesh.attributes import write_floats, write_ints
 
 
 class BvhRayCaster:
@@ -23,19 +23,7 @@ class BvhRayCaster:
     """
 
     def __init__(self, mesh: TriangleMesh) -> None:
-        # Python's garbage collector visits growing numbers of lists repeatedly, but
-        # ignores tuples of numbers: 0.15 instead of 0.5 s for 250,000 triangles.
-        self._polygons = [
-            list(zip(*array.T.tolist(), strict=True))
-            for array in (mesh.vertices, mesh.triangles)
-        ]
-
-    @cached_property
-    def _tree(self) -> BVHTree:
-        """The tree, built at the first ray. It takes half of the set-up time."""
-        tree = BVHTree.FromPolygons(*self._polygons, all_triangles=True)
-        del self._polygons
-        return tree
+        self._tree = _tree_of(mesh)
 
     def first_hit(
         self,
@@ -77,3 +65,27 @@ class BvhRayCaster:
         missed = np.isnan(hits[:, 0])
         triangles = np.where(missed, -1, hits[:, 0]).astype(np.int64)
         return triangles, np.where(missed, np.inf, hits[:, 1])
+
+
+def _tree_of(mesh: TriangleMesh) -> BVHTree:
+    """Return the tree of a mesh.
+
+    `FromPolygons` gives the same tree, but reads a Python object for each number: 1.5
+    instead of 0.6 s for a million triangles, and twice the memory. `FromObject` needs a
+    mesh and an object in the file, which are removed at once.
+    """
+    n_triangles = len(mesh.triangles)
+    data = bpy.data.meshes.new("Ray tree")
+    obj = bpy.data.objects.new("Ray tree", data)
+    try:
+        data.vertices.add(len(mesh.vertices))
+        data.loops.add(3 * n_triangles)
+        data.polygons.add(n_triangles)
+        write_floats(data.attributes["position"].data, "vector", mesh.vertices)
+        write_ints(data.attributes[".corner_vert"].data, "value", mesh.triangles)
+        write_ints(data.polygons, "loop_start", np.arange(0, 3 * n_triangles, 3))
+        graph = bpy.context.evaluated_depsgraph_get()
+        return BVHTree.FromObject(obj, graph, deform=False)
+    finally:
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(data)

@@ -139,9 +139,9 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
     def change(
         _: Shape, memo: core.PartMemo, parts: PresentParts
     ) -> Steps[core.Change]:
-        shape, graph = memo.visibility.shape, memo.visibility.transfer.graph
+        shape = memo.visibility.shape
         nodes = shape.labels_of_nodes(parts.labels)
-        smoothed = yield from core.smooth_seams(graph, nodes, chosen, smoothness)
+        smoothed = yield from core.smooth_seams(shape.graph, nodes, chosen, smoothness)
         return core.Change(smoothed[shape.nodes])
 
     return change
@@ -164,10 +164,10 @@ def mirroring(to_negative: bool) -> MakeChange:
     def change(
         _: Shape, memo: core.PartMemo, parts: PresentParts
     ) -> Steps[core.Change]:
-        shape, graph = memo.visibility.shape, memo.visibility.transfer.graph
+        shape = memo.visibility.shape
         nodes = shape.labels_of_nodes(parts.labels)
         middle = -float(shape.center[0]) / shape.diagonal
-        found = yield from core.mirror(nodes, graph, middle, to_negative)
+        found = yield from core.mirror(nodes, shape.graph, middle, to_negative)
         return replace(found, labels=found.labels[shape.nodes])
 
     return change

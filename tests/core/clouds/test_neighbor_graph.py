@@ -5,11 +5,13 @@ import pytest
 import shapes
 from weak_convex_decomposition.core.clouds.neighbor_graph import neighbor_graph
 from weak_convex_decomposition.core.clouds.splats import areas_of_points
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def surface_on(mesh, n_points=2000):
     points, normals = clouds.drawn(mesh, n_points)
-    return neighbor_graph(points, normals, areas_of_points(points, normals))
+    areas = areas_of_points(points, normals)
+    return run(neighbor_graph(points, normals, areas))
 
 
 def test_a_seam_is_about_as_long_as_the_line_it_follows():

@@ -4,14 +4,17 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from weak_convex_decomposition.core.geometry.connectivity import sort_edges
 from weak_convex_decomposition.core.geometry.convexity import is_convex
 from weak_convex_decomposition.core.geometry.shells import find_shells
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def convex(mesh):
     """Return whether a mesh is convex, once it is normalized."""
     mesh = mesh.normalized()
-    return is_convex(mesh, find_shells(mesh))
+    edges = run(sort_edges(mesh))
+    return run(is_convex(mesh, run(find_shells(mesh, edges)), edges))
 
 
 def dented(mesh, depth, row=0):

@@ -2,7 +2,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from computed import graph_of
 
 
 def bend_at(surface, place):
@@ -19,7 +19,7 @@ def edges_of(surface):
 
 @pytest.mark.parametrize("change", [lambda mesh: mesh, changes.split, changes.refined])
 def test_a_box_has_six_sides_and_twelve_convex_edges(change):
-    surface = face_graph(change(shapes.box()))
+    surface = graph_of(change(shapes.box()))
     assert surface.n_polygons == 6
     assert surface.areas == pytest.approx(np.ones(6))
     assert surface.normals == pytest.approx(2 * (surface.centers - 0.5))
@@ -30,7 +30,7 @@ def test_a_box_has_six_sides_and_twelve_convex_edges(change):
 
 def test_polygons_of_many_corners_count_as_one():
     mesh = shapes.l_prism()
-    surface = face_graph(mesh)
+    surface = graph_of(mesh)
     assert surface.n_polygons == 8
     assert surface.areas[0] == pytest.approx(7)
     assert surface.centers[0] == pytest.approx([9.5 / 7, 9.5 / 7, 1])
@@ -39,7 +39,7 @@ def test_polygons_of_many_corners_count_as_one():
 
 
 def test_bends_tell_creases_from_ridges_and_flats():
-    surface = face_graph(shapes.l_shape())
+    surface = graph_of(shapes.l_shape())
     assert bend_at(surface, [2.25, 2.25, 0.5]) == pytest.approx(np.pi / 2)
     assert bend_at(surface, [6.75, 0.25, 0.5]) == pytest.approx(-np.pi / 2)
     assert bend_at(surface, [1, 4.5, 2]) == pytest.approx(0)
@@ -47,9 +47,9 @@ def test_bends_tell_creases_from_ridges_and_flats():
 
 
 def test_bends_do_not_depend_on_which_neighbor_comes_first():
-    surface = face_graph(shapes.l_shape())
+    surface = graph_of(shapes.l_shape())
     shuffled, polygons = changes.permuted(shapes.l_shape(), 4)
-    other = face_graph(shuffled)
+    other = graph_of(shuffled)
     pairs = polygons[surface.neighbors]
     mine = {frozenset(p): b for p, b in zip(pairs.tolist(), surface.bends, strict=True)}
     for pair, bend in zip(other.neighbors.tolist(), other.bends, strict=True):
@@ -61,7 +61,7 @@ def test_bends_are_the_angle_between_normals(angle):
     for turn in (angle, -angle):
         folded = [[0, 1, 0], [0, 0, 0], [-1, 0, 0], [-1, 1, 0]]
         folded += [[np.cos(turn), 0, np.sin(turn)], [np.cos(turn), 1, np.sin(turn)]]
-        surface = face_graph(shapes.mesh_of(folded, [(0, 3, 2, 1), (0, 1, 4, 5)]))
+        surface = graph_of(shapes.mesh_of(folded, [(0, 3, 2, 1), (0, 1, 4, 5)]))
         assert surface.bends == pytest.approx([turn])
 
 
@@ -69,7 +69,7 @@ def test_polygons_without_area_have_a_place_and_no_normal():
     mesh = shapes.mesh_of(
         [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [(0, 1, 2), (3, 3, 3)]
     )
-    surface = face_graph(mesh)
+    surface = graph_of(mesh)
     assert surface.areas.tolist() == [0.5, 0]
     assert surface.centers[1].tolist() == [5, 5, 5]
     assert surface.normals[1].tolist() == [0, 0, 0]
@@ -77,7 +77,7 @@ def test_polygons_without_area_have_a_place_and_no_normal():
 
 def test_shells_and_pieces_are_connected():
     boxes = shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1)))
-    surface = face_graph(boxes)
+    surface = graph_of(boxes)
     assert surface.shells().tolist() == [0] * 6 + [1] * 6
     labels = np.zeros(12, dtype=int)
     assert surface.pieces(labels, 0.0).tolist() == [0] * 6 + [1] * 6
@@ -88,7 +88,7 @@ def test_shells_and_pieces_are_connected():
 
 
 def test_borders_are_as_long_as_the_edges_between_labels():
-    surface = face_graph(shapes.box(divisions=4))
+    surface = graph_of(shapes.box(divisions=4))
     labels = (surface.centers[:, 0] > 0.5).astype(int)
     labels[surface.centers[:, 0] > 0.9] = 2
     borders = surface.borders(labels, 4).toarray()
@@ -102,7 +102,7 @@ def test_borders_are_as_long_as_the_edges_between_labels():
 
 def test_labels_without_borders_are_alone():
     boxes = shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1)))
-    surface = face_graph(boxes)
+    surface = graph_of(boxes)
     labels = np.array([0] * 3 + [1] * 3 + [2] * 6)
     assert surface.alone(labels, 4).tolist() == [False, False, True, True]
     linked = surface.linked(np.array([[0, 6]]))
@@ -110,14 +110,14 @@ def test_labels_without_borders_are_alone():
 
 
 def test_areas_of_labels():
-    surface = face_graph(shapes.box(divisions=2))
+    surface = graph_of(shapes.box(divisions=2))
     labels = (surface.centers[:, 2] > 0.5).astype(int)
     assert surface.areas_of(labels) == pytest.approx([3, 3])
 
 
 def test_links_connect_what_shares_no_edge():
     boxes = shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1)))
-    surface = face_graph(boxes)
+    surface = graph_of(boxes)
     linked = surface.linked(np.array([[0, 6]]))
     alike = np.zeros(12, dtype=int)
     assert len(set(surface.pieces(alike, 0.0))) == 2
@@ -130,7 +130,7 @@ def test_links_connect_what_shares_no_edge():
 
 def test_a_link_connects_no_speck():
     boxes = shapes.joined(shapes.box(divisions=4), shapes.box((1, 0, 0), (2, 1, 1)))
-    surface = face_graph(boxes)
+    surface = graph_of(boxes)
     labels = (np.arange(surface.n_polygons) >= 96).astype(int)
     beside = int(np.flatnonzero(surface.centers[:, 0] == 1)[0])
     labels[beside] = 1  # one face of the first box goes with the second

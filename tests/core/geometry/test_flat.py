@@ -7,8 +7,7 @@ import flats
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, lines_of_sight, measure
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from computed import decompose, graph_of, lines_of_sight, measure
 from weak_convex_decomposition.core.geometry.flat import flat_mesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
@@ -187,6 +186,6 @@ def test_a_single_face_says_what_it_needs():
 
 def test_samples_on_faces_work():
     found = split_up(COMB, sampling="FACES", sight="CONE", rays=8, parts=5)
-    y = face_graph(COMB).centers[:, 1]
+    y = graph_of(COMB).centers[:, 1]
     assert found.n_parts == 5
     assert len(set(found.labels[y < 0.7])) == 1

@@ -4,13 +4,14 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from computed import shells_of
 from weak_convex_decomposition.core.geometry.orientation import oriented
-from weak_convex_decomposition.core.geometry.shells import find_shells
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def facing_out(mesh):
     """Return the mesh with its own shells oriented, and notes."""
-    return oriented(mesh, find_shells(mesh))
+    return run(oriented(mesh, shells_of(mesh)))
 
 
 def mobius(n_steps=24):

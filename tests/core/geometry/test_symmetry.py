@@ -3,11 +3,15 @@
 import numpy as np
 import pytest
 import shapes
-from computed import decompose
+from computed import decompose, graph_of
 from scipy.spatial.transform import Rotation
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
-from weak_convex_decomposition.core.geometry.symmetry import Plane, find_sides, side_of
+from weak_convex_decomposition.core.geometry.symmetry import (
+    Plane,
+    find_plane,
+    find_sides,
+    side_of,
+)
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -35,12 +39,17 @@ def turned(mesh):
     return TriangleMesh(vertices, mesh.triangles, mesh.polygons)
 
 
+def sides_of(surface):
+    """Return the two sides of a shape's mirror plane."""
+    return run(find_sides(surface, run(find_plane(surface))))
+
+
 @pytest.mark.parametrize("turn", [lambda mesh: mesh, turned])
 def test_both_sides_of_a_symmetric_shape_are_found_however_it_lies(turn):
     mesh = stand()
-    surface = face_graph(turn(mesh).normalized())
-    upright = face_graph(mesh).centers
-    one, other = run(find_sides(surface))
+    surface = graph_of(turn(mesh).normalized())
+    upright = graph_of(mesh).centers
+    one, other = sides_of(surface)
     beside = np.flatnonzero(abs(upright[:, 0] - 4.5) > 1e-6)
     assert sorted([*one.images, *other.images]) == beside.tolist()
     for side in (one, other):
@@ -49,11 +58,11 @@ def test_both_sides_of_a_symmetric_shape_are_found_however_it_lies(turn):
 
 
 def test_a_shape_without_a_mirror_plane_has_no_sides():
-    assert run(find_sides(face_graph(tripod().normalized()))) == ()
+    assert sides_of(graph_of(tripod().normalized())) == ()
 
 
 def test_labels_are_copied_and_parts_across_the_plane_go_on():
-    surface = face_graph(stand())
+    surface = graph_of(stand())
     x, y = surface.centers[:, 0], surface.centers[:, 1]
     side, share = run(side_of(surface, Plane(np.array([1.0, 0, 0]), 4.5), True))
     assert share == 1.0
@@ -72,7 +81,7 @@ def test_parts_of_a_symmetric_shape_are_symmetric(turn, seed):
     mesh = turn(stand())
     parameters = Parameters(samples=150, max_parts=6, containers="HOLLOW", seed=seed)
     found = decompose(mesh, parameters)
-    side, _ = run(find_sides(face_graph(mesh.normalized())))
+    side, _ = sides_of(graph_of(mesh.normalized()))
     ends = found.labels[side.sources], found.labels[side.images]
     images = set(zip(*(end.tolist() for end in ends), strict=True))
     # Each part has one image, another one or itself.

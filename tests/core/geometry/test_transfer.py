@@ -2,15 +2,16 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from computed import graph_of
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
-from weak_convex_decomposition.core.geometry.transfer import Transfer
+from weak_convex_decomposition.core.geometry.transfer import carry as transfer_in_steps
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def carry(mesh, n_samples=300, seed=0):
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
     polygons = mesh.polygons[samples.triangles]
-    return samples, Transfer(samples, polygons, face_graph(mesh))
+    return samples, run(transfer_in_steps(samples, polygons, graph_of(mesh)))
 
 
 def test_the_says_of_samples_sum_to_one():

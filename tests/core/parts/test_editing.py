@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 import shapes
+from computed import graph_of
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.parts.editing import compacted, give, merge, mirror
 from weak_convex_decomposition.core.parts.seam_smoothing import smooth_seams
 from weak_convex_decomposition.core.steps.progress import run
 
 
 def normalized(mesh):
-    return face_graph(mesh.normalized())
+    return graph_of(mesh.normalized())
 
 
 def seam(surface, labels):

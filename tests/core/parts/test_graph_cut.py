@@ -3,7 +3,8 @@ from itertools import product
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.geometry.face_graph import FaceGraph, face_graph
+from computed import graph_of as graph_of_mesh
+from weak_convex_decomposition.core.geometry.face_graph import FaceGraph
 from weak_convex_decomposition.core.parts import graph_cut
 from weak_convex_decomposition.core.parts.graph_cut import cut_seams, distances_to_parts
 from weak_convex_decomposition.core.steps.progress import run
@@ -135,7 +136,7 @@ def test_one_label_and_no_edges_are_left_alone():
 
 def test_a_wandering_seam_moves_into_the_crease():
     """The seam wanders along a bar between two cubes, with creases at its ends."""
-    surface = face_graph(shapes.dumbbell())
+    surface = graph_of_mesh(shapes.dumbbell())
     x, y, z = surface.centers.T
     labels = (x > np.where((y + z) % 2 < 1, 4, 5)).astype(int)
     # The samples of the bar are undecided, those of the cubes are not.

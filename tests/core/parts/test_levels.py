@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, parts_of, prepare
+from computed import decompose, graph_of, parts_of, prepare
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.describe import describe
 from weak_convex_decomposition.core.sight.visibility import find_lines_of_sight
@@ -30,7 +29,7 @@ def split(mesh, members, **values):
 @pytest.fixture(scope="module")
 def hand():
     mesh = hand_on_a_wall()
-    surface = face_graph(mesh)
+    surface = graph_of(mesh)
     return mesh, surface, surface.centers[:, 1] > 3
 
 
@@ -54,7 +53,7 @@ def hand_on_a_cliff():
     mesh = shapes.blocks(
         (10, 11, 5), ((0, 10), (0, 5), (0, 5)), ((0, 5), (5, 7), (0, 1)), *fingers
     )
-    return mesh, face_graph(mesh).centers[:, 1] > 8
+    return mesh, graph_of(mesh).centers[:, 1] > 8
 
 
 def parts_by_levels(mesh, **values):
@@ -64,7 +63,7 @@ def parts_by_levels(mesh, **values):
 
 def test_fingers_of_a_large_body_come_apart_at_the_second_level():
     mesh, tips = hand_on_a_cliff()
-    columns = face_graph(mesh).centers[tips][:, 0] // 2
+    columns = graph_of(mesh).centers[tips][:, 0] // 2
     one, two = (parts_by_levels(mesh, levels=n) for n in (1, 2))
 
     def parts_of_tips(found):
@@ -108,7 +107,7 @@ def test_a_convex_part_stays_whole_by_psi_and_splits_on_demand(hand):
 def test_lines_of_sight_of_a_part_run_through_the_whole_shape():
     # The ends of a bar see each other through its middle, which is not of the part.
     bar = shapes.blocks((9, 2, 2), ((0, 9), (0, 2), (0, 2)))
-    x = face_graph(bar).centers[:, 0]
+    x = graph_of(bar).centers[:, 0]
     ends = prepare(bar).part((x < 1.1) | (x > 7.9))
     sight = run(find_lines_of_sight(ends, Parameters(**SETTINGS)))
     assert sight.rank_pairs.rank_of_all()[0] > 0.99
@@ -116,7 +115,7 @@ def test_lines_of_sight_of_a_part_run_through_the_whole_shape():
 
 def test_a_part_without_area_is_refused_with_a_sentence():
     flat = shapes.sheet(6)
-    x, y = face_graph(flat).centers[:, :2].T
+    x, y = graph_of(flat).centers[:, :2].T
     inner = (abs(x - 0.5) < 0.3) & (abs(y - 0.5) < 0.3)
     with pytest.raises(DecompositionError, match="no area that samples could lie on"):
         split(flat, inner)

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from computed import graph_of
 from weak_convex_decomposition.core.parts.merging import connected_parts, merge_to
 from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 
-BOX = face_graph(shapes.box(divisions=4))
+BOX = graph_of(shapes.box(divisions=4))
 LEFT = BOX.centers[:, 0] < 0.5
 
 
@@ -59,7 +59,7 @@ def test_a_small_shell_of_its_own_joins_the_nearest_part():
         shapes.box((4, 0, 0), (5, 1, 1)),
         shapes.box((3.7, 0.4, 0.4), (3.8, 0.5, 0.5)),
     )
-    parts = connected_parts(face_graph(mesh), np.zeros(18, dtype=int), 0.5)
+    parts = connected_parts(graph_of(mesh), np.zeros(18, dtype=int), 0.5)
     assert_numbered(parts)
     assert parts.max() == 1
     assert (parts[12:] == parts[6]).all()
@@ -113,7 +113,7 @@ def test_a_merged_part_touches_what_its_halves_touched(tally):
 
 def test_scattered_specks_of_a_label_stay_together():
     boxes = [shapes.box((9 * i, 0, 0), (9 * i + 1, 1, 1)) for i in range(8)]
-    surface = face_graph(shapes.joined(*boxes))
+    surface = graph_of(shapes.joined(*boxes))
     labels = np.repeat([0, 1], 24)
     parts = connected_parts(surface, labels, smallest_area=7.0)
     assert parts.tolist() == labels.tolist()

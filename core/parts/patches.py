@@ -1,0 +1,212 @@
+"""Patches: small connected groups of polygons that stand for a large mesh.
+
+Parts of a mesh of millions of polygons are searched on some 20,000 patches, so that
+the time of the search does not depend on the mesh. Only the polygons along the seams
+count on their own again, when the seams are cut.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.connectivity import components
+from ..geometry.face_graph import CREASE, FaceGraph
+from ..geometry.frames import unit
+from ..steps.progress import Progress, Steps, within
+
+# Most polygons that are their own patches. More are grouped into half as many patches.
+MOST_NODES = 40_000
+# Edges with a larger angle, in radians, are borders of patches.
+_SHARP = 0.7
+# A patch with less than this share of the mean area joins a neighbor, even across a
+# sharp edge.
+_LEAST_SHARE = 0.3
+# Weight of a sharp edge in the choice of that neighbor.
+_SHARP_WEIGHT = 0.01
+# Rounds in which small patches join neighbors.
+_ROUNDS = 4
+# Cells get numbers by these factors. Only cells beside each other are compared.
+_CELL_NUMBERS = (1, 1 << 21, 1 << 42)
+
+
+@dataclass(frozen=True, eq=False)
+class Patches:
+    """The nodes of a graph in patches.
+
+    Attributes
+    ----------
+    fine : FaceGraph
+        Graph of the P nodes.
+    coarse : FaceGraph
+        Graph of the patches.
+    of_nodes : (P,) int
+        Patch of each node.
+    """
+
+    fine: FaceGraph
+    coarse: FaceGraph
+    of_nodes: NDArray[np.int64]
+
+    def opened(self, chosen: NDArray[np.bool_]) -> tuple[FaceGraph, NDArray[np.int64]]:
+        """Return the graph in which the nodes of some patches count on their own.
+
+        Parameters
+        ----------
+        chosen : (G,) bool
+            The patches to open.
+
+        Returns
+        -------
+        graph : FaceGraph
+            First the other patches in their order, then the nodes of the chosen ones.
+        places : (P,) int
+            Place of each of the P nodes in that graph.
+        """
+        patches = np.flatnonzero(~chosen)
+        free = chosen[self.of_nodes]
+        nodes = np.flatnonzero(free)
+        places = (np.cumsum(~chosen) - 1)[self.of_nodes]
+        places[nodes] = len(patches) + np.arange(len(nodes))
+        beside = free[self.fine.neighbors].any(axis=1)
+        fine, coarse = self.fine, self.coarse.part(patches)
+        graph = FaceGraph(
+            np.concatenate([coarse.areas, fine.areas[nodes]]),
+            np.concatenate([coarse.centers, fine.centers[nodes]]),
+            np.concatenate([coarse.normals, fine.normals[nodes]]),
+            np.concatenate([coarse.neighbors, places[fine.neighbors[beside]]]),
+            np.concatenate([coarse.lengths, fine.lengths[beside]]),
+            np.concatenate([coarse.bends, fine.bends[beside]]),
+            outline=None
+            if coarse.outline is None or fine.outline is None
+            else np.concatenate([coarse.outline, fine.outline[nodes]]),
+        )
+        return graph, places
+
+
+def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
+    """Group the nodes of a graph into connected patches of about equal area.
+
+    Space is divided into cubes. The nodes in a cube that are connected without a sharp
+    edge are a patch, and small patches join a neighbor. There is no randomness.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Without links.
+    n_patches : int
+        Wanted number of patches. There are more if many nodes are not connected.
+
+    Returns
+    -------
+    Steps of Patches
+    """
+    yield Progress("Patches", 0.0)
+    area = graph.areas.sum() / n_patches
+    # A mirror plane through the origin halves cubes, so that patches are symmetric.
+    cells = np.round(graph.centers / np.sqrt(area)).astype(np.int64) @ _CELL_NUMBERS
+    yield Progress("Patches", 0.2)
+    inside = cells[graph.neighbors[:, 0]] == cells[graph.neighbors[:, 1]]
+    smooth = np.abs(graph.bends) <= _SHARP
+    yield Progress("Patches", 0.4)
+    steps = components(graph.neighbors[inside & smooth], graph.n_polygons)
+    patches = yield from within(steps, 0.4, 0.6)
+    crossing = np.flatnonzero(
+        patches[graph.neighbors[:, 0]] != patches[graph.neighbors[:, 1]]
+    )
+    pairs, inside = patches[graph.neighbors[crossing]], inside[crossing]
+    weights = graph.lengths[crossing] * np.where(smooth[crossing], 1.0, _SHARP_WEIGHT)
+    yield Progress("Patches", 0.7)
+    areas = graph.areas_of(patches)
+    # Where every edge is sharp, as on noisy surfaces, small patches of a cube are one.
+    small = areas < _LEAST_SHARE * area
+    specks = pairs[inside & small[pairs].all(axis=1)]
+    groups = yield from within(components(specks, len(areas)), 0.7, 0.8)
+    for turn in range(_ROUNDS):
+        done = 0.8 + 0.1 * turn / _ROUNDS
+        yield Progress("Patches", done)
+        joins = _joins(groups[pairs], weights, np.bincount(groups, areas) / area)
+        n_groups = int(groups.max()) + 1
+        parents = yield from within(components(joins, n_groups), done, done)
+        groups = parents[groups]
+    patches = groups[patches]
+    yield Progress("Patches", 0.9)
+    return Patches(graph, contracted(graph, patches), patches)
+
+
+def _joins(
+    pairs: NDArray[np.int64],
+    weights: NDArray[np.float64],
+    areas: NDArray[Any],
+) -> NDArray[np.int64]:
+    """Return small patches and the neighbors that they join, (J, 2).
+
+    It is the larger neighbor with the longest common border. `areas` are shares of the
+    mean area.
+    """
+    n_patches = len(areas)
+    places = np.argsort(np.argsort(-areas, kind="stable"))
+    tiny = areas < _LEAST_SHARE
+    both = np.concatenate([pairs, pairs[:, ::-1]])
+    wanted = tiny[both[:, 0]] & (places[both[:, 1]] < places[both[:, 0]])
+    keys, owners = np.unique(both[wanted] @ (n_patches, 1), return_inverse=True)
+    lengths = np.bincount(owners.reshape(-1), np.tile(weights, 2)[wanted], len(keys))
+    small, others = np.divmod(keys, n_patches)
+    order = np.lexsort([others, -lengths, small])
+    first = order[np.diff(small[order], prepend=-1) > 0]
+    return np.stack([small[first], others[first]], axis=1)
+
+
+def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> FaceGraph:
+    """Return the graph of groups of nodes, without links.
+
+    Between two groups there is one edge. It is as long as all edges between their
+    nodes, and a seam along it costs as much.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    groups : (P,) int
+        Group of each node, in 0…G − 1, each used.
+
+    Returns
+    -------
+    FaceGraph
+    """
+    areas, counts = graph.areas_of(groups), np.bincount(groups)
+    empty = (areas == 0)[groups]
+    weights = np.where(empty, 1.0, graph.areas)
+    totals = np.where(areas == 0, counts, areas)[:, None]
+    n_groups = len(areas)
+    pairs = groups[graph.neighbors]
+    crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
+    keys = np.sort(pairs[crossing], axis=1) @ (n_groups, 1)
+    keys, edges = np.unique(keys, return_inverse=True)
+    lengths = np.bincount(edges.reshape(-1), graph.lengths[crossing], len(keys))
+    costs = np.bincount(edges.reshape(-1), graph.seam_costs[crossing], len(keys))
+    shares = np.divide(costs, lengths, out=np.ones(len(keys)), where=lengths > 0)
+    return FaceGraph(
+        areas,
+        _sums(groups, weights, graph.centers) / totals,
+        unit(_sums(groups, weights, graph.normals)),
+        np.stack(np.divmod(keys, n_groups), axis=1),
+        lengths.astype(np.float64),
+        -np.log(np.maximum(shares, np.finfo(float).tiny)) / CREASE,
+        outline=None
+        if graph.outline is None
+        else np.bincount(groups, graph.outline).astype(np.float64),
+    )
+
+
+def _sums(
+    groups: NDArray[np.int64],
+    weights: NDArray[np.float64],
+    vectors: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return the weighted sum of the vectors of each group, (G, 3)."""
+    return np.stack(
+        [np.bincount(groups, weights * column) for column in vectors.T], axis=1
+    )
