@@ -43,7 +43,8 @@ def group_samples(
         Each group itself, and the groups nearest to it.
     """
     positions = samples.positions / diagonal
-    places = with_normals(positions, samples.normals, _WEIGHT_OF_NORMALS)
+    # Rounded, or NumPy's version would decide between sides of equal length.
+    places = with_normals(positions, samples.normals, _WEIGHT_OF_NORMALS).round(6)
     groups = _halved(places, min(n_groups, len(places)))
     for _ in range(_ROUNDS):
         groups = cKDTree(_centers(places, groups)).query(places)[1]

@@ -50,6 +50,7 @@ CONE = {"sight": "CONE", "samples": 3000}
 # What each line changes of the parameters.
 CHANGES: dict[str, dict[str, object]] = {
     FULL: {},
+    "all pairs of samples": {"sight": "ALL_PAIRS"},
     "cone sight": CONE,
     "cone sight, psi from ray hits": {**CONE, "psi_pairs": "RAYS"},
     "containers hollow": {"containers": "HOLLOW"},
