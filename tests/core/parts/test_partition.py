@@ -123,7 +123,7 @@ def test_psi_is_that_of_the_labels_of_the_samples(seen):
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 def test_the_search_returns_the_parts_of_largest_psi(seen, make):
     found, partitioner = search_part_count(seen(make), PARAMETERS, 2, 6)
-    parts, psi_by_k = found.parts, found.psi_by_k
+    parts, psi_by_k = found.seams.parts, found.psi_by_k
     assert list(psi_by_k) == [1, 2, 3, 4, 5, 6]
     # Fewer parts may be preferred where psi hardly differs.
     best = max(psi_by_k.values())
@@ -141,7 +141,7 @@ def shaft():
 
 def test_the_search_takes_no_k_for_which_loose_clusters_are_better(seen):
     found, partitioner = search_part_count(seen(shaft), PARAMETERS, 2, 6)
-    parts, psi_by_k = found.parts, found.psi_by_k
+    parts, psi_by_k = found.seams.parts, found.psi_by_k
     # Three parts would do, had both ends of the shaft not been one of three clusters.
     assert psi_by_k[3] == max(psi_by_k.values())
     assert partitioner.psi_of_clusters(3) > psi_by_k[3] + 0.01
@@ -156,24 +156,24 @@ def test_psi_of_clusters_is_that_of_any_labels(seen):
 
 def test_the_search_keeps_to_its_range(seen):
     found, _ = search_part_count(seen(shapes.comb), PARAMETERS, 2, 3)
-    parts, psi_by_k = found.parts, found.psi_by_k
+    parts, psi_by_k = found.seams.parts, found.psi_by_k
     assert set(psi_by_k) == {1, 2, 3}
     assert count_parts(parts) == 3
     found, _ = search_part_count(seen(shapes.comb), PARAMETERS, 7, 7)
-    parts, psi_by_k = found.parts, found.psi_by_k
+    parts, psi_by_k = found.seams.parts, found.psi_by_k
     assert set(psi_by_k) == {1, 7}
     assert count_parts(parts) == 7
 
 
 def test_the_search_ends_where_the_shape_has_no_more_parts(seen):
     found, _ = search_part_count(seen(shapes.l_prism), PARAMETERS, 2, 256)
-    parts, psi_by_k = found.parts, found.psi_by_k
+    parts, psi_by_k = found.seams.parts, found.psi_by_k
     assert max(psi_by_k) <= 8
     assert count_parts(parts) == 2
 
 
 def test_one_part_stays_when_no_more_gain_anything(seen):
     found, _ = search_part_count(seen(shapes.box), PARAMETERS, 2, 5)
-    parts, psi_by_k = found.parts, found.psi_by_k
+    parts, psi_by_k = found.seams.parts, found.psi_by_k
     assert count_parts(parts) == 1
     assert psi_by_k[1] == 1.0
