@@ -1,0 +1,96 @@
+"""Seconds and memory of a decomposition against the number of triangles.
+
+    PYTHONPATH=tests/support python docs/figures/growth.py
+
+A lumpy ring of quads, from 4,000 to 4,000,000 triangles, each in a process of its own.
+Seconds are of the processor, after imports, without Blender's reading and writing. The
+longest step is what a window waits for at once. More triangles: `--triangles 10000000`.
+"""
+
+import argparse
+import resource
+import subprocess
+import sys
+import time
+
+import bpy  # noqa: F401  # the ray caster needs Blender
+import checkout  # noqa: F401  # makes the package importable
+import numpy as np
+from weak_convex_decomposition import TriangleMesh
+from weak_convex_decomposition.core.cache import ShapeCache
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
+
+SIZES = (4_000, 16_000, 64_000, 250_000, 1_000_000, 4_000_000)
+# Stages that have a column; all others are counted together as the parts.
+STAGES = ("Surface", "Ray tree", "Lines of sight")
+
+
+def lumpy_ring(n_triangles: int) -> TriangleMesh:
+    """Return a closed surface of quads with about so many triangles."""
+    n_across = int(np.sqrt(n_triangles / 8))
+    n_along = 4 * n_across
+    along, across = np.meshgrid(
+        2 * np.pi * np.arange(n_along) / n_along,
+        2 * np.pi * np.arange(n_across) / n_across,
+        indexing="ij",
+    )
+    radii = 0.4 + 0.15 * np.sin(5 * along) + 0.05 * np.sin(3 * across + along)
+    reach = 1 + radii * np.cos(across)
+    points = np.stack(
+        [reach * np.cos(along), reach * np.sin(along), radii * np.sin(across)], axis=-1
+    )
+    a = np.arange(n_along * n_across).reshape(n_along, n_across)
+    b, d = np.roll(a, -1, axis=0), np.roll(a, -1, axis=1)
+    quads = np.stack([a, b, np.roll(b, -1, axis=1), d], axis=-1).reshape(-1, 4)
+    triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return TriangleMesh(
+        points.reshape(-1, 3), triangles, np.repeat(np.arange(len(quads)), 2)
+    )
+
+
+def measure(n_triangles: int) -> None:
+    """Print a row of the table: one decomposition, by stage."""
+    run(decompose_in_steps(lumpy_ring(400), Parameters(samples=100), new_cache()))
+    mesh, seconds = lumpy_ring(n_triangles), dict.fromkeys((*STAGES, "Parts"), 0.0)
+    stage, before, longest = "Surface", time.process_time(), 0.0
+    for progress in decompose_in_steps(mesh, Parameters(), new_cache()):
+        now = time.process_time()
+        seconds[stage] += now - before
+        longest = max(longest, now - before)
+        stage = progress.stage if progress.stage in STAGES else "Parts"
+        before = now
+    seconds[stage] += time.process_time() - before
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    columns = "".join(f"{seconds[name]:15.2f}" for name in seconds)
+    total = sum(seconds.values())
+    row = f"{len(mesh.triangles):11,}{total:9.2f}{columns}{longest:9.2f}{peak:9.0f}"
+    sys.stdout.write(f"{row}\n")
+
+
+def new_cache() -> ShapeCache:
+    """Return an empty cache."""
+    return ShapeCache(BvhRayCaster)
+
+
+def main() -> int:
+    """Measure each size in a process of its own, and print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--triangles", type=int, nargs="*", default=SIZES)
+    parser.add_argument("--one", type=int, help="measure one size in this process")
+    arguments = parser.parse_args()
+    if arguments.one:
+        measure(arguments.one)
+        return 0
+    names = "".join(f"{name:>15}" for name in (*STAGES, "Parts"))
+    sys.stdout.write(f"{'triangles':>11}{'seconds':>9}{names}{'longest':>9}{'MB':>9}\n")
+    sys.stdout.flush()
+    for size in arguments.triangles:
+        subprocess.run([sys.executable, __file__, "--one", str(size)], check=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
