@@ -12,6 +12,8 @@ from .geometry.shape import Shape
 from .parameters.parts import Parameters
 from .parts.find import find_parts
 from .parts.levels import with_pieces
+from .parts.pairs import mirror_pairs
+from .parts.part_memo import PartMemo
 from .results import Decomposition
 from .sight.prepared import PreparedShape
 from .steps.progress import Steps, within, within_turn
@@ -71,7 +73,12 @@ def decompose_in_steps(
         splitting = within_turn(_split_each(parts, parameters, cache), level, n_more)
         pieces = yield from within(splitting, done, 1.0)
         found, latest = with_pieces(memo.visibility, found, pieces, parameters)
-    return found
+    return found if members is not None else (yield from _with_pairs(memo, found))
+
+
+def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:
+    """Return parts with the pairs among them that are mirror images of each other."""
+    return replace(found, pairs=(yield from mirror_pairs(memo, found.labels)))
 
 
 def _split_each(

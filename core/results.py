@@ -38,6 +38,9 @@ class Decomposition:
         Sentences to the user.
     normals : (P, 3) float or None
         Outward unit normals of a point cloud, if they had to be found or corrected.
+    pairs : tuple of (int, int)
+        Parts that are each other's mirror image across X: the one at larger X, then
+        the other.
 
     Examples
     --------
@@ -58,6 +61,7 @@ class Decomposition:
     best_k: int
     notes: tuple[str, ...]
     normals: NDArray[np.float64] | None = None
+    pairs: tuple[tuple[int, int], ...] = ()
 
     @property
     def n_parts(self) -> int:

@@ -10,9 +10,9 @@ import bpy
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ...bridge.mesh.points import is_cloud
-from ...bridge.parts.write import write_parts
 from ...bridge.stored.record import record_of
-from ...bridge.work.computing import decompose_object, summary
+from ...bridge.work.computing import summary
+from ...bridge.work.locking import decompose_unlocked
 from ..screen import Screen
 from .results import ObjectResult
 
@@ -55,8 +55,9 @@ def _decompose(
     """Decompose one object and write its parts to it."""
     started = time.perf_counter()
     try:
-        found = screen.follow(title, decompose_object(obj, parameters))
-        write_parts(obj, found, parameters)
+        edited = screen.follow(title, decompose_unlocked(obj, parameters))
+        edited.write(obj)
+        found = edited.decomposition
     except DecompositionError as error:
         return ObjectResult(obj.name_full, error=str(error))
     return ObjectResult(

@@ -1,0 +1,42 @@
+"""Bring the parts of an object in step with its faces, without measuring them."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ....core.parameters.parts import Parameters
+from ....core.results import Decomposition
+from ..parts.figures import figures_of
+from ..parts.present_parts import faces_by_hand
+from ..parts.write import write_parts
+from ..stored.record import noted_parameters
+
+
+def bring_in_step(obj: bpy.types.Object) -> None:
+    """Write an object's parts again if some of them share a number, after a join.
+
+    What was not measured together stays unknown until it is.
+    """
+    figures = figures_of(obj)
+    if figures is None or figures.found.in_step:
+        return
+    counts, areas = (
+        figures.measured_on[:, 0].astype(np.int64),
+        figures.measured_on[:, 1],
+    )
+    parameters = noted_parameters(obj) or Parameters()
+    unknown = float("nan")
+    decomposition = Decomposition(
+        labels=figures.found.labels,
+        areas=areas,
+        face_counts=counts,
+        ranks=figures.ranks,
+        psi_before=unknown,
+        psi=unknown,
+        psi_by_k={},
+        best_k=len(counts),
+        notes=(),
+    )
+    by_hand = faces_by_hand(obj, len(figures.found.labels))
+    write_parts(obj, decomposition, parameters, figures.identities, by_hand)
