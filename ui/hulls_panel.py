@@ -30,7 +30,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
             "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
         )
         hand_over(settings, button, HULLS)
-        result = result_of(context.active_object).get("hulls")
+        result = result_of(context.active_object).get("hulls", {})
         hulls = hulls_of(context.active_object) if result else []
         if not hulls:
             return

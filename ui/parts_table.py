@@ -40,7 +40,7 @@ class WCD_UL_parts(bpy.types.UIList):
         """Draw a row."""
         figures = shown_figures(obj)
         place = places_of(figures).get(row.number)
-        if place is None:
+        if figures is None or place is None:
             return
         line = layout.row(align=True)
         tick = "CHECKBOX_HLT" if row.chosen else "CHECKBOX_DEHLT"

@@ -28,9 +28,10 @@ def shown_figures(obj: bpy.types.Object | None) -> PartFigures | None:
         return None
     state = obj.session_uid, obj.data.session_uid, obj.mode, obj.get(RESULT)
     now = time.perf_counter()
-    known = not bpy.app.background and _kept is not None and _kept[0] == state
-    if known and (not _changed or now < _kept[1] + _PAUSE):
-        return _kept[2]
+    if _kept is not None and _kept[0] == state and not bpy.app.background:
+        before, latest = _kept[1:]
+        if not _changed or now < before + _PAUSE:
+            return latest
     try:
         figures = figures_of(obj)
     except DecompositionError:  # a property of the user's

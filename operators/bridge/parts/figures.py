@@ -100,7 +100,7 @@ def _faces(
     if is_cloud(obj):
         places = positions_of(obj).astype(np.float64)
         return np.ones(len(places)), places
-    if obj.mode == "EDIT":
+    if obj.data.is_editmode:
         faces = bmesh.from_edit_mesh(obj.data).faces
         areas = np.array([face.calc_area() for face in faces])
         return areas, np.array([face.calc_center_median() for face in faces])

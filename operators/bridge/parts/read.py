@@ -136,7 +136,7 @@ def _numbers(obj: bpy.types.Object) -> IntArray | None:
     if is_cloud(obj):
         return numbers if len(numbers) == count_points(obj) else None
     # It may be from when the mesh was a cloud of points.
-    fits = obj.mode == "EDIT" or len(numbers) == len(obj.data.polygons)
+    fits = obj.data.is_editmode or len(numbers) == len(obj.data.polygons)
     return numbers if fits else None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from operator import attrgetter
 
 import bpy
 import numpy as np
@@ -74,7 +75,9 @@ def write_parts(
     identities = kept or before.continued_by(obj, decomposition)
     decomposition, identities = by_number(decomposition, identities)
     former = erase_parts(obj)
-    everyone = sorted((*identities, *before.asleep(identities)), key=_number)
+    everyone = sorted(
+        (*identities, *before.asleep(identities)), key=attrgetter("number")
+    )
     restore = _write_mesh(obj, decomposition, identities, everyone, before.materials)
     if by_hand is not None and by_hand.any():
         layers = layers_of(obj)
@@ -98,9 +101,8 @@ def _note(
     before: BeforeWriting,
 ) -> None:
     """Write the record and the rows, on all objects that share the mesh."""
-    if restore.groups:  # Blender adds a number to a name that is taken
-        names = dict(zip(map(_number, everyone), restore.groups, strict=True))
-        everyone = [replace(each, name=names[each.number]) for each in everyone]
+    if restore.groups:
+        everyone = _named(everyone, restore.groups)
     here = {each.number for each in identities}
     identities = [each for each in everyone if each.number in here]
     materials = _material_names(obj, [each.number in here for each in everyone])
@@ -128,10 +130,6 @@ def _write_points(
     paint_points(obj, decomposition.labels, identities)
     if decomposition.normals is not None:
         set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
-
-
-def _number(identity: Identity) -> int:
-    return identity.number
 
 
 def _material_names(obj: bpy.types.Object, here: Sequence[bool]) -> list[str]:
@@ -180,6 +178,7 @@ def _write_mesh(
     groups = []
     if obj.type == "MESH":  # point cloud objects have no groups
         groups = _add_groups(obj, everyone, active_group)
+        everyone = _named(everyone, groups)
     for material in _materials(obj, everyone, sources, slots):
         mesh.materials.append(material)
     obj.active_material_index = active_slot
@@ -192,7 +191,8 @@ def _write_mesh(
     layers.set_material_indices(
         (places[decomposition.labels] + len(slots)).astype(np.int32)
     )
-    members = _vertices_by_part(obj, decomposition.labels, len(identities))
+    labels = decomposition.labels.astype(np.int32)
+    members = _vertices_by_part(obj, labels, len(identities))
     for place, vertices in zip(
         places.tolist() if groups else (), members, strict=False
     ):
@@ -217,6 +217,12 @@ def _add_groups(
     names = [groups.new(name=identity.name).name for identity in identities]
     groups.active_index = groups[active].index if active else 0
     return names
+
+
+def _named(identities: Sequence[Identity], groups: Sequence[str]) -> list[Identity]:
+    """Return identities with their groups' names: taken names get a number."""
+    both = zip(identities, groups, strict=True)
+    return [replace(each, name=group) for each, group in both]
 
 
 def _materials(

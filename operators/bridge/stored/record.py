@@ -105,6 +105,8 @@ def write_result(
     }
     if past:
         result[PAST] = past
+        for identity in identities:
+            change_entries(result, identity.number, {"name": identity.name})
     beside = _beside_parts(obj)
     for hull in beside.get(_HULLS, {}).get("hulls", ()):
         hull["part"] = None  # it is around a former part
