@@ -8,6 +8,7 @@ from hand_made import in_mode
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
+from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
 
 FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
 NUMBERS = st.integers(0, 5)
@@ -48,10 +49,9 @@ class RestlessArtist(RuleBasedStateMachine):
     def body(self, number):
         """Return an object, made the active one, in the mode that is on."""
         there = bodies()
-        if not there:
-            self.object_mode()
-            return bone()
         active = bpy.context.view_layer.objects.active
+        if not there:
+            return bone()
         if active in there and active.mode == "EDIT":
             return active
         obj = there[number % len(there)]
@@ -183,8 +183,7 @@ class RestlessArtist(RuleBasedStateMachine):
         """Undo or redo as in Object Mode: all of the file."""
         self.kept = []
         operator = bpy.ops.ed.redo if redo else bpy.ops.ed.undo
-        if operator.poll():
-            attempt(operator)
+        attempt(operator)
 
     def remember(self, obj):
         """Keep the mesh as Edit Mode's undo does: nothing else comes back with it."""
@@ -206,6 +205,7 @@ class RestlessArtist(RuleBasedStateMachine):
         bm.clear()
         bm.from_mesh(mesh)
         bmesh.update_edit_mesh(active.data)
+        bring_back_record(active)
 
     @rule()
     def save_and_reload(self):
@@ -235,7 +235,7 @@ class RestlessArtist(RuleBasedStateMachine):
             check_body(obj)
 
     def teardown(self):
-        """Clear all, after which nothing of ours is left on the objects."""
+        """Clear all, after which nothing of ours is left."""
         if not hasattr(self, "kept"):
             return
         self.object_mode()

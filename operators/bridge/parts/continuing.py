@@ -55,7 +55,7 @@ class BeforeWriting:
     def of(cls, obj: bpy.types.Object) -> BeforeWriting:
         """Return what an object has of parts."""
         record, found = record_of(obj), find_parts_on(obj)
-        in_edit_mode = obj.mode == "EDIT" and "by_number" in record
+        in_edit_mode = obj.mode == "EDIT" and "parts" in record
         materials: dict[int, bpy.types.Material | None] = {}
         if not is_cloud(obj):
             slots = part_slots(obj.data)

@@ -145,13 +145,7 @@ def _noted(obj: bpy.types.Object) -> dict[int, Identity]:
 
     A color that the user gave to the material counts.
     """
-    record = record_of(obj)
-    identities = identities_of(record)
-    # Older versions of the extension wrote the place of a part, not its number.
-    noted = {
-        each.number if record.get("by_number") else place: each
-        for place, each in enumerate(identities)
-    }
+    noted = {each.number: each for each in identities_of(record_of(obj))}
     if is_cloud(obj):
         return noted
     for number, (slot, *_) in part_slots(obj.data).items():

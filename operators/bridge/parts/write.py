@@ -80,9 +80,7 @@ def write_parts(
     )
     restore = _write_mesh(obj, decomposition, identities, everyone, before.materials)
     if by_hand is not None and by_hand.any():
-        layers = layers_of(obj)
-        layers.set_faces(HAND_LAYER, by_hand.astype(np.int32))
-        layers.finish()
+        layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
     if is_cloud(obj):
         _write_points(obj, decomposition, identities)
     write_restore(obj.data, restore)

@@ -92,7 +92,6 @@ def write_result(
     """
     result = {
         "version": version(),
-        "by_number": True,  # the attribute holds numbers of parts, not places
         "parameters": asdict(parameters),
         "seed": parameters.seed,
         "k": decomposition.n_parts,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..parts.palette import part_color
 from .identity import Identity
 
 # What a record was before the edits of Edit Mode, the latest first.
@@ -45,7 +44,7 @@ def entries_of(record: dict[str, Any], number: int) -> list[dict[str, Any]]:
         entry
         for version in versions_of(record)
         for entry in version.get("parts", ())
-        if entry.get("number") == number
+        if entry["number"] == number
     ]
 
 
@@ -61,11 +60,10 @@ def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
     """Return who the parts of a record are, in its order; then those of its past."""
     entries: dict[int, dict[str, Any]] = {}
     for version in versions_of(record):
-        for place, entry in enumerate(version.get("parts", ())):
-            entries.setdefault(entry.get("number", place), entry)
+        for entry in version.get("parts", ()):
+            entries.setdefault(entry["number"], entry)
     return tuple(
-        # Older versions of the extension did not note colors.
-        Identity(number, each["name"], _color(each.get("color", part_color(number))))
+        Identity(number, each["name"], _color(each["color"]))
         for number, each in entries.items()
     )
 

@@ -4,9 +4,10 @@ import bpy
 import numpy as np
 import pytest
 from edited import FAST, check_in_step, labels_of, parts_of, record_of
-from hand_made import areas, in_mode
+from hand_made import activate, areas, in_mode
 from mathutils import Matrix
 from scipy.optimize import linear_sum_assignment
+from weak_convex_decomposition.operators.bridge.parts.read import part_identities
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
@@ -176,3 +177,24 @@ def test_an_error_says_that_edits_leave_nothing_to_decompose(monkey):
     with pytest.raises(RuntimeError, match=r"locked or edited by hand.*Keep Edits"):
         bpy.ops.wcd.decompose(**FAST)
     assert bpy.ops.wcd.decompose(**FAST, keep_edits=False) == {"FINISHED"}
+
+
+def test_a_linked_duplicate_made_by_a_script_can_be_refreshed(monkey):
+    twin = bpy.data.objects.new("twin", monkey.data)
+    bpy.context.collection.objects.link(twin)
+    assert part_identities(twin) == part_identities(monkey)
+    activate(twin)
+    bpy.ops.wcd.refresh_parts()
+    check_in_step(twin)
+
+
+def test_hulls_that_the_user_deleted_are_not_listed(monkey):
+    from weak_convex_decomposition.ui.sidebar import hulls_of
+
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
+    hulls = [child for child in monkey.children if "wcd_hull" in child]
+    assert len(hulls_of(monkey)) == len(hulls) == 4
+    bpy.data.objects.remove(hulls[0])
+    assert len(hulls_of(monkey)) == 3
+    bpy.ops.wcd.clear()
+    assert not [o for o in bpy.data.objects if "wcd_hull" in o]

@@ -132,5 +132,10 @@ def test_parts_that_came_with_a_joined_object_are_replaced(suzanne):
     bpy.ops.mesh.primitive_cube_add()
     suzanne.select_set(True)
     bpy.ops.object.join()
+    assert bpy.ops.wcd.refresh_parts() == {"FINISHED"}
+    check_in_step(bpy.context.active_object)
     assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
     check_in_step(bpy.context.active_object)
+    bpy.ops.wcd.clear()
+    assert not bpy.context.active_object.vertex_groups
+    assert "wcd_part" not in bpy.context.active_object.data.attributes

@@ -4,7 +4,7 @@ from itertools import permutations
 
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.parts.matching import match_parts
+from weak_convex_decomposition.core.parts.matching import match_parts, settled
 
 
 def kept(before, after, areas, former):
@@ -46,3 +46,24 @@ def test_no_other_matching_keeps_more_area(seed):
         for order in permutations([*range(before.max() + 1), *[-1] * n_after], n_after)
     )
     assert kept(before, after, areas, former) == pytest.approx(most)
+
+
+def test_settled_polygons_go_back_to_the_part_that_continues_theirs():
+    before = np.array([0, 0, 0, 1, 1, 1])
+    after = np.array([1, 1, 1, 1, 0, 0])
+    by_hand = np.array([False] * 3 + [True] + [False] * 2)
+    labels = settled(before, after, np.ones(6), by_hand)
+    assert labels.tolist() == [1, 1, 1, 0, 0, 0]
+
+
+def test_settled_polygons_whose_part_is_gone_stay_a_part():
+    before = np.array([0, 0, 0, 1, 1])
+    after = np.zeros(5, int)
+    by_hand = np.array([False, False, False, True, False])
+    labels = settled(before, after, np.ones(5), by_hand)
+    assert labels.tolist() == [0, 0, 0, 1, 0]
+
+
+def test_if_all_is_settled_nothing_changes():
+    before, after = np.array([0, 1, 1, 2]), np.zeros(4, int)
+    assert settled(before, after, np.ones(4), np.ones(4, bool)).tolist() == [0, 1, 1, 2]
