@@ -69,7 +69,7 @@ class BeforeWriting:
             identities_of(record),
             in_edit_mode,
             past_with(record) if in_edit_mode else [],
-            {each.name: kept_rows(each) for each in sharers(obj.data)},
+            {each.name: kept_rows(each) for each in sharers(obj)},
             materials,
         )
 

@@ -42,7 +42,7 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
         layers.remove(name)
     layers.finish()
     write_restore(mesh, None)
-    for sharer in sharers(mesh):
+    for sharer in sharers(obj):
         forget_parts(sharer)
         erase_rows(sharer)
     return materials
@@ -153,7 +153,7 @@ def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Mate
     # Removing a slot of the mesh does not move the objects' own materials.
     linked = [
         (sharer, [_object_link(slot) for slot in sharer.material_slots])
-        for sharer in sharers(mesh)
+        for sharer in sharers(obj)
     ]
     materials = [mesh.materials[i] for i in ours]
     if len(ours) == len(mesh.materials):

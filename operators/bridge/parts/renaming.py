@@ -68,7 +68,7 @@ def _change(obj: bpy.types.Object, identity: Identity) -> None:
     if slots:
         material = own_material(obj.data, slots[0], identity)
         change["material"] = material.name
-    for sharer in sharers(obj.data):
+    for sharer in sharers(obj):
         change_part(sharer, identity.number, change)
         for row in sharer.wcd_parts:
             if row.number == identity.number and row.name != identity.name:

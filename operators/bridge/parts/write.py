@@ -108,7 +108,7 @@ def _note(
         [float(f"{value:.5g}") for value in row]
         for row in fingerprints(obj, decomposition.labels, len(identities)).tolist()
     ]
-    for sharer in sharers(obj.data):
+    for sharer in sharers(obj):
         write_result(
             sharer,
             decomposition,

@@ -84,9 +84,11 @@ def write_restore(mesh: bpy.types.Mesh, restore: Restore | None) -> None:
     write_note(mesh, RESTORE, asdict(restore) if restore else {})
 
 
-def sharers(mesh: bpy.types.ID) -> list[bpy.types.Object]:
-    """Return the objects that use a mesh and can be changed, by name."""
-    return [obj for obj in bpy.data.objects if obj.data == mesh and obj.is_editable]
+def sharers(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return the objects that use the mesh of an object and can be changed, by name."""
+    if obj.data.users == 1:  # files have thousands of objects
+        return [obj]
+    return [o for o in bpy.data.objects if o.data == obj.data and o.is_editable]
 
 
 def has_parts(obj: bpy.types.Object) -> bool:

@@ -59,7 +59,7 @@ def bring_back_record(obj: bpy.types.Object) -> None:
         for version in past_with(noted)
         if version["parts"] != figures.record["parts"]
     ]
-    for sharer in sharers(obj.data):
+    for sharer in sharers(obj):
         write_record(sharer, {**figures.record, PAST: others})
 
 
