@@ -8,11 +8,12 @@ import bpy
 
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
+from ..stored.names import HULL_TAG
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
 from ..stored.versions import identities_of
 from .face_sets_and_colors import show_colors
-from .materials import color_of, own_material, part_slots
+from .materials import color_of, discard_unused, own_material, part_slots
 from .palette import Color
 
 
@@ -66,10 +67,24 @@ def _change(obj: bpy.types.Object, identity: Identity) -> None:
     slots = [] if is_cloud(obj) else part_slots(obj.data).get(identity.number, [])
     change = {"name": identity.name, "color": list(identity.color)}
     if slots:
+        before = obj.data.materials[slots[0]]
         material = own_material(obj.data, slots[0], identity)
+        _give_hulls(obj, before, material)
         change["material"] = material.name
     for sharer in sharers(obj):
         change_part(sharer, identity.number, change)
         for row in sharer.wcd_parts:
             if row.number == identity.number and row.name != identity.name:
                 row.name = identity.name
+
+
+def _give_hulls(
+    obj: bpy.types.Object, before: bpy.types.Material, material: bpy.types.Material
+) -> None:
+    """Give the hulls of a part its material, in place of the one before."""
+    for child in obj.children if before != material else ():
+        if HULL_TAG in child and before in child.data.materials[:]:
+            child.data.materials[0] = material
+            child.color = material.diffuse_color
+    if before != material:
+        discard_unused([before])

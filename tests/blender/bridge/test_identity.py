@@ -8,6 +8,7 @@ from hand_made import activate, areas, in_mode
 from mathutils import Matrix
 from scipy.optimize import linear_sum_assignment
 from weak_convex_decomposition.operators.bridge.parts.read import part_identities
+from weak_convex_decomposition.ui.sidebar import hulls_of
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
@@ -188,11 +189,13 @@ def test_a_linked_duplicate_made_by_a_script_can_be_refreshed(monkey):
     check_in_step(twin)
 
 
-def test_hulls_that_the_user_deleted_are_not_listed(monkey):
-    from weak_convex_decomposition.ui.sidebar import hulls_of
-
+def test_hulls_follow_colors_and_those_that_the_user_deleted_are_not_listed(monkey):
     bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
-    hulls = [child for child in monkey.children if "wcd_hull" in child]
+    hulls = sorted(monkey.children, key=lambda hull: hull.name)
+    first = next(h for h in hulls if monkey.data.materials[0] in h.data.materials[:])
+    monkey.wcd_parts[0].color = (0.5, 0.25, 0.125)
+    assert first.data.materials[:] == monkey.data.materials[:1]
+    assert tuple(first.color[:3]) == (0.5, 0.25, 0.125)
     assert len(hulls_of(monkey)) == len(hulls) == 4
     bpy.data.objects.remove(hulls[0])
     assert len(hulls_of(monkey)) == 3
