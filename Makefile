@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-ablation \
-  bench-clouds bench-objects bench-speed contact-sheet clean psb venv development
+  bench-clouds bench-objects bench-speed contact-sheet clean psb stress venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -35,6 +35,10 @@ demo: venv ## Decompose Blender's monkey; results in build/demo/
 test: development ## Run all tests that need no window
 	@echo "Testing with $$($(VENV)/bin/python -V) and $$($(VENV)/bin/pip list 2>/dev/null | awk '/^(bpy|numpy|scipy) / {printf "%s %s  ", $$1, $$2}')"
 	@WCD_REQUIRE_BLENDER=1 $(PYTHON_HERE) .tools/run_tests.py $(PYTEST)
+
+stress: development ## Work on objects at random, 10,000 steps: STEPS=number
+	@WCD_REQUIRE_BLENDER=1 WCD_STRESS_STEPS=$(or $(STEPS),10000) $(PYTHON_HERE) -m pytest -q -n0 \
+	  tests/blender/bridge/test_random_edits.py $(PYTEST)
 
 test-window: development ## Drive a Blender that has a window: BLENDER=command that starts it
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }

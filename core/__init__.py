@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from .parts.editing import give as give
     from .parts.editing import merge as merge
     from .parts.editing import mirror as mirror
+    from .parts.matching import match_parts as match_parts
+    from .parts.matching import settled as settled
+    from .parts.pairs import mirror_pairs as mirror_pairs
     from .parts.part_memo import PartMemo as PartMemo
     from .parts.seam_smoothing import smooth_seams as smooth_seams
     from .pictures import draw_picture as draw_picture
@@ -47,7 +50,10 @@ _HOMES = {
     "give": "parts.editing",
     "merge": "parts.editing",
     "mirror": "parts.editing",
+    "match_parts": "parts.matching",
+    "settled": "parts.matching",
     "describe": "parts.describe",
+    "mirror_pairs": "parts.pairs",
     "PartMemo": "parts.part_memo",
     "smooth_seams": "parts.seam_smoothing",
     "draw_picture": "pictures",

@@ -13,6 +13,8 @@ from .parameters.parts import Parameters
 from .parts.convex_whole import as_one_part, stays_whole
 from .parts.find import find_parts
 from .parts.levels import with_pieces
+from .parts.pairs import mirror_pairs
+from .parts.part_memo import PartMemo
 from .results import Decomposition
 from .sight.prepared import PreparedShape
 from .steps.progress import Steps, within, within_turn
@@ -72,7 +74,12 @@ def decompose_in_steps(
         steps = within_turn(_split_each(parts, parameters, cache), level, n_more)
         pieces = yield from within(steps, done, 1.0)
         found, latest = with_pieces(memo.visibility, found, pieces, parameters)
-    return found
+    return found if members is not None else (yield from _with_pairs(memo, found))
+
+
+def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:
+    """Return parts with the pairs among them that are mirror images of each other."""
+    return replace(found, pairs=(yield from mirror_pairs(memo, found.labels)))
 
 
 def _split_each(

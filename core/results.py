@@ -43,6 +43,9 @@ class Decomposition:
         between, and those that took the answer of similar pairs. No pair is inferred
         with All Pairs or Cone for Lines of Sight. Pairs that do not face each other
         through the inside are hidden, and count in neither number.
+    pairs : tuple of (int, int)
+        Parts that are each other's mirror image across X: the one at larger X, then
+        the other.
 
     Examples
     --------
@@ -65,6 +68,7 @@ class Decomposition:
     normals: NDArray[np.float64] | None = None
     pairs_cast: int = 0
     pairs_inferred: int = 0
+    pairs: tuple[tuple[int, int], ...] = ()
 
     @property
     def n_parts(self) -> int:

@@ -43,7 +43,7 @@ def register() -> None:
 
     from . import settings, show_sight
     from .bridge.parts import rows
-    from .bridge.work import session_cache
+    from .bridge.work import in_step, session_cache
     from .headless import command_line
 
     for cls in _classes():
@@ -51,6 +51,7 @@ def register() -> None:
     settings.register()
     command_line.register()
     session_cache.register()
+    in_step.register()
     show_sight.register()
     rows.register()
 
@@ -61,7 +62,7 @@ def unregister() -> None:
 
     from . import recut, settings, show_sight
     from .bridge.parts import rows
-    from .bridge.work import session_cache
+    from .bridge.work import in_step, session_cache
     from .headless import command_line
     from .running import modal
 
@@ -69,6 +70,7 @@ def unregister() -> None:
     modal.stop()
     rows.unregister()
     show_sight.unregister()
+    in_step.unregister()
     session_cache.unregister()
     command_line.unregister()
     settings.unregister()

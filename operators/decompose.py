@@ -18,7 +18,7 @@ from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running.computation import Computation
 from .running.on_objects import OnEach
-from .settings import ADVANCED, FRONT, draw, parameters_from, properties_for
+from .settings import ADVANCED, FRONT, RUN, draw, parameters_from, properties_for
 
 
 class WCD_OT_decompose(Computation, bpy.types.Operator):
@@ -45,21 +45,22 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings; those at the front of the sidebar come first."""
-        draw(self.layout, self, FRONT)
+        draw(self.layout, self, (*FRONT, "keep_edits"))
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        return decompose_unlocked(carrier_for(obj), parameters_from(self))
+        parameters = parameters_from(self)
+        return decompose_unlocked(carrier_for(obj), parameters, self.keep_edits)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
         value.write(placed_carrier(obj))
         return summary(value.decomposition)
 
 
-WCD_OT_decompose.__annotations__ = properties_for()
+WCD_OT_decompose.__annotations__ = properties_for(RUN)
 
 
 class WCD_OT_clear(OnEach, bpy.types.Operator):

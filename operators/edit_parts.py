@@ -9,8 +9,14 @@ import bpy
 from ..core.errors import DecompositionError
 from ..core.steps.progress import Steps
 from .bridge.mesh.selection import selected_faces
+from .bridge.parts.read import part_identities
 from .bridge.parts.rows import active_part, chosen_parts
-from .bridge.refusals import assign_refusal, edit_refusal, merge_refusal
+from .bridge.refusals import (
+    assign_refusal,
+    decomposed_refusal,
+    edit_refusal,
+    merge_refusal,
+)
 from .bridge.work import edits
 from .bridge.work.run_edit import Edited, edit_object
 from .running.computation import Replacement
@@ -28,7 +34,11 @@ SCOPE = bpy.props.EnumProperty(
 
 def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
     """Return the parts that a `SCOPE` means."""
-    return chosen_parts(obj) if scope == "CHOSEN" else list(range(len(obj.wcd_parts)))
+    return (
+        chosen_parts(obj)
+        if scope == "CHOSEN"
+        else list(range(len(part_identities(obj))))
+    )
 
 
 class _Edit(Replacement):
@@ -59,6 +69,8 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
         chosen, into = chosen_parts(obj), active_part(obj)
+        if len(chosen) < 2:  # other ticked parts have no faces any more
+            raise DecompositionError("Tick two or more parts in the table to merge.")
         change = edits.merging(chosen, into if into in chosen else chosen[0])
         return edit_object(obj, change)
 
@@ -161,10 +173,32 @@ WCD_OT_mirror_parts.__annotations__ = {
     )
 }
 
+
+class WCD_OT_refresh_parts(_Edit, bpy.types.Operator):
+    """Bring the table up to date with the mesh."""
+
+    bl_idname = "wcd.refresh_parts"
+    bl_label = "Refresh Convex Parts"
+    bl_description = (
+        "List the parts that are on the mesh now, and measure them again. Parts of an"
+        " object that was joined to this one get names, groups and materials here"
+    )
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return decomposed_refusal(obj)
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[Edited]:
+        return edit_object(obj, edits.nothing)
+
+
 CLASSES: tuple[Any, ...] = (
     WCD_OT_merge_parts,
     WCD_OT_split_parts,
     WCD_OT_assign_faces,
     WCD_OT_smooth_seams,
     WCD_OT_mirror_parts,
+    WCD_OT_refresh_parts,
 )

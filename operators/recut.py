@@ -46,7 +46,8 @@ class _Recut(Replacement):
             self.report(
                 {"INFO"}, "The shape or its sampling has changed: it is sampled again"
             )
-        return decompose_unlocked(obj, parameters)
+        keep_edits = context.scene.wcd.keep_edits
+        return decompose_unlocked(obj, parameters, keep_edits)
 
 
 class WCD_OT_recut(_Recut, bpy.types.Operator):
@@ -84,7 +85,8 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
             return True
         if not (bpy.app.background or is_quick(obj, parameters)):
             return False
-        job = Job(decompose_unlocked(obj, parameters))
+        keep_edits = context.scene.wcd.keep_edits
+        job = Job(decompose_unlocked(obj, parameters, keep_edits))
         if job.advance(math.inf if bpy.app.background else _MOMENT):
             job.result().write(obj)
         job.cancel()

@@ -21,13 +21,28 @@ ADVANCED = tuple(f.name for f in fields(Parameters) if info_of(f).advanced)
 RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight)
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
+# Settings of runs on objects that have parts; the core does not know of them.
+_OF_RUNS = {
+    "keep_edits": bpy.props.BoolProperty(
+        name="Keep Edits",
+        description=(
+            "A new run keeps what was done by hand: merged and split parts, and the"
+            " faces that were assigned. Locked parts are kept in any case"
+        ),
+        default=True,
+    )
+}
+RUN = (*ALL, *_OF_RUNS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
 
 
 def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
-    """Return parameters as Blender properties, for the annotations of a class."""
-    return {name: _property(_FIELDS[name]) for name in names}
+    """Return settings as Blender properties, for the annotations of a class."""
+    return {
+        name: _OF_RUNS[name] if name in _OF_RUNS else _property(_FIELDS[name])
+        for name in names
+    }
 
 
 def _setting(name: str) -> Any:
@@ -181,6 +196,7 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
+    **_OF_RUNS,
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

@@ -10,6 +10,7 @@ from .bridge.parts.exploding import explode, exploding, implode
 from .bridge.parts.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.parts.separating import replace, separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
+from .bridge.work.in_step import bring_in_step
 from .running.on_objects import OnEach
 
 
@@ -74,6 +75,7 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
     )
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        bring_in_step(obj)
         explode(obj, self.distance)
 
 

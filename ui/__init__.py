@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import menus, sight_drawing
+from . import menus, shown_figures, sight_drawing
 from .chart import WCD_PT_chart
 from .hulls_panel import WCD_PT_hulls
 from .menus import WCD_MT_parts
@@ -30,10 +30,12 @@ def register() -> None:
         bpy.utils.register_class(cls)
     menus.register()
     sight_drawing.register()
+    shown_figures.register()
 
 
 def unregister() -> None:
     """Undo `register`."""
+    shown_figures.unregister()
     sight_drawing.unregister()
     menus.unregister()
     for cls in reversed(CLASSES):

@@ -23,7 +23,8 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether more than one number of parts was tried."""
-        return len(result_of(context.active_object).get("psi_by_k", ())) > 1
+        result = result_of(context.active_object)
+        return "parts" in result and len(result.get("psi_by_k", ())) > 1
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw a row for each number of parts."""

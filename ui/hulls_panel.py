@@ -11,7 +11,7 @@ import bpy
 
 from ..operators.settings import HULLS, draw, hand_over, other_error
 from .panels import line
-from .sidebar import Sidebar, draw_choices, result_of
+from .sidebar import Sidebar, draw_choices, hulls_of, result_of
 
 
 class WCD_PT_hulls(Sidebar, bpy.types.Panel):
@@ -34,19 +34,21 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
             "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
         )
         hand_over(settings, button, HULLS)
-        result = result_of(context.active_object).get("hulls")
-        if not result:
+        result = result_of(context.active_object).get("hulls", {})
+        hulls = hulls_of(context.active_object) if result else []
+        if not hulls:
             return
-        line(layout, "Largest Error", f"{result['largest_error']:.3g}")
-        if result["volume_ratio"]:
+        largest = max(hull["error"] for hull in hulls)
+        line(layout, "Largest Error", f"{largest:.3g}")
+        if result["volume_ratio"] and len(hulls) == len(result["hulls"]):
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
         draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
         box = layout.box().column(align=True)
         _columns(box.row(), None, "Hull", "Vertices", "Error")
-        names = [hull["name"] for hull in result["hulls"]]
-        for hull, name in zip(result["hulls"], endings(names), strict=True):
-            obj = bpy.data.objects.get(hull["name"])
-            material = obj.data.materials[0] if obj and obj.data.materials else None
+        names = [hull["name"] for hull in hulls]
+        for hull, name in zip(hulls, endings(names), strict=True):
+            obj = bpy.data.objects[hull["name"]]
+            material = obj.data.materials[0] if obj.data.materials else None
             error = f"{hull['error']:.3g}"
             _columns(box.row(), material, name, str(hull["vertices"]), error)
 

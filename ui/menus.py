@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import bpy
 
-from ..operators.settings import ALL, HULLS, MEASURE, SELECTION, hand_over
+from ..operators.settings import HULLS, MEASURE, RUN, SELECTION, hand_over
 from .sidebar import draw_choices
 
 # Operators in the order of the menu, each with the settings that it takes from the
 # scene, or with the property that its submenu offers. None is a line between groups.
 _ENTRIES = (
-    ("wcd.decompose", ALL),
+    ("wcd.decompose", RUN),
     ("wcd.measure", MEASURE),
     ("wcd.measure_selection", SELECTION),
     None,

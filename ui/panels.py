@@ -9,8 +9,9 @@ import bpy
 
 from ..operators.running import modal as running
 from ..operators.running.modal import Running
-from ..operators.settings import ADVANCED, ALL, FRONT, MEASURE, draw, hand_over
+from ..operators.settings import ADVANCED, FRONT, MEASURE, RUN, draw, hand_over
 from .parts_table import draw_table
+from .shown_figures import shown_figures
 from .sidebar import Sidebar, result_of, width_of
 
 # Widths at interface scale 1: of tabs, margins and an icon together; of a letter.
@@ -46,6 +47,8 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, FRONT)
+        if shown_figures(context.active_object):
+            draw(layout, settings, ("keep_edits",))
         row = layout.row(align=True)
         row.use_property_split = False
         row.scale_y = 1.4
@@ -54,7 +57,7 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
         else:
             row = row.split(factor=0.7, align=True)
             button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
-            hand_over(settings, button, ALL)
+            hand_over(settings, button, RUN)
             live = row.row(align=True)
             live.active = bpy.ops.wcd.decompose.poll()
             live.prop(settings, "live", toggle=True)
@@ -72,7 +75,8 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is a result."""
-        return bool(result_of(context.active_object))
+        obj = context.active_object
+        return bool(result_of(obj)) or shown_figures(obj) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
@@ -86,10 +90,16 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
             error = measured["standard_error"]
             value = f"{measured['convexity_rank']:.3f}"
             line(layout, "Convexity", value + (f" ± {error:.3f}" if error else ""))
-        if "parts" not in result:
+        figures = shown_figures(obj)
+        if figures is None:
             return
-        line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
-        draw_table(layout, obj, width_of(context))
+        if figures.problem:
+            _paragraph(layout, f"Out of date. {figures.problem}", context)
+            layout.operator("wcd.refresh_parts", text="Refresh", icon="FILE_REFRESH")
+        else:
+            line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
+        if obj.wcd_parts:
+            draw_table(layout, obj, width_of(context))
 
 
 class WCD_PT_advanced(Sidebar, bpy.types.Panel):

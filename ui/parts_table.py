@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
 
-from .sidebar import Sidebar, result_of, width_of
+from ..operators.bridge.parts.figures import PartFigures
+from .shown_figures import shown_figures
+from .sidebar import Sidebar, hulls_of, width_of
 
 _ROWS = 6
 # Width of a color, as a share of a button's.
@@ -34,32 +38,50 @@ class WCD_UL_parts(bpy.types.UIList):
         index: int,
     ) -> None:
         """Draw a row."""
-        result = result_of(obj)
-        if index >= len(result.get("parts", ())):
+        figures = shown_figures(obj)
+        place = places_of(figures).get(row.number)
+        if figures is None or place is None:
             return
-        part = result["parts"][index]
         line = layout.row(align=True)
         tick = "CHECKBOX_HLT" if row.chosen else "CHECKBOX_DEHLT"
         line.prop(row, "chosen", text="", icon=tick, emboss=False)
-        material = obj.data.materials.get(part["material"])
         swatch = line.row()
         swatch.scale_x = _SWATCH
-        if material:
-            swatch.prop(material, "diffuse_color", text="")
+        swatch.prop(row, "color", text="")
         width = width_of(context)
-        columns = headings(result, width)
+        columns = headings(hulls_of(obj), width)
         split = line.split(factor=_name_share(width, len(columns)))
         split.prop(row, "name", text="", emboss=False)
-        figures = _figures(result, index)
-        _numbers(split, *(figures[name] for name in columns))
+        texts = _figures(figures, place, hulls_of(obj))
+        _numbers(split, *(texts[name] for name in columns))
         lock = "LOCKED" if row.locked else "UNLOCKED"
         line.prop(row, "locked", text="", icon=lock, emboss=False)
 
+    def filter_items(
+        self, context: bpy.types.Context, obj: bpy.types.Object, name: str
+    ) -> tuple[list[int], list[int]]:
+        """Hide the rows of parts that have no faces now; keep Blender's search."""
+        there = places_of(shown_figures(obj))
+        rows = getattr(obj, name)
+        wanted = self.filter_name.lower()
+        shown = [
+            self.bitflag_filter_item
+            if row.number in there and wanted in row.name.lower()
+            else 0
+            for row in rows
+        ]
+        return shown, []
 
-def headings(result: dict[str, Any], width: float) -> list[str]:
+
+def places_of(figures: PartFigures | None) -> dict[int, int]:
+    """Return the places of the parts that an object has, by their numbers."""
+    identities = figures.identities if figures else ()
+    return {each.number: place for place, each in enumerate(identities)}
+
+
+def headings(hulls: Sequence[dict[str, Any]], width: float) -> list[str]:
     """Return the headings of the columns that fit into a table of this width."""
     names = ["Faces", "Area", "Rank"]
-    hulls = result.get("hulls", {}).get("hulls", ())
     if any(hull["part"] is not None for hull in hulls):
         names.append("Hull")
     room = max(int((width - _REST - _NAME) / _FIGURE), 1)
@@ -72,16 +94,17 @@ def _name_share(width: float, n_figures: int) -> float:
     return 1 - n_figures * _FIGURE / max(width - _REST, n_figures * _FIGURE + _NAME)
 
 
-def _figures(result: dict[str, Any], index: int) -> dict[str, str]:
+def _figures(
+    figures: PartFigures, place: int, hulls: Sequence[dict[str, Any]]
+) -> dict[str, str]:
     """Return the texts for the faces, area, rank and hull error of a part."""
-    part = result["parts"][index]
-    faces, area = part["faces"], part["area"]
-    hulls = result.get("hulls", {}).get("hulls", ())
-    errors = [hull["error"] for hull in hulls if hull["part"] == index]
+    faces, area = int(figures.measured_on[place, 0]), figures.measured_on[place, 1]
+    errors = [hull["error"] for hull in hulls if hull["part"] == place]
+    rank = figures.ranks[place]
     return {
         "Faces": f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k",
         "Area": _area(area),
-        "Rank": f"{part['convexity_rank']:.2f}",
+        "Rank": f"{rank:.2f}" if math.isfinite(rank) else "–",
         "Hull": f"{max(errors):.2f}" if errors else "–",
     }
 
@@ -106,7 +129,7 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
     heading.label(text="", icon="BLANK1")
-    columns = headings(result_of(obj), width)
+    columns = headings(hulls_of(obj), width)
     split = heading.split(factor=_name_share(width, len(columns)))
     split.label(text="Part")
     _numbers(split, *columns)

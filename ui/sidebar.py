@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 
 from ..operators.bridge.stored.record import parse_record
+from .shown_figures import shown_figures
 
 
 class Sidebar:
@@ -19,9 +20,27 @@ class Sidebar:
 
 
 def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
-    """Return the record of an object, empty if it has none of ours."""
+    """Return the record of an object, empty if it has none of ours.
+
+    It is the version that fits the parts on the mesh, and tells of no others.
+    """
+    figures = shown_figures(obj)
+    if figures is not None and figures.record:
+        return figures.record
     noted = obj and obj.get("wcd")
-    return _parsed(noted) if isinstance(noted, str) else {}
+    record = _parsed(noted) if isinstance(noted, str) else {}
+    return {key: value for key, value in record.items() if key != "parts"}
+
+
+def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
+    """Return what is noted of an object's hulls, without those that were deleted."""
+    noted = result_of(obj).get("hulls", {}).get("hulls", ())
+    there = (bpy.data.objects.get(hull["name"]) for hull in noted)
+    return [
+        hull
+        for hull, found in zip(noted, there, strict=True)
+        if found is not None and found.parent == obj
+    ]
 
 
 def width_of(context: bpy.types.Context) -> float:

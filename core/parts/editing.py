@@ -34,12 +34,15 @@ class Change:
         The label of each new mirror image, and the label of the part it mirrors.
     side : str
         Side of the parts that were mirrored: "L" for positive X, "R" for negative X.
+    by_hand : (P,) bool or None
+        The polygons whose part the user settled; a new run keeps them in it.
     """
 
     labels: NDArray[np.int64]
     ranks: dict[int, float] = field(default_factory=dict)
     mirrored: dict[int, int] = field(default_factory=dict)
     side: str = "L"
+    by_hand: NDArray[np.bool_] | None = None
 
 
 def merge(labels: NDArray[np.int64], chosen: Sequence[int], into: int) -> Change:
@@ -57,7 +60,8 @@ def merge(labels: NDArray[np.int64], chosen: Sequence[int], into: int) -> Change
     -------
     Change
     """
-    return Change(np.where(np.isin(labels, chosen), into, labels))
+    merged = np.isin(labels, chosen)
+    return Change(np.where(merged, into, labels), by_hand=merged)
 
 
 def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Change:
@@ -75,7 +79,7 @@ def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Chan
     -------
     Change
     """
-    return Change(np.where(faces, part, labels))
+    return Change(np.where(faces, part, labels), by_hand=faces)
 
 
 def mirror(

@@ -4,17 +4,21 @@ import json
 
 import numpy as np
 from hand_made import face_values, in_mode
+from weak_convex_decomposition.operators.bridge.stored.identity import plain_name
 
 # Of the visibility that edits are described by.
 FAST = {"samples": 60, "containers": "HOLLOW", "max_parts": 4}
 
 
 def labels_of(obj):
+    """Return the place of each face's part in the record."""
     mode = obj.mode
     in_mode(obj, "OBJECT")
     labels = face_values(obj.data, "wcd_part")
     in_mode(obj, mode)
-    return labels
+    numbers = [number for _, number, _ in parts_of(obj)]
+    assert set(labels) <= set(numbers)
+    return np.searchsorted(numbers, labels)
 
 
 def record_of(obj):
@@ -34,8 +38,12 @@ def check_in_step(obj):
     record, labels = record_of(obj), labels_of(obj)
     names = [part["name"] for part in record["parts"]]
     assert record["k"] == len(names) == len(set(names))
-    assert [row.name for row in obj.wcd_parts] == names
-    assert [row.number for row in obj.wcd_parts] == [n for _, n, _ in parts_of(obj)]
+    numbers = [number for _, number, _ in parts_of(obj)]
+    assert numbers == sorted(set(numbers))
+    rows = [row for row in obj.wcd_parts if row.number in numbers]
+    assert [(row.number, row.name) for row in rows] == list(
+        zip(numbers, names, strict=True)
+    )
     assert set(names) <= {group.name for group in obj.vertex_groups}
     counts = np.bincount(labels, minlength=len(names))
     assert [part["faces"] for part in record["parts"]] == counts.tolist()
@@ -44,8 +52,10 @@ def check_in_step(obj):
     groups = {group.index: group.name for group in obj.vertex_groups}
     weights = {(groups[g.group], v.index) for v in obj.data.vertices for g in v.groups}
     assert {pair for pair in weights if pair[0] in names} == belongs
-    slots = [obj.data.materials[p.material_index].name for p in obj.data.polygons]
-    assert slots == [record["parts"][index]["material"] for index in labels]
+    slots = [obj.data.materials[p.material_index] for p in obj.data.polygons]
+    assert [slot["wcd_part"] for slot in slots] == [numbers[index] for index in labels]
+    assert [slot["wcd_name"] for slot in slots] == [names[index] for index in labels]
+    assert all(plain_name(s.name) == plain_name(s["wcd_name"]) for s in slots)
     in_mode(obj, mode)
 
 

@@ -15,12 +15,13 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results import HullDecomposition
-from ..parts.materials import part_materials
+from ..parts.identities import usual_identities
+from ..parts.materials import discard_unused, is_ours, own_materials
+from ..parts.read import find_parts_on, part_materials
 from ..parts.separating import new_collection
 from ..read.shape import stretch
-from ..stored.identity import usual_identities
 from ..stored.names import HULL_TAG
-from ..stored.record import identities_of, record_of, write_hull_record
+from ..stored.record import write_hull_record
 from .rigid_bodies import soften
 
 
@@ -61,17 +62,11 @@ def write_hulls(
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
     collection[HULL_TAG] = True
-    if found.has_parts:
-        colors = found.parts
-        identities = identities_of(record_of(obj)) or usual_identities(colors.max() + 1)
-    else:
-        colors = np.arange(found.n_hulls)
-        identities = usual_identities(found.n_hulls)
-    materials = part_materials(identities, [])
+    rows, materials = _materials(obj, found)
     scale = stretch(obj)
     hulls = []
     for row, name in enumerate(names):
-        material = materials[colors[row]]
+        material = materials[rows[row]]
         shape = found.shapes[row]
         mesh = meshes[row] if meshes else _hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
@@ -95,14 +90,32 @@ def erase_hulls(obj: bpy.types.Object) -> None:
     soften(obj, hulls)
     collections = {c for hull in hulls for c in hull.users_collection if HULL_TAG in c}
     meshes = [hull.data for hull in hulls]
+    materials = {m for mesh in meshes for m in mesh.materials if is_ours(m)}
     for hull in hulls:
         bpy.data.objects.remove(hull)
     for mesh in meshes:
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
+    discard_unused(materials)
     for collection in collections:
         if not collection.all_objects and not collection.children:
             bpy.data.collections.remove(collection)
+
+
+def _materials(
+    obj: bpy.types.Object, found: HullDecomposition
+) -> tuple[np.ndarray, list[bpy.types.Material]]:
+    """Return materials, and which of them each hull has: those of the parts, or new."""
+    parts = find_parts_on(obj) if found.has_parts else None
+    if parts is not None:
+        own = part_materials(obj, parts)
+        return found.parts, [
+            material or own_materials([identity], [None])[0]
+            for identity, material in zip(parts.identities, own, strict=True)
+        ]
+    rows = found.parts if found.has_parts else np.arange(found.n_hulls)
+    identities = usual_identities(int(rows.max()) + 1)
+    return rows, own_materials(identities, [None] * len(identities))
 
 
 def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> None:

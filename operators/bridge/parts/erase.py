@@ -9,8 +9,8 @@ from ..mesh.attributes import IntArray
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, MATERIAL_LAYER, PART_LAYER
 from ..stored.record import check_records, forget_parts, forget_result
-from ..stored.restore import Restore, read_restore, write_restore
-from .materials import discard_unused, is_ours, our_materials
+from ..stored.restore import Restore, read_restore, sharers, write_restore
+from .materials import discard_unused, is_ours, name_of, our_materials, part_slots
 from .rows import erase_rows
 
 
@@ -20,11 +20,6 @@ def clear(obj: bpy.types.Object) -> None:
     erase_parts(obj)
     discard_unused(our_materials())  # also where the user removed their slots
     forget_result(obj)
-
-
-def sharers(mesh: bpy.types.Mesh) -> list[bpy.types.Object]:
-    """Return the objects that use a mesh."""
-    return [obj for obj in bpy.data.objects if obj.data == mesh]
 
 
 def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
@@ -47,10 +42,9 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
         layers.remove(name)
     layers.finish()
     write_restore(mesh, None)
-    for sharer in sharers(mesh):
-        if sharer.is_editable:
-            forget_parts(sharer)
-            erase_rows(sharer)
+    for sharer in sharers(obj):
+        forget_parts(sharer)
+        erase_rows(sharer)
     return materials
 
 
@@ -58,13 +52,24 @@ def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
     """Remove our vertex groups and make the user's group active again."""
     groups = obj.vertex_groups
     active = groups.active.name if groups.active else ""
-    for name in restore.groups:
+    for name in {*restore.groups, *_joined_groups(obj, restore)}:
         if name in groups:
             groups.remove(groups[name])
     if active not in groups:
         active = restore.active_group
     if active in groups:
         groups.active_index = groups[active].index
+
+
+def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
+    """Return the names of groups of ours that came with objects joined to this one."""
+    if restore.user_groups is None or not getattr(obj.data, "polygons", None):
+        return set()
+    return {
+        name_of(obj.data.materials[slot])
+        for slots in part_slots(obj.data).values()
+        for slot in slots
+    } - set(restore.user_groups)
 
 
 def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
@@ -148,7 +153,7 @@ def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Mate
     # Removing a slot of the mesh does not move the objects' own materials.
     linked = [
         (sharer, [_object_link(slot) for slot in sharer.material_slots])
-        for sharer in sharers(mesh)
+        for sharer in sharers(obj)
     ]
     materials = [mesh.materials[i] for i in ours]
     if len(ours) == len(mesh.materials):

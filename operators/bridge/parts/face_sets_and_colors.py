@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..mesh.layers import layers_of
-from ..mesh.points import is_cloud
+from ..mesh.points import is_cloud, set_points
+from ..stored.identity import Identity
 from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
-from .palette import part_color
 from .read import part_identities, part_labels
 
 
@@ -28,10 +31,23 @@ def write_face_sets(obj: bpy.types.Object) -> None:
 def write_colors(obj: bpy.types.Object) -> None:
     """Give the corners of faces the colors of their parts."""
     layers, labels = layers_of(obj), _labels(obj)
-    identities = part_identities(obj, int(labels.max()) + 1)
-    palette = [part_color(identity.number) for identity in identities]
-    layers.set_colors(COLOR_LAYER, np.array(palette, dtype=np.float32)[labels])
+    layers.set_colors(COLOR_LAYER, _colors(part_identities(obj))[labels])
     layers.finish()
+
+
+def paint_points(
+    obj: bpy.types.Object, labels: NDArray[np.integer], identities: Sequence[Identity]
+) -> None:
+    """Give the points of a cloud the colors of their parts."""
+    set_points(obj, COLOR_LAYER, "FLOAT_COLOR", _colors(identities)[labels])
+
+
+def show_colors(obj: bpy.types.Object) -> None:
+    """Bring the colors of points, and of corners if they have them, up to date."""
+    if is_cloud(obj):
+        paint_points(obj, _labels(obj), part_identities(obj))
+    elif shown(obj)[1]:
+        write_colors(obj)
 
 
 def shown(obj: bpy.types.Object) -> tuple[bool, bool]:
@@ -49,6 +65,11 @@ def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:
         write_face_sets(obj)
     if colors:
         write_colors(obj)
+
+
+def _colors(identities: Sequence[Identity]) -> NDArray[np.float32]:
+    """Return the linear RGBA color of each part, (K, 4)."""
+    return np.array([(*each.color, 1.0) for each in identities], dtype=np.float32)
 
 
 def _labels(obj: bpy.types.Object) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The materials of parts: one for each number and name, shared by all objects.
+"""The materials of parts: each object has its own, one for each part.
 
 A material is ours if it has our tag and the name that we gave it. A material that the
 user renames becomes the user's, unless it is renamed in the table of parts.
@@ -6,41 +6,32 @@ user renames becomes the user's, unless it is renamed in the table of parts.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import bpy
+import numpy as np
 
-from ..stored.identity import Identity, part_name
+from ..stored.identity import Identity, part_name, plain_name
 from ..stored.names import MATERIAL_NAME, MATERIAL_TAG
-from .palette import part_color
+from .palette import Color
 
 # The number in the tag of the material that shows the parts of all point clouds.
 _OF_POINTS = -1
-# Blender adds a number to a name that is taken: "Part 01.001".
-_NUMBERED = re.compile(r"\.\d{3,}$")
+_POINTS_NAME = "Parts of Points"
 
 
-def _usual_name(tag: int) -> str:
-    """Return the name of a material whose part has no name of its own, or of points."""
-    return "Parts of Points" if tag == _OF_POINTS else part_name(tag)
-
-
-def _plain(name: str) -> str:
-    """Return a name without the number that Blender adds to a name that is taken."""
-    return _NUMBERED.sub("", name)
-
-
-def _name_of(material: bpy.types.Material) -> str:
-    """Return the name that we gave to a material of ours, without a number."""
-    return _plain(material.get(MATERIAL_NAME, _usual_name(material[MATERIAL_TAG])))
+def name_of(material: bpy.types.Material) -> str:
+    """Return the name of the part that a material of ours was made for."""
+    tag = material[MATERIAL_TAG]
+    usual = _POINTS_NAME if tag == _OF_POINTS else part_name(tag)
+    return str(material.get(MATERIAL_NAME, usual))
 
 
 def is_ours(material: bpy.types.Material | None) -> bool:
     """Return whether a material is one that we made and the user did not rename."""
     if material is None or not isinstance(material.get(MATERIAL_TAG), int):
         return False
-    return _plain(material.name) == _name_of(material)
+    return plain_name(material.name) == plain_name(name_of(material))
 
 
 def our_materials() -> list[bpy.types.Material]:
@@ -48,57 +39,84 @@ def our_materials() -> list[bpy.types.Material]:
     return [material for material in bpy.data.materials if is_ours(material)]
 
 
-def part_materials(
-    identities: Iterable[Identity], taken: list[str]
+def color_of(material: bpy.types.Material) -> Color:
+    """Return the color of a material in Solid shading, linear."""
+    red, green, blue = material.diffuse_color[:3]
+    return red, green, blue
+
+
+def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
+    """Return the slots with materials of ours, by the number of the part.
+
+    A part has more than one after a join with another object that has its number.
+    """
+    slots: dict[int, list[int]] = {}
+    for index, material in enumerate(mesh.materials):
+        if is_ours(material) and material[MATERIAL_TAG] != _OF_POINTS:
+            slots.setdefault(material[MATERIAL_TAG], []).append(index)
+    return slots
+
+
+def own_materials(
+    identities: Iterable[Identity], sources: Sequence[bpy.types.Material | None]
 ) -> list[bpy.types.Material]:
-    """Return the materials of parts; make those that are missing.
+    """Return materials for the parts of one object.
 
-    Materials with the names `taken` are not used, because they are in the user's slots.
+    Parameters
+    ----------
+    identities : iterable of Identity
+    sources : sequence of bpy.types.Material or None
+        The material that each part had. It is used again if nothing else uses it;
+        otherwise it is copied, so that no two objects share one.
     """
-    free = _free_materials(taken)
-    return [
-        free.get((identity.number, _plain(identity.name))) or _make(identity)
-        for identity in identities
-    ]
+    materials = []
+    for identity, source in zip(identities, sources, strict=True):
+        if source is None or not is_ours(source):
+            material = _new(identity.name)
+            recolor(material, identity.color)
+        elif source.users == 0 and source.library is None:
+            material = source
+        else:
+            material = source.copy()
+        _tag(material, identity)
+        materials.append(material)
+    return materials
 
 
-def renamed_material(
-    material: bpy.types.Material, identity: Identity
+def own_material(
+    mesh: bpy.types.Mesh, slot: int, identity: Identity
 ) -> bpy.types.Material:
-    """Return a copy of a material of ours with the name of a part.
+    """Give a slot of a mesh a material of its own with the name and color of a part.
 
-    The material itself keeps its name, because other objects may use it.
+    A material that something else uses stays as it is, and is copied.
     """
-    copy = material.copy()
-    _name_as(copy, identity)
-    return copy
+    material = mesh.materials[slot]
+    if material.users > 1 or material.library is not None:
+        material = material.copy()
+        mesh.materials[slot] = material
+    _tag(material, identity)
+    recolor(material, identity.color)
+    return material
 
 
 def points_material(color_layer: str, taken: list[str]) -> bpy.types.Material:
-    """Return the material that shows a color attribute of points."""
-    name = _usual_name(_OF_POINTS)
-    material = _free_materials(taken).get((_OF_POINTS, name))
-    if material is not None:
-        return material
-    material = _new(Identity(_OF_POINTS, name))
+    """Return the material that shows a color attribute of points.
+
+    All point clouds share it. Materials with the names `taken` are the user's.
+    """
+    for material in our_materials():
+        fits = material[MATERIAL_TAG] == _OF_POINTS and material.library is None
+        if fits and material.name not in taken:
+            return material
+    material = _new(_POINTS_NAME)
+    material[MATERIAL_TAG] = _OF_POINTS
     nodes, links = material.node_tree.nodes, material.node_tree.links
     attribute = nodes.new("ShaderNodeAttribute")
     attribute.attribute_name = color_layer
     attribute.location = (-250.0, 300.0)
-    for node in nodes:
-        if node.type == "BSDF_PRINCIPLED":
-            links.new(attribute.outputs["Color"], node.inputs["Base Color"])
+    for shader in _shaders(material):
+        links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
     return material
-
-
-def _free_materials(taken: list[str]) -> dict[tuple[int, str], bpy.types.Material]:
-    """Return materials of ours by tag and name, without those named in `taken`."""
-    free_ones: dict[tuple[int, str], bpy.types.Material] = {}
-    for material in bpy.data.materials:
-        free = material.library is None and material.name not in taken
-        if free and is_ours(material):
-            free_ones.setdefault((material[MATERIAL_TAG], _name_of(material)), material)
-    return free_ones
 
 
 def discard_unused(materials: Iterable[bpy.types.Material]) -> None:
@@ -108,30 +126,32 @@ def discard_unused(materials: Iterable[bpy.types.Material]) -> None:
             bpy.data.materials.remove(material)
 
 
-def _new(identity: Identity) -> bpy.types.Material:
-    """Return a new material with our tag and name."""
-    material = bpy.data.materials.new(identity.name)
-    _name_as(material, identity)
+def recolor(material: bpy.types.Material, color: Color) -> None:
+    """Give a material a color, in Solid shading and in renders."""
+    if np.allclose(material.diffuse_color[:3], color, atol=1e-6):
+        return  # an artist may have given renders another color
+    material.diffuse_color = (*color, 1.0)
+    for shader in _shaders(material):
+        shader.inputs["Base Color"].default_value = (*color, 1.0)
+
+
+def _shaders(material: bpy.types.Material) -> list[bpy.types.Node]:
+    """Return the nodes that have the color of a material."""
+    nodes = material.node_tree.nodes if material.node_tree else ()
+    return [node for node in nodes if node.type == "BSDF_PRINCIPLED"]
+
+
+def _new(name: str) -> bpy.types.Material:
+    """Return a new material with nodes."""
+    material = bpy.data.materials.new(name)
     if material.node_tree is None:  # Blender before 5.0 makes nodes on request only
         material.use_nodes = True
     return material
 
 
-def _name_as(material: bpy.types.Material, identity: Identity) -> None:
+def _tag(material: bpy.types.Material, identity: Identity) -> None:
     """Give a material our tag, and the name of a part."""
     material[MATERIAL_TAG] = identity.number
-    material.name = identity.name
-    if _plain(identity.name) != _usual_name(identity.number):
-        material[MATERIAL_NAME] = identity.name
-    elif MATERIAL_NAME in material:
-        del material[MATERIAL_NAME]
-
-
-def _make(identity: Identity) -> bpy.types.Material:
-    material = _new(identity)
-    color = part_color(identity.number)
-    material.diffuse_color = color
-    for node in material.node_tree.nodes:
-        if node.type == "BSDF_PRINCIPLED":
-            node.inputs["Base Color"].default_value = color
-    return material
+    material[MATERIAL_NAME] = identity.name
+    if plain_name(material.name) != plain_name(identity.name):
+        material.name = identity.name

@@ -1,40 +1,113 @@
-"""Colors of parts that color-blind people can tell apart, too."""
+"""Colors of parts: a palette, and the color of the partner of a part.
+
+The rule: all colors differ by 13 or more in CIELAB, and those of different pairs that
+are not partners, base by base, by 25. None is gray (chroma 20 or more) or near black
+(lightness 25 or more). A part and its mirror image have one hue, and lightness apart.
+"""
 
 from __future__ import annotations
 
-# Okabe and Ito, "Color Universal Design", 2008, with a middle gray in place of black.
-# The order puts contrasting colors next to each other.
-_HUES = (
-    0x0072B2,
-    0xE69F00,
-    0x009E73,
-    0xCC79A7,
-    0x56B4E9,
-    0xD55E00,
-    0xF0E442,
-    0x999999,
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+# Linear red, green and blue, each in 0…1.
+Color: TypeAlias = tuple[float, float, float]
+
+# sRGB of parts, each with that of its mirror image. The first seven are those of Okabe
+# and Ito, "Color Universal Design", 2008, without black, which color-blind people tell
+# apart. Each other one was found as the farthest from all before it.
+_PALETTE = (
+    (0x0072B2, 0x99C4F8),
+    (0xE69F00, 0x755523),
+    (0x009E73, 0xA8F1D1),
+    (0xCC79A7, 0x733B5B),
+    (0x56B4E9, 0x3F88B1),
+    (0xD55E00, 0xFBB893),
+    (0xF0E442, 0xA49B37),
+    (0x6848D7, 0xB494FB),
+    (0x50CF40, 0x0A7409),
+    (0xFF2058, 0x9B1032),
+    (0xF750D7, 0x91137D),
+    (0xBFEF87, 0x7A915E),
+    (0x20FFA7, 0x08C781),
+    (0xF77870, 0xA45B55),
+    (0x58489F, 0x8E7EB8),
+    (0x00EFFF, 0x12A7B2),
+    (0xFF108F, 0xB50F65),
+    (0x87AF08, 0x435803),
+    (0xAF0008, 0xFD5A41),
+    (0xFFDF87, 0xBFA970),
+    (0x0078EF, 0x89A6FD),
+    (0xCF70FF, 0xE7BAFA),
+    (0x8F4000, 0xDA834A),
+    (0xFF6897, 0xFFB3C5),
 )
-# Each further round mixes the hues with black or white: (gray level, share of it).
-_ROUNDS = ((0.0, 0.0), (0.0, 0.5), (1.0, 0.6), (0.0, 0.75))
+# Colors as near as this, in each channel, are the same one.
+_SAME = 0.01
+# Share of white that an artist's own color is mixed with for the mirror image; a light
+# color is mixed with black instead.
+_LIGHTER = 0.4
+_LIGHT = 0.4
 
 
 def part_color(index: int) -> tuple[float, float, float, float]:
-    """Return the linear RGBA color of a part, each in 0…1; repeats after 32 parts."""
-    red, green, blue = map(_linear, part_srgb(index))
-    return red, green, blue, 1.0
+    """Return the linear RGBA color of a part, each in 0…1; repeats after 24 parts."""
+    return (*_linear(part_srgb(index)), 1.0)
 
 
-def part_srgb(index: int) -> tuple[float, float, float]:
+def part_srgb(index: int) -> Color:
     """Return the sRGB color of a part, each in 0…1, for pictures."""
-    hue = _HUES[index % len(_HUES)]
-    gray, share = _ROUNDS[index // len(_HUES) % len(_ROUNDS)]
-    pure = ((hue >> shift & 0xFF) / 255 for shift in (16, 8, 0))
-    red, green, blue = (c + (gray - c) * share for c in pure)
+    return _unpacked(_PALETTE[index % len(_PALETTE)][0])
+
+
+def free_color(used: Iterable[Sequence[float]]) -> Color:
+    """Return the first color of the palette that is not in use, nor its partner's.
+
+    If all are in use, the one that fewest parts have.
+    """
+    there = np.array([color[:3] for color in used]).reshape(-1, 3)
+    counts = [_count(pair, there) for pair in _PALETTE]
+    return _linear(_unpacked(_PALETTE[int(np.argmin(counts))][0]))
+
+
+def partner_color(color: Sequence[float]) -> Color:
+    """Return the color of the mirror image of a part with this linear color."""
+    for pair in _PALETTE:
+        first, second = (_linear(_unpacked(each)) for each in pair)
+        for one, other in ((first, second), (second, first)):
+            if np.abs(np.subtract(one, color[:3])).max() < _SAME:
+                return other
+    gray = 0.0 if np.mean(color[:3]) > _LIGHT else 1.0
+    red, green, blue = (c + (gray - c) * _LIGHTER for c in color[:3])
     return red, green, blue
 
 
-def _linear(srgb: float) -> float:
-    """Return the linear value of an sRGB channel."""
-    if srgb <= 0.04045:
-        return srgb / 12.92
-    return float(((srgb + 0.055) / 1.055) ** 2.4)
+def srgb_of(color: Sequence[float]) -> Color:
+    """Return the sRGB color of a linear one."""
+    red, green, blue = (
+        12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
+        for c in color[:3]
+    )
+    return red, green, blue
+
+
+def _count(pair: tuple[int, int], used: np.ndarray) -> int:
+    """Return how many of the used colors are one of a pair."""
+    colors = np.array([_linear(_unpacked(each)) for each in pair])
+    differences = np.abs(used[:, None] - colors[None]).max(axis=2, initial=0.0)
+    return int((differences < _SAME).sum())
+
+
+def _unpacked(color: int) -> Color:
+    """Return the channels of a color, each in 0…1."""
+    red, green, blue = ((color >> shift & 0xFF) / 255 for shift in (16, 8, 0))
+    return red, green, blue
+
+
+def _linear(srgb: Color) -> Color:
+    """Return the linear color of an sRGB one, in numbers that Blender can hold."""
+    linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in srgb)
+    red, green, blue = (float(np.float32(c)) for c in linear)
+    return red, green, blue

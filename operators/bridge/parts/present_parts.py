@@ -12,8 +12,10 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ..mesh.layers import flush_edits, layers_of
 from ..stored.identity import Identity
-from ..stored.names import PART_LAYER
-from ..stored.record import identities_of, noted_parameters, record_of
+from ..stored.names import HAND_LAYER, PART_LAYER
+from ..stored.record import noted_parameters, record_of
+from ..stored.versions import identities_of
+from .figures import figures_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,50 +25,62 @@ class PresentParts:
     Attributes
     ----------
     labels : (P,) int
-        Part of each face, or point.
+        Place of the part of each face, or point, in `identities`.
     identities : tuple of Identity
+        By number.
     locked : (K,) bool
         Which parts a new decomposition keeps.
+    by_hand : (P,) bool
+        Which faces the user settled by hand.
     parameters : Parameters
         Of the decomposition that made the parts.
-    areas : (K,) float
-        As recorded, in square Blender units.
     ranks : (K,) float
-        Convexity ranks, as recorded.
+        Convexity ranks; nan where a part has changed since it was measured.
     psi_by_k : dict of int to float
         Psi of each number of parts that was tried.
     best_k : int
         The number of parts that the search chose.
+    asleep : tuple of Identity or None
+        All parts that undo in Edit Mode may bring back; None in Object Mode.
     """
 
     labels: NDArray[np.int64]
     identities: tuple[Identity, ...]
     locked: NDArray[np.bool_]
+    by_hand: NDArray[np.bool_]
     parameters: Parameters
-    areas: NDArray[np.float64]
     ranks: NDArray[np.float64]
     psi_by_k: dict[int, float]
     best_k: int
+    asleep: tuple[Identity, ...] | None
 
 
 def present_parts(obj: bpy.types.Object) -> PresentParts:
     """Return the parts of an object that passed `edit_refusal`."""
     flush_edits(obj)
-    record = record_of(obj)
-    entries = record["parts"]
-    labels = layers_of(obj).faces(PART_LAYER)
-    if labels is None:
+    figures = figures_of(obj)
+    if figures is None:
         raise DecompositionError(
             f"{obj.name} has lost its attribute {PART_LAYER}; press Decompose again."
         )
+    locks = {row.number for row in obj.wcd_parts if row.locked}
+    record = figures.record
     return PresentParts(
-        # Blender gives any number to faces that the user adds.
-        labels=np.clip(labels, 0, len(entries) - 1).astype(np.int64),
-        identities=identities_of(record),
-        locked=np.array([row.locked for row in obj.wcd_parts], dtype=bool),
+        labels=figures.found.labels,
+        identities=figures.identities,
+        locked=np.array([each.number in locks for each in figures.identities]),
+        by_hand=faces_by_hand(obj, len(figures.found.labels)),
         parameters=noted_parameters(obj) or Parameters(),
-        areas=np.array([entry["area"] for entry in entries]),
-        ranks=np.array([entry["convexity_rank"] for entry in entries]),
-        psi_by_k={int(k): psi for k, psi in record["psi_by_k"].items()},
-        best_k=record["best_k"],
+        ranks=figures.ranks,
+        psi_by_k={int(k): psi for k, psi in record.get("psi_by_k", {}).items()},
+        best_k=record.get("best_k", len(figures.identities)),
+        asleep=identities_of(record_of(obj)) if obj.mode == "EDIT" else None,
     )
+
+
+def faces_by_hand(obj: bpy.types.Object, n_faces: int) -> NDArray[np.bool_]:
+    """Return which faces of an object the user settled by hand, (P,)."""
+    flags = layers_of(obj).faces(HAND_LAYER)
+    if flags is None or len(flags) != n_faces:
+        return np.zeros(n_faces, dtype=bool)
+    return flags > 0

@@ -1,20 +1,23 @@
-"""Rename a part, with its vertex group, its material and its entry in the record."""
+"""Rename or recolor a part, with its vertex group, its material and its entry."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import bpy
 
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
-from ..stored.record import identities_of, record_of, share_result, write_record
-from ..stored.restore import read_restore, write_restore
-from .materials import discard_unused, is_ours, renamed_material
+from ..stored.names import HULL_TAG
+from ..stored.record import change_part, record_of
+from ..stored.restore import read_restore, sharers, write_restore
+from ..stored.versions import identities_of
+from .face_sets_and_colors import show_colors
+from .materials import color_of, discard_unused, own_material, part_slots
+from .palette import Color
 
 
-def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
+def rename_part(obj: bpy.types.Object, number: int, name: str) -> str:
     """Rename a part of an object, unless the name is empty or taken.
 
     Returns
@@ -22,48 +25,66 @@ def rename_part(obj: bpy.types.Object, index: int, name: str) -> str:
     str
         The name of the part afterwards. Blender may add a number to the name asked for.
     """
-    record, restore = record_of(obj), read_restore(obj.data)
-    entries = record.get("parts", [])
-    if restore is None or index >= len(entries):
+    identities, restore = identities_of(record_of(obj)), read_restore(obj.data)
+    part = next((each for each in identities if each.number == number), None)
+    if restore is None or part is None:
         return name
-    entry = entries[index]
-    taken = {other["name"] for other in entries if other is not entry}
-    if name == entry["name"] or not name or name in taken:
-        return str(entry["name"])
-    group = obj.type == "MESH" and obj.vertex_groups.get(entry["name"])
-    if group:
+    taken = {each.name for each in identities if each != part}
+    if name == part.name or not name or name in taken:
+        return part.name
+    group = obj.type == "MESH" and obj.vertex_groups.get(part.name)
+    if group and part.name in restore.groups:
         group.name = name
         name = group.name  # with a number if the name is taken
-        groups = list(restore.groups)
-        groups[groups.index(entry["name"])] = name
+        groups = [name if each == part.name else each for each in restore.groups]
         write_restore(obj.data, replace(restore, groups=groups))
-    entry["name"] = name
-    _rename_material(obj, entry, replace(identities_of(record)[index], name=name))
-    write_record(obj, record)
-    _tell_sharers(obj, record, index, name)
+    _change(obj, replace(part, name=name, color=color_of_part(obj, number)))
     return name
 
 
-def _tell_sharers(
-    obj: bpy.types.Object, record: dict[str, Any], index: int, name: str
-) -> None:
-    """Note a part's new name on the other objects that have the mesh and its parts."""
-    for other in bpy.data.objects:
-        shares = other.data == obj.data and other != obj and other.is_editable
-        if shares and index < len(other.wcd_parts):
-            share_result(record, other)
-            other.wcd_parts[index].name = name
+def color_of_part(obj: bpy.types.Object, number: int) -> Color:
+    """Return the color of a part: that of its material, else as noted."""
+    if not is_cloud(obj):
+        slots = part_slots(obj.data).get(number)
+        if slots:
+            return color_of(obj.data.materials[slots[0]])
+    for each in identities_of(record_of(obj)):
+        if each.number == number:
+            return each.color
+    return 0.0, 0.0, 0.0
 
 
-def _rename_material(
-    obj: bpy.types.Object, entry: dict[str, Any], identity: Identity
+def recolor_part(obj: bpy.types.Object, number: int, color: Color) -> None:
+    """Give a part of an object a color, on all that shows it; other objects stay."""
+    for each in identities_of(record_of(obj)):
+        if each.number == number:
+            _change(obj, replace(each, color=color))
+            show_colors(obj)
+
+
+def _change(obj: bpy.types.Object, identity: Identity) -> None:
+    """Note a new name or color, and give it to the material in the part's slot."""
+    slots = [] if is_cloud(obj) else part_slots(obj.data).get(identity.number, [])
+    change = {"name": identity.name, "color": list(identity.color)}
+    if slots:
+        before = obj.data.materials[slots[0]]
+        material = own_material(obj.data, slots[0], identity)
+        _give_hulls(obj, before, material)
+        change["material"] = material.name
+    for sharer in sharers(obj):
+        change_part(sharer, identity.number, change)
+        for row in sharer.wcd_parts:
+            if row.number == identity.number and row.name != identity.name:
+                row.name = identity.name
+
+
+def _give_hulls(
+    obj: bpy.types.Object, before: bpy.types.Material, material: bpy.types.Material
 ) -> None:
-    """Put a material with the part's new name into the part's slot."""
-    materials = obj.data.materials
-    index = materials.find(entry["material"])
-    if index < 0 or is_cloud(obj) or not is_ours(materials[index]):
-        return
-    before = materials[index]
-    materials[index] = renamed_material(before, identity)
-    entry["material"] = materials[index].name
-    discard_unused([before])
+    """Give the hulls of a part its material, in place of the one before."""
+    for child in obj.children if before != material else ():
+        if HULL_TAG in child and before in child.data.materials[:]:
+            child.data.materials[0] = material
+            child.color = material.diffuse_color
+    if before != material:
+        discard_unused([before])

@@ -1,26 +1,34 @@
 """The rows of the table of parts: which parts the user has ticked, locked and renamed.
 
-Figures, colors and order come from the record. Rows are Blender properties, so that
-undo, saving and copying treat them like all other data.
+Figures, colors and order come from the mesh and the record. Rows are Blender
+properties, so that undo, saving and copying treat them like all other data.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import bpy
 
 from ..stored.identity import Identity
-from .renaming import rename_part
+from .read import part_identities
+from .renaming import color_of_part, recolor_part, rename_part
 
 
 def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    obj = row.id_data
-    index = int(row.path_from_id().rpartition("[")[2].rstrip("]"))
-    name = rename_part(obj, index, row.name.strip())
+    name = rename_part(row.id_data, row.number, row.name.strip())
     if name != row.name:
         row.name = name
+
+
+def _color(row: bpy.types.PropertyGroup) -> tuple[float, float, float]:
+    return color_of_part(row.id_data, row.number)
+
+
+def _recolor(row: bpy.types.PropertyGroup, color: Sequence[float]) -> None:
+    red, green, blue = color
+    recolor_part(row.id_data, row.number, (red, green, blue))
 
 
 class WCD_PG_part(bpy.types.PropertyGroup):
@@ -34,6 +42,15 @@ WCD_PG_part.__annotations__ = {
         update=_rename,
     ),
     "number": bpy.props.IntProperty(options={"HIDDEN"}),
+    "color": bpy.props.FloatVectorProperty(
+        name="Color",
+        description="Color of the part on this object",
+        subtype="COLOR",
+        min=0.0,
+        max=1.0,
+        get=_color,
+        set=_recolor,
+    ),
     "chosen": bpy.props.BoolProperty(
         name="Choose",
         description="Let the buttons act on this part. If no part is ticked, they act"
@@ -49,7 +66,7 @@ WCD_PG_part.__annotations__ = {
 
 @dataclass(frozen=True)
 class Row:
-    """The state of a row that the record does not hold."""
+    """The state of a row that nothing else holds."""
 
     chosen: bool
     locked: bool
@@ -58,8 +75,9 @@ class Row:
 
 def kept_rows(obj: bpy.types.Object) -> dict[int, Row]:
     """Return the state of an object's rows, by the numbers of the parts."""
+    active = obj.wcd_active_part
     return {
-        row.number: Row(row.chosen, row.locked, place == active_part(obj))
+        row.number: Row(row.chosen, row.locked, place == active)
         for place, row in enumerate(obj.wcd_parts)
     }
 
@@ -86,14 +104,23 @@ def erase_rows(obj: bpy.types.Object) -> None:
 
 
 def chosen_parts(obj: bpy.types.Object) -> list[int]:
-    """Return the ticked parts, or the highlighted one if none is ticked."""
-    ticked = [index for index, row in enumerate(obj.wcd_parts) if row.chosen]
-    return ticked or [active_part(obj)]
+    """Return the places of the ticked parts, or of the highlighted one without ticks.
+
+    Places are among the parts that the object has now, by number. Rows of parts that
+    have no faces do not count.
+    """
+    ticked = {row.number for row in obj.wcd_parts if row.chosen}
+    identities = part_identities(obj)
+    places = [p for p, each in enumerate(identities) if each.number in ticked]
+    return places or [active_part(obj)]
 
 
 def active_part(obj: bpy.types.Object) -> int:
-    """Return the highlighted part."""
-    return min(max(obj.wcd_active_part, 0), len(obj.wcd_parts) - 1)
+    """Return the place of the highlighted part, or of the first if it has no faces."""
+    numbers = [each.number for each in part_identities(obj)]
+    row = min(max(obj.wcd_active_part, 0), len(obj.wcd_parts) - 1)
+    number = obj.wcd_parts[row].number if row >= 0 else None
+    return numbers.index(number) if number in numbers else 0
 
 
 def register() -> None:

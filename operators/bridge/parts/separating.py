@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from .erase import clear
 from .exploding import implode
-from .materials import part_materials
-from .read import part_identities, part_labels
+from .materials import own_materials
+from .read import find_parts_on, part_materials
 
 
 def new_collection(obj: bpy.types.Object, name: str) -> bpy.types.Collection:
@@ -32,21 +32,23 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     part only. Modifiers, constraints, groups and attributes are copied, too. If the
     mesh has no materials, the copy gets the material of its part.
     """
-    labels = part_labels(obj)
-    if labels is None:
+    found = find_parts_on(obj)
+    if found is None:
         raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
-    parts = np.unique(labels)
-    identities = part_identities(obj, int(parts.max()) + 1)
-    materials = part_materials(identities, [])
+    identities, own = found.identities, part_materials(obj, found)
+    materials = [  # of the parts, unless the user removed them
+        material or own_materials([identity], [None])[0]
+        for identity, material in zip(identities, own, strict=True)
+    ]
     collection = new_collection(obj, f"{obj.name} parts")
     bare = _copy(obj)
     implode(bare)
     clear(bare)
     pieces: list[bpy.types.Object] = []
-    for part in parts.tolist():
+    for part in range(len(identities)):
         piece = _copy(bare)
         piece.name = piece.data.name = f"{obj.name} {identities[part].name}"
-        _keep_faces(piece.data, labels == part, loose=not pieces)
+        _keep_faces(piece.data, found.labels == part, loose=not pieces)
         piece.color = materials[part].diffuse_color
         if not piece.data.materials:
             piece.data.materials.append(materials[part])

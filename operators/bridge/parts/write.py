@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from operator import attrgetter
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
@@ -16,28 +18,31 @@ from ..mesh.corners import corner_faces, corner_vertices
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
-from ..stored.identity import Identity, usual_identities
-from ..stored.names import COLOR_LAYER, LAYERS, MATERIAL_LAYER, NORMAL_LAYER, PART_LAYER
-from ..stored.record import (
-    check_records,
-    identities_of,
-    record_of,
-    share_result,
-    write_result,
+from ..stored.identity import Identity
+from ..stored.names import (
+    COLOR_LAYER,
+    HAND_LAYER,
+    LAYERS,
+    MATERIAL_LAYER,
+    NORMAL_LAYER,
+    PART_LAYER,
 )
-from ..stored.restore import Restore, write_restore
+from ..stored.record import check_records, write_result
+from ..stored.restore import Restore, sharers, write_restore
+from .continuing import BeforeWriting, by_number
 from .erase import erase_parts
-from .face_sets_and_colors import show, shown
-from .materials import discard_unused, part_materials, points_material
-from .palette import part_color
-from .rows import kept_rows, write_rows
+from .face_sets_and_colors import paint_points, show, shown
+from .figures import fingerprints
+from .materials import discard_unused, own_materials, points_material
+from .rows import write_rows
 
 
 def write_parts(
     obj: bpy.types.Object,
     decomposition: Decomposition,
     parameters: Parameters,
-    kept: tuple[Identity, ...] | None = None,
+    kept: Sequence[Identity] | None = None,
+    by_hand: NDArray[np.bool_] | None = None,
 ) -> None:
     """Show a decomposition on its object, in place of an earlier one.
 
@@ -49,9 +54,11 @@ def write_parts(
     decomposition : Decomposition
     parameters : Parameters
         To be recorded with it.
-    kept : tuple of Identity, optional
-        The identities of all parts, if some of them were there before. Those keep their
-        names, colors, ticks and locks. Without it all parts are new.
+    kept : sequence of Identity, optional
+        Who the parts are, after an edit. Without it they are those of the object that
+        they share most area with; only the others are new.
+    by_hand : (P,) bool, optional
+        Faces, or points, that the user settled by hand.
 
     Raises
     ------
@@ -64,45 +71,71 @@ def write_parts(
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
-    also_shown = shown(obj)
-    identities = kept or usual_identities(decomposition.n_parts)
-    rows = kept_rows(obj) if kept else {}
+    also_shown, before = shown(obj), BeforeWriting.of(obj)
+    identities = kept or before.continued_by(obj, decomposition)
+    decomposition, identities = by_number(decomposition, identities)
     former = erase_parts(obj)
-    restore = _write_mesh(obj, decomposition, identities)
+    everyone = sorted(
+        (*identities, *before.asleep(identities)), key=attrgetter("number")
+    )
+    restore = _write_mesh(obj, decomposition, identities, everyone, before.materials)
+    if by_hand is not None and by_hand.any():
+        layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
     if is_cloud(obj):
         _write_points(obj, decomposition, identities)
     write_restore(obj.data, restore)
-    if restore.groups:
-        identities = tuple(
-            replace(identity, name=group)
-            for identity, group in zip(identities, restore.groups, strict=True)
-        )
-    materials = _material_names(obj, len(identities))
-    write_result(obj, decomposition, parameters, identities, materials)
-    write_rows(obj, identities, rows)
+    _note(obj, decomposition, parameters, restore, everyone, identities, before)
     show(obj, *also_shown)
     discard_unused(former)
 
 
-def share_parts(first: bpy.types.Object, obj: bpy.types.Object) -> None:
-    """Note the parts of `first` on another object that has its mesh.
+def _note(
+    obj: bpy.types.Object,
+    decomposition: Decomposition,
+    parameters: Parameters,
+    restore: Restore,
+    everyone: Sequence[Identity],
+    identities: Sequence[Identity],
+    before: BeforeWriting,
+) -> None:
+    """Write the record and the rows, on all objects that share the mesh."""
+    if restore.groups:
+        everyone = _named(everyone, restore.groups)
+    here = {each.number for each in identities}
+    identities = [each for each in everyone if each.number in here]
+    materials = _material_names(obj, [each.number in here for each in everyone])
+    measured_on = [
+        [float(f"{value:.5g}") for value in row]
+        for row in fingerprints(obj, decomposition.labels, len(identities)).tolist()
+    ]
+    for sharer in sharers(obj):
+        write_result(
+            sharer,
+            decomposition,
+            parameters,
+            identities,
+            materials,
+            measured_on,
+            before.past,
+        )
+        write_rows(sharer, everyone, before.rows.get(sharer.name, {}))
 
-    Parameters
-    ----------
-    first : bpy.types.Object
-        An object that `write_parts` wrote to.
-    obj : bpy.types.Object
-        Its own measurements and hulls stay noted.
-    """
-    record = record_of(first)
-    share_result(record, obj)
-    write_rows(obj, identities_of(record), {})
+
+def _write_points(
+    obj: bpy.types.Object, decomposition: Decomposition, identities: Sequence[Identity]
+) -> None:
+    """Write the colors of points, and their normals if we estimated them."""
+    paint_points(obj, decomposition.labels, identities)
+    if decomposition.normals is not None:
+        set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
 
 
-def _material_names(obj: bpy.types.Object, n_parts: int) -> list[str]:
+def _material_names(obj: bpy.types.Object, here: Sequence[bool]) -> list[str]:
     """Return the name of each part's material. All parts of a cloud share one."""
-    names = [material.name for material in obj.data.materials[-n_parts:]]
-    return names[-1:] * n_parts if is_cloud(obj) else names
+    if is_cloud(obj):
+        return [obj.data.materials[-1].name] * sum(here)
+    ours = obj.data.materials[-len(here) :]
+    return [each.name for each, there in zip(ours, here, strict=True) if there]
 
 
 def check_writable(obj: bpy.types.Object) -> None:
@@ -129,6 +162,8 @@ def _write_mesh(
     obj: bpy.types.Object,
     decomposition: Decomposition,
     identities: Sequence[Identity],
+    everyone: Sequence[Identity],
+    sources: Mapping[int, bpy.types.Material | None],
 ) -> Restore:
     """Write parts to a mesh without parts; return how to bring it back."""
     mesh = obj.data
@@ -136,22 +171,30 @@ def _write_mesh(
     uniform = before is None or bool((before == before[0]).all())
     slots = [material.name if material else "" for material in mesh.materials]
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
+    users = [group.name for group in obj.vertex_groups]
     active_slot = obj.active_material_index
     groups = []
     if obj.type == "MESH":  # point cloud objects have no groups
-        groups = _add_groups(obj, identities, active_group)
-    for material in _materials(obj, identities, slots):
+        groups = _add_groups(obj, everyone, active_group)
+        everyone = _named(everyone, groups)
+    for material in _materials(obj, everyone, sources, slots):
         mesh.materials.append(material)
     obj.active_material_index = active_slot
     layers = layers_of(obj)
-    labels = decomposition.labels.astype(np.int32)
+    numbers = np.array([identity.number for identity in identities], dtype=np.int32)
+    places = np.searchsorted([each.number for each in everyone], numbers)
     if before is not None and not uniform:
         layers.set_faces(MATERIAL_LAYER, before)
-    layers.set_faces(PART_LAYER, labels)
-    layers.set_material_indices(labels + len(slots))
-    members = _vertices_by_part(obj, labels, len(groups))
-    for name, vertices in zip(groups, members, strict=True):
-        layers.fill_group(obj.vertex_groups[name], vertices)
+    layers.set_faces(PART_LAYER, numbers[decomposition.labels])
+    layers.set_material_indices(
+        (places[decomposition.labels] + len(slots)).astype(np.int32)
+    )
+    labels = decomposition.labels.astype(np.int32)
+    members = _vertices_by_part(obj, labels, len(identities))
+    for place, vertices in zip(
+        places.tolist() if groups else (), members, strict=False
+    ):
+        layers.fill_group(obj.vertex_groups[groups[place]], vertices)
     layers.finish()
     return Restore(
         groups=groups,
@@ -160,6 +203,7 @@ def _write_mesh(
         active_slot=active_slot,
         material_index=int(before[0]) if uniform and before is not None else None,
         had_material_index=before is not None,
+        user_groups=users,
     )
 
 
@@ -173,25 +217,22 @@ def _add_groups(
     return names
 
 
+def _named(identities: Sequence[Identity], groups: Sequence[str]) -> list[Identity]:
+    """Return identities with their groups' names: taken names get a number."""
+    both = zip(identities, groups, strict=True)
+    return [replace(each, name=group) for each, group in both]
+
+
 def _materials(
-    obj: bpy.types.Object, identities: Sequence[Identity], slots: list[str]
+    obj: bpy.types.Object,
+    identities: Sequence[Identity],
+    sources: Mapping[int, bpy.types.Material | None],
+    slots: list[str],
 ) -> list[bpy.types.Material]:
     """Return a material for each part of a mesh, or one for all points."""
     if is_cloud(obj):
         return [points_material(COLOR_LAYER, slots)]
-    return part_materials(identities, slots)
-
-
-def _write_points(
-    obj: bpy.types.Object,
-    decomposition: Decomposition,
-    identities: Sequence[Identity],
-) -> None:
-    """Write the colors of points, and their normals if we estimated them."""
-    palette = np.array([part_color(identity.number) for identity in identities])
-    set_points(obj, COLOR_LAYER, "FLOAT_COLOR", palette[decomposition.labels])
-    if decomposition.normals is not None:
-        set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
+    return own_materials(identities, [sources.get(each.number) for each in identities])
 
 
 def _vertices_by_part(

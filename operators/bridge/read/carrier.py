@@ -9,6 +9,7 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
+from ..parts.materials import discard_unused, is_ours
 from ..refusals import CONVERTIBLE
 from ..stored.names import CARRIER_TAG
 from .converting import converted
@@ -74,6 +75,8 @@ def is_waiting(obj: bpy.types.Object) -> bool:
 def _remove(carrier: bpy.types.Object) -> None:
     """Remove a carrier, and its mesh if nothing else uses it."""
     mesh = carrier.data
+    materials = {material for material in mesh.materials if is_ours(material)}
     bpy.data.objects.remove(carrier)
     if mesh.users == 0:
         bpy.data.meshes.remove(mesh)
+    discard_unused(materials)

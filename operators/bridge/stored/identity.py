@@ -1,27 +1,35 @@
-"""The number and name of a part, which stay when other parts are edited."""
+"""Who a part is: its number, name and color, which stay when other parts change."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
-import bpy
+# Blender adds a number to a name that is taken: "Ear.001".
+_NUMBERED = re.compile(r"\.\d{3,}$")
+_USUAL = re.compile(r"Part \d{2,}$")
 
 
 @dataclass(frozen=True)
 class Identity:
-    """The number and name of a part; its place among the parts may change.
+    """Who a part is; its place among the parts may change.
 
     Attributes
     ----------
     number : int
-        Chooses its color; counted from 0.
+        Value of the attribute `wcd_part` on its faces, from 0. No other part of the
+        object has it.
     name : str
-        Of its vertex group, material and entry in the record.
+        Of its vertex group and its entry in the record; its material may have a number
+        behind it.
+    color : tuple of float
+        Linear red, green and blue.
     """
 
     number: int
     name: str
+    color: tuple[float, float, float]
 
 
 def part_name(number: int) -> str:
@@ -29,59 +37,33 @@ def part_name(number: int) -> str:
     return f"Part {number + 1:02d}"
 
 
-def usual_identities(n_parts: int) -> tuple[Identity, ...]:
-    """Return the identities of parts that were never edited."""
-    return tuple(Identity(number, part_name(number)) for number in range(n_parts))
+def plain_name(name: str) -> str:
+    """Return a name without the number that Blender adds to a name that is taken."""
+    return _NUMBERED.sub("", name)
 
 
-def identities_after(
-    before: Sequence[Identity], former: Sequence[int], mirrored: Mapping[int, int]
-) -> list[Identity]:
-    """Return who the parts are after an edit.
+def without_side(name: str) -> str:
+    """Return a name without the ending of a side, ".L" or ".R"."""
+    return name[:-2] if name.endswith((".L", ".R")) else name
 
-    Parameters
-    ----------
-    before : sequence of Identity
-        Of the K parts before the edit.
-    former : sequence of int
-        For each part, its place in `before`, or K and more if it is new. New parts get
-        the lowest free numbers.
-    mirrored : mapping of int to int
-        New parts that are mirror images, and the parts that they mirror. They get the
-        name of the other side.
 
-    Returns
-    -------
-    list of Identity
-        One for each of `former`.
+def free_name(taken: Collection[str]) -> str:
+    """Return the first of "Part 01", "Part 02"… that no part has, on either side."""
+    used = {without_side(plain_name(name)) for name in taken}
+    return next(
+        name for n in range(len(taken) + 1) if (name := part_name(n)) not in used
+    )
+
+
+def unique_name(name: str, taken: Collection[str]) -> str:
+    """Return a name that no other part has, near to the one wished for.
+
+    Parts that nobody named get the next free number; others get one as Blender does.
     """
-    found = {label: before[label] for label in former if label < len(before)}
-    gone = {each.name: each for each in before if each not in found.values()}
-    names = {
-        image: bpy.utils.flip_name(found[label].name)
-        for image, label in mirrored.items()
-    }
-    # A mirror image takes the place of the part that had its name.
-    found |= {label: gone[name] for label, name in names.items() if name in gone}
-    taken = {each.number for each in found.values()}
-    for label in former:
-        if label not in found:
-            free = next(n for n in range(len(taken) + 1) if n not in taken)
-            taken.add(free)
-            found[label] = Identity(free, names.get(label) or part_name(free))
-    return [found[label] for label in former]
-
-
-def with_sides(
-    identities: Sequence[Identity], sources: Iterable[int], side: str
-) -> tuple[Identity, ...]:
-    """Return identities; `sources` get the ending of a side, "L" or "R".
-
-    A name that has such an ending already stays.
-    """
-    named = list(identities)
-    for label in sources:
-        name = named[label].name
-        if bpy.utils.flip_name(name) == name:
-            named[label] = Identity(named[label].number, f"{name}.{side}")
-    return tuple(named)
+    if name not in taken:
+        return name
+    plain = plain_name(name)
+    if _USUAL.match(without_side(plain)):
+        return free_name(taken)
+    numbered = (f"{plain}.{n:03d}" for n in range(1, len(taken) + 2))
+    return next(each for each in numbered if each not in taken)

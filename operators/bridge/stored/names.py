@@ -9,6 +9,8 @@ RESTORE = "wcd_restore"
 
 # Attribute of faces, or of points: the number of the part, counted from 0.
 PART_LAYER = "wcd_part"
+# Attribute of faces, or of points: 1 where the user settled the part by hand.
+HAND_LAYER = "wcd_hand"
 # Attribute of faces: the material index before ours.
 MATERIAL_LAYER = "wcd_material_index"
 # Attribute of faces: the face set before ours, 0 where the mesh had none.
@@ -20,6 +22,7 @@ NORMAL_LAYER = "wcd_normal"
 # All attributes of ours, with their data types.
 LAYERS = {
     PART_LAYER: "INT",
+    HAND_LAYER: "INT",
     MATERIAL_LAYER: "INT",
     FACE_SET_LAYER: "INT",
     COLOR_LAYER: "FLOAT_COLOR",
@@ -28,8 +31,7 @@ LAYERS = {
 # Blender's own attribute for the face sets of Sculpt Mode, counted from 1.
 FACE_SETS = ".sculpt_face_set"
 
-# Custom properties of a material of ours: the number of the part, and the name of the
-# part where it is not the usual one for that number.
+# Custom properties of a material of ours: the number and the name of the part.
 MATERIAL_TAG = "wcd_part"
 MATERIAL_NAME = "wcd_name"
 # Custom property of hulls, and of the collections made for them: the figures of a hull.

@@ -17,6 +17,7 @@ from .identity import Identity
 from .names import RESULT
 from .notes import parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore
+from .versions import PAST, change_entries
 
 _MEASURED = "measured"
 _SELECTION = "selection"
@@ -39,17 +40,16 @@ def record_of(obj: bpy.types.Object) -> dict[str, Any]:
     return read_note(obj, RESULT, parse_record)
 
 
-def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
-    """Return the identities of a record's parts, in their order."""
-    return tuple(
-        Identity(part.get("number", place), part["name"])
-        for place, part in enumerate(record.get("parts", ()))
-    )
-
-
 def write_record(obj: bpy.types.Object, record: dict[str, Any]) -> None:
     """Note a changed record on its object."""
     write_note(obj, RESULT, record)
+
+
+def change_part(obj: bpy.types.Object, number: int, change: dict[str, Any]) -> None:
+    """Change what is noted of a part on its object, in all versions of the record."""
+    record = record_of(obj)
+    if change_entries(record, number, change):
+        write_record(obj, record)
 
 
 def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
@@ -83,51 +83,70 @@ def write_result(
     parameters: Parameters,
     identities: Sequence[Identity],
     materials: list[str],
+    measured_on: Sequence[Sequence[float]],
+    past: list[dict[str, Any]],
 ) -> None:
-    """Note a decomposition on its object; measurements and hulls stay noted."""
-    parts = zip(
-        identities,
-        materials,
-        decomposition.face_counts.tolist(),
-        decomposition.areas.tolist(),
-        decomposition.ranks.tolist(),
-        strict=True,
-    )
+    """Note a decomposition on its object; measurements and hulls stay noted.
+
+    `past` holds the versions of the record that undo in Edit Mode may bring back.
+    """
     result = {
         "version": version(),
         "parameters": asdict(parameters),
         "seed": parameters.seed,
         "k": decomposition.n_parts,
-        "psi": float(decomposition.psi),
-        "psi_before": float(decomposition.psi_before),
+        "psi": _number(decomposition.psi),
+        "psi_before": _number(decomposition.psi_before),
         "psi_by_k": {str(k): float(v) for k, v in decomposition.psi_by_k.items()},
         "best_k": decomposition.best_k,
         "pairs_cast": decomposition.pairs_cast,
         "pairs_inferred": decomposition.pairs_inferred,
-        "parts": [
-            {
-                "name": identity.name,
-                "number": identity.number,
-                "material": material,
-                "faces": faces,
-                "area": area,
-                "convexity_rank": rank,
-            }
-            for identity, material, faces, area, rank in parts
-        ],
+        "parts": _entries(decomposition, identities, materials, measured_on),
         "notes": list(decomposition.notes),
     }
+    if past:
+        result[PAST] = past
+        for identity in identities:
+            change_entries(result, identity.number, {"name": identity.name})
     beside = _beside_parts(obj)
     for hull in beside.get(_HULLS, {}).get("hulls", ()):
         hull["part"] = None  # it is around a former part
     write_note(obj, RESULT, {**result, **beside})
 
 
-def share_result(record: dict[str, Any], obj: bpy.types.Object) -> None:
-    """Note the parts of another object's record; measurements and hulls are its own."""
-    others = {_MEASURED, _SELECTION, _HULLS}
-    parts = {key: value for key, value in record.items() if key not in others}
-    write_note(obj, RESULT, {**parts, **_beside_parts(obj)})
+def _entries(
+    decomposition: Decomposition,
+    identities: Sequence[Identity],
+    materials: list[str],
+    measured_on: Sequence[Sequence[float]],
+) -> list[dict[str, Any]]:
+    """Return what is noted of each part."""
+    return [
+        {
+            "name": identity.name,
+            "number": identity.number,
+            "color": list(identity.color),
+            "material": material,
+            "faces": faces,
+            "area": area,
+            "convexity_rank": _number(rank),
+            "measured_on": list(fingerprint),
+        }
+        for identity, material, faces, area, rank, fingerprint in zip(
+            identities,
+            materials,
+            decomposition.face_counts.tolist(),
+            decomposition.areas.tolist(),
+            decomposition.ranks.tolist(),
+            measured_on,
+            strict=True,
+        )
+    ]
+
+
+def _number(value: float) -> float | None:
+    """Return a figure for JSON, None if it is not known."""
+    return float(value) if math.isfinite(value) else None
 
 
 def write_measurement(

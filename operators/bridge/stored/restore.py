@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, fields
 
 import bpy
 
-from .names import RESTORE
+from .names import MATERIAL_NAME, MATERIAL_TAG, PART_LAYER, RESTORE
 from .notes import not_ours, read_note, write_note
 
 
@@ -32,6 +32,8 @@ class Restore:
         The material index of all faces, None if faces had different ones.
     had_material_index : bool
         Whether the mesh kept material indices at all.
+    user_groups : list of str or None
+        Names of the vertex groups before; None if an older version did not note them.
     """
 
     groups: list[str]
@@ -40,16 +42,41 @@ class Restore:
     active_slot: int
     material_index: int | None
     had_material_index: bool
+    user_groups: list[str] | None = None
 
 
 def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
-    """Return what was noted on a mesh, None if we have not written to it."""
+    """Return what was noted on a mesh, None if we have not written to it.
+
+    Blender drops the note where an object with parts is joined to one without, and
+    where it makes a new mesh. Then the materials of the parts say what is ours.
+    """
     noted = read_note(mesh, RESTORE)
     if not noted:
-        return None
-    if noted.keys() != {field.name for field in fields(Restore)}:
+        return _guessed(mesh)
+    # Older versions of the extension did not note the user's groups.
+    names = {each.name for each in fields(Restore)}
+    if noted.keys() | {"user_groups"} != names:
         raise not_ours(mesh, RESTORE)
     return Restore(**noted)
+
+
+def _guessed(mesh: bpy.types.Mesh) -> Restore | None:
+    """Return how to bring back a mesh that has lost its note, None without parts."""
+    if PART_LAYER not in getattr(mesh, "attributes", ()):
+        return None
+    ours = [m for m in mesh.materials if m and isinstance(m.get(MATERIAL_TAG), int)]
+    users = [m.name if m else "" for m in mesh.materials if m not in ours]
+    if not ours:
+        return None
+    return Restore(
+        groups=[m[MATERIAL_NAME] for m in ours if MATERIAL_NAME in m],
+        active_group="",
+        slots=users,
+        active_slot=0,
+        material_index=0,
+        had_material_index=bool(users),
+    )
 
 
 def write_restore(mesh: bpy.types.Mesh, restore: Restore | None) -> None:
@@ -57,6 +84,13 @@ def write_restore(mesh: bpy.types.Mesh, restore: Restore | None) -> None:
     write_note(mesh, RESTORE, asdict(restore) if restore else {})
 
 
+def sharers(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return the objects that use the mesh of an object and can be changed, by name."""
+    if obj.data.users == 1:  # files have thousands of objects
+        return [obj]
+    return [o for o in bpy.data.objects if o.data == obj.data and o.is_editable]
+
+
 def has_parts(obj: bpy.types.Object) -> bool:
     """Return whether the mesh of an object has parts of ours."""
-    return RESTORE in obj.data
+    return RESTORE in obj.data or _guessed(obj.data) is not None

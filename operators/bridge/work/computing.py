@@ -16,7 +16,7 @@ from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition, HullDecomposition, Measurement, Picture
 from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
-from ..parts.palette import part_srgb
+from ..parts.palette import srgb_of
 from ..parts.read import part_identities, part_labels
 from ..parts.write import check_writable
 from ..read.shape import read_shape, reading_notes, scene_unit
@@ -133,8 +133,7 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
         raise DecompositionError(
             f"{obj.name} has no record of its parts; decompose it again."
         )
-    identities = part_identities(obj, int(labels.max()) + 1)
-    colors = np.array([part_srgb(identity.number) for identity in identities])
+    colors = np.array([srgb_of(each.color) for each in part_identities(obj)])
 
     def work() -> Steps[Picture]:
         cache = session_cache()

@@ -69,6 +69,12 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
     return change
 
 
+def nothing(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
+    """Change no face: the parts are only measured and written again."""
+    yield Progress("Refresh", 0.0)
+    return core.Change(parts.labels)
+
+
 def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
     """Return the edit that splits each of some parts.
 
@@ -103,7 +109,7 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
             free += found.n_parts - 1
         if free == len(parts.identities):
             raise _nothing_split(parts.identities[chosen[0]].name, n_parts)
-        return core.Change(labels, ranks)
+        return core.Change(labels, ranks, by_hand=np.isin(parts.labels, chosen))
 
     return change
 

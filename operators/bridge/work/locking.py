@@ -1,4 +1,10 @@
-"""Decompose an object again, except for its locked parts."""
+"""Decompose an object again; what the user locked, or settled by hand, stays.
+
+The rule: a locked part stays as it is, and so does a part all of whose faces were
+settled by hand, by a merge, a split or Assign Faces. They are left out of the run. If
+only some faces of a part were settled, the run covers them, and they are then given
+back to the part. Smooth Seams and Mirror settle nothing; locks do.
+"""
 
 from __future__ import annotations
 
@@ -6,27 +12,37 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
-from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
-from ....core.steps.progress import Steps
+from ....core.results import Decomposition
+from ....core.steps.progress import Steps, within
+from ..parts.continuing import face_areas
 from ..parts.present_parts import PresentParts, present_parts
+from ..parts.read import part_labels
+from ..parts.write import check_writable
+from ..read.shape import read_shape, reading_notes
 from ..refusals import edit_refusal
 from .computing import decompose_object
-from .run_edit import Edited, edit_object
+from .libraries import load_libraries
+from .run_edit import Edited
 from .session_cache import session_cache
 
 
-def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
-    """Return the steps that decompose an object, except for its locked parts.
+def decompose_unlocked(
+    obj: bpy.types.Object, parameters: Parameters, keep_edits: bool = True
+) -> Steps[Edited]:
+    """Return the steps that decompose an object, except for what the user settled.
 
     Parameters
     ----------
     obj : bpy.types.Object
     parameters : Parameters
-        Numbers of parts include the locked parts.
+        Numbers of parts include the parts that stay.
+    keep_edits : bool
+        Whether what the user settled by hand stays; locked parts always do.
 
     Returns
     -------
@@ -35,12 +51,16 @@ def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[E
     Raises
     ------
     DecompositionError
-        At once, if the object cannot be read or written to, all parts are locked, or
-        the number of parts leaves none for the unlocked faces.
+        At once, if the object cannot be read or written to, all parts stay, or the
+        number of parts leaves none for the other faces.
     """
-    locks = edit_refusal(obj) is None and any(row.locked for row in obj.wcd_parts)
-    if locks:
-        return _decompose_rest(obj, parameters)
+    if edit_refusal(obj) is None and part_labels(obj) is not None:
+        check_writable(obj)
+        parts = present_parts(obj)
+        by_hand = parts.by_hand & keep_edits
+        held = _held(parts, by_hand)
+        if held.any() or by_hand.any():
+            return _decompose_rest(obj, parameters, parts, by_hand, held)
     steps = decompose_object(obj, parameters)
 
     def work() -> Steps[Edited]:
@@ -49,44 +69,89 @@ def decompose_unlocked(obj: bpy.types.Object, parameters: Parameters) -> Steps[E
     return work()
 
 
-def _decompose_rest(obj: bpy.types.Object, parameters: Parameters) -> Steps[Edited]:
-    """Return the steps that decompose the unlocked faces, from their own samples."""
-    parts = present_parts(obj)
-    locked = np.flatnonzero(parts.locked)
-    members = ~np.isin(parts.labels, locked)
-    rest = _parameters_of_rest(parameters, len(np.unique(parts.labels[~members])))
-    if not members.any():
-        raise DecompositionError(
-            "All parts are locked, so nothing is left to decompose; unlock some."
-        )
+def _held(parts: PresentParts, by_hand: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which parts a run leaves out: the locked, and those settled as a whole."""
+    n_parts = len(parts.identities)
+    free = np.bincount(parts.labels, ~by_hand, n_parts)
+    return parts.locked | (free == 0)
 
-    def change(
-        shape: Shape, _: core.PartMemo, parts: PresentParts
-    ) -> Steps[core.Change]:
+
+def _decompose_rest(
+    obj: bpy.types.Object,
+    parameters: Parameters,
+    parts: PresentParts,
+    by_hand: NDArray[np.bool_],
+    held: NDArray[np.bool_],
+) -> Steps[Edited]:
+    """Return the steps that decompose the other faces, from their own samples."""
+    members = ~held[parts.labels]
+    rest = _parameters_of_rest(parameters, parts, held)
+    notes, shape = reading_notes(obj), read_shape(obj)
+    areas = face_areas(obj, len(members))
+
+    def work() -> Steps[Edited]:
+        yield from load_libraries()
         cache = session_cache()
-        found = yield from core.decompose_in_steps(shape, rest, cache, members)
-        labels = parts.labels.copy()
-        first = len(parts.identities)
-        labels[members] = first + found.labels
-        ranks = {first + part: rank for part, rank in enumerate(found.ranks.tolist())}
-        return core.Change(labels, ranks)
-
-    return edit_object(obj, change, parameters)
-
-
-def _parameters_of_rest(parameters: Parameters, n_locked: int) -> Parameters:
-    """Return parameters for the unlocked faces, without the locked parts in numbers."""
-    fewest = max(2, parameters.min_parts - n_locked)
-    most = max(fewest, parameters.max_parts - n_locked)
-    n_parts = parameters.parts
-    if n_parts and n_parts <= n_locked:
-        raise DecompositionError(
-            f"Parts is {n_parts}, but {n_locked} parts are locked and count too; raise"
-            f" it to {n_locked + 1} at least, set it to 0, or unlock some."
+        some = members if held.any() else None
+        running = core.decompose_in_steps(shape, rest, cache, some)
+        run = yield from within(running, 0.0, 0.6)
+        after = parts.labels.copy()
+        after[members] = len(held) + run.labels
+        labels = core.settled(parts.labels, after, areas, by_hand | ~members)
+        prepared = yield from within(cache.prepare(shape), 0.6, 0.7)
+        memo = yield from within(cache.see(prepared, parameters), 0.7, 0.9)
+        searched = parts if held.any() else run
+        found = core.describe(
+            memo.visibility, labels, parameters, searched.psi_by_k, searched.best_k
         )
+        ranks = _ranks(found, after, np.concatenate([parts.ranks, run.ranks]))
+        pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
+        said = (*notes, *found.notes)
+        found = replace(found, ranks=ranks, pairs=pairs, notes=said)
+        return Edited(found, None, parameters, by_hand)
+
+    return work()
+
+
+def _ranks(
+    found: Decomposition, before: NDArray[np.int64], known: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the rank of each part: the known one, if no face came or went.
+
+    Only few samples of the whole shape lie on a small part.
+    """
+    ranks = found.ranks.copy()
+    pairs = np.unique(np.stack([found.labels, before], axis=1), axis=0)
+    alone = np.bincount(pairs[:, 0])[pairs[:, 0]] == 1
+    alone &= np.bincount(pairs[:, 1])[pairs[:, 1]] == 1
+    for part, former in pairs[alone]:
+        if np.isfinite(known[former]):
+            ranks[part] = known[former]
+    return ranks
+
+
+def _parameters_of_rest(
+    parameters: Parameters, parts: PresentParts, held: NDArray[np.bool_]
+) -> Parameters:
+    """Return parameters for the other faces, without the parts that stay in numbers."""
+    n_held, n_parts = int(held.sum()), parameters.parts
+    if not n_held:
+        return parameters
+    kept = "locked" if (held == parts.locked).all() else "locked or edited by hand"
+    way_out = "unlock some" if kept == "locked" else "unlock some, or clear Keep Edits"
+    if held.all():
+        raise DecompositionError(
+            f"All parts are {kept}, so nothing is left to decompose; {way_out}."
+        )
+    if n_parts and n_parts <= n_held:
+        raise DecompositionError(
+            f"Parts is {n_parts}, but {n_held} parts are {kept} and count too; raise"
+            f" it to {n_held + 1} at least, set it to 0, or {way_out}."
+        )
+    fewest = max(2, parameters.min_parts - n_held)
     return replace(
         parameters,
-        parts=n_parts - n_locked if n_parts else 0,
+        parts=n_parts - n_held if n_parts else 0,
         min_parts=fewest,
-        max_parts=most,
+        max_parts=max(fewest, parameters.max_parts - n_held),
     )

@@ -15,19 +15,17 @@ from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition
 from ....core.steps.progress import Steps, within
+from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
 from ..read.shape import read_shape, reading_notes
-from ..stored.identity import Identity, identities_after, with_sides
+from ..stored.identity import Identity
 from .libraries import load_libraries
 from .session_cache import session_cache
 
 MakeChange: TypeAlias = Callable[
     [Shape, "core.PartMemo", PresentParts], Steps["core.Change"]
 ]
-
-# Two parts with a smaller relative difference of area count as the same faces.
-_SAME_AREA = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,14 +36,18 @@ class Edited:
     ----------
     decomposition : Decomposition
     identities : tuple of Identity or None
-        Identity of each part, kept or new; None if all parts are new.
+        Who the parts are after an edit; None after a run, whose parts are matched with
+        those of the object.
     parameters : Parameters
         Recorded on the object with the parts.
+    by_hand : (P,) bool or None
+        Faces that the user settled by hand.
     """
 
     decomposition: Decomposition
     identities: tuple[Identity, ...] | None
     parameters: Parameters
+    by_hand: NDArray[np.bool_] | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -60,13 +62,14 @@ class Edited:
         obj : bpy.types.Object
             The object that they were computed for.
         """
-        write_parts(obj, self.decomposition, self.parameters, self.identities)
+        write_parts(
+            obj, self.decomposition, self.parameters, self.identities, self.by_hand
+        )
 
 
 def edit_object(
     obj: bpy.types.Object,
     make_change: MakeChange,
-    parameters: Parameters | None = None,
 ) -> Steps[Edited]:
     """Check and read an object with parts; return the steps that change them.
 
@@ -75,8 +78,6 @@ def edit_object(
     obj : bpy.types.Object
     make_change : callable
         Takes the shape, its memo and the present parts; returns the steps of a Change.
-    parameters : Parameters, optional
-        Decide the lines of sight; by default, as for the present parts.
 
     Returns
     -------
@@ -89,8 +90,7 @@ def edit_object(
     """
     check_writable(obj)
     parts, shape = present_parts(obj), read_shape(obj)
-    parameters = parameters or parts.parameters
-
+    parameters = parts.parameters
     notes = reading_notes(obj)
 
     def work() -> Steps[Edited]:
@@ -100,9 +100,12 @@ def edit_object(
         memo = yield from within(cache.see(prepared, parameters), 0.1, 0.5)
         steps = make_change(shape, memo, parts)
         change = yield from within(steps, 0.5, 1.0)
-        found, identities = _described(memo, parts, change, parameters)
+        found, identities = _described(memo, parts, change)
         found = replace(found, notes=(*notes, *found.notes))
-        return Edited(found, identities, parameters)
+        by_hand = parts.by_hand
+        if change.by_hand is not None:
+            by_hand = by_hand | change.by_hand
+        return Edited(found, identities, parameters, by_hand)
 
     return work()
 
@@ -111,19 +114,18 @@ def _described(
     memo: core.PartMemo,
     parts: PresentParts,
     change: core.Change,
-    parameters: Parameters,
 ) -> tuple[Decomposition, tuple[Identity, ...]]:
-    """Return changed parts as a decomposition, sorted by number, with identities."""
+    """Return changed parts as a decomposition, and who they are."""
     labels, former = core.compacted(change.labels)
     before = with_sides(parts.identities, change.mirrored.values(), change.side)
-    identities = identities_after(before, former.tolist(), change.mirrored)
-    order = sorted(range(len(former)), key=lambda row: identities[row].number)
-    labels, former = np.argsort(order)[labels], former[order]
+    identities = identities_after(
+        before, former.tolist(), change.mirrored, parts.asleep
+    )
     found = core.describe(
-        memo.visibility, labels, parameters, parts.psi_by_k, parts.best_k
+        memo.visibility, labels, parts.parameters, parts.psi_by_k, parts.best_k
     )
     ranks = _ranks(found, parts, change, former.tolist())
-    return replace(found, ranks=ranks), tuple(identities[row] for row in order)
+    return replace(found, ranks=ranks), tuple(identities)
 
 
 def _ranks(
@@ -140,8 +142,6 @@ def _ranks(
     for row, label in enumerate(former):
         if label in change.ranks:
             ranks[row] = change.ranks[label]
-        elif label not in touched and np.isclose(
-            found.areas[row], parts.areas[label], rtol=_SAME_AREA
-        ):
+        elif label not in touched and np.isfinite(parts.ranks[label]):
             ranks[row] = parts.ranks[label]
     return ranks

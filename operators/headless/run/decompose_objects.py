@@ -9,10 +9,10 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ...bridge.parts.write import share_parts, write_parts
 from ...bridge.read.shape import has_proportions_of
 from ...bridge.stored.record import record_of
-from ...bridge.work.computing import decompose_object, summary
+from ...bridge.work.computing import summary
+from ...bridge.work.locking import decompose_unlocked
 from ..current_file import has_shape
 from ..read.load import LoadedFile
 from ..screen import Screen, progress_title
@@ -67,7 +67,6 @@ def _shared(
             )
     except DecompositionError as error:
         return ObjectResult(obj.name_full, error=str(error))
-    share_parts(first, obj)
     summary = f"{result.summary}, with the mesh of {first.name_full}"
     return ObjectResult(obj.name_full, record_of(obj), summary, notes)
 
@@ -78,8 +77,9 @@ def _decompose(
     """Decompose one object and write its parts to it."""
     started = time.perf_counter()
     try:
-        found = screen.follow(title, decompose_object(obj, parameters))
-        write_parts(obj, found, parameters)
+        edited = screen.follow(title, decompose_unlocked(obj, parameters))
+        edited.write(obj)
+        found = edited.decomposition
     except DecompositionError as error:
         return ObjectResult(obj.name_full, error=str(error))
     return ObjectResult(

@@ -25,7 +25,7 @@ from ...bridge.mesh.attributes import (
 )
 from ...bridge.mesh.corners import corner_faces, corner_vertices
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
-from ...bridge.parts.palette import part_color
+from ...bridge.parts.read import part_identities
 from ...bridge.stored.names import PART_LAYER
 from ..current_file import mesh_objects
 
@@ -57,8 +57,9 @@ def ply_copies() -> Iterator[None]:
 def _copy_of_cloud(obj: bpy.types.Object) -> bpy.types.Object:
     """Return a new object with the points of a cloud, painted by part."""
     parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    colors = np.array([part_color(part) for part in range(parts.max(initial=-1) + 1)])
-    colors = np.concatenate([colors.reshape(-1, 4), [_UNPAINTED]])  # last: of part -1
+    colors = np.tile(_UNPAINTED, (parts.max(initial=-1) + 2, 1))  # last: of part -1
+    for identity in part_identities(obj):
+        colors[identity.number] = (*identity.color, 1.0)
     mesh = bpy.data.meshes.new(obj.name)
     mesh.from_pydata(positions_of(obj), [], [])
     _paint(mesh, colors[parts], parts)

@@ -6,11 +6,11 @@ import bpy
 import numpy as np
 
 from .... import core
-from ...bridge.mesh.attributes import read_labels, write_ints
-from ...bridge.mesh.points import count_points, normals_of, positions_of, read_vectors
-from ...bridge.parts.materials import part_materials
-from ...bridge.stored.identity import usual_identities
-from ...bridge.stored.names import NORMAL_LAYER, PART_LAYER
+from ...bridge.mesh.attributes import write_ints
+from ...bridge.mesh.points import normals_of, positions_of, read_vectors
+from ...bridge.parts.materials import own_materials
+from ...bridge.parts.read import find_parts_on
+from ...bridge.stored.names import NORMAL_LAYER
 
 
 def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
@@ -23,12 +23,12 @@ def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
     if normals is None:
         normals = normals_of(obj)
     mesh = bpy.data.meshes.new(obj.name)
-    if normals is None or PART_LAYER not in obj.data.attributes:
+    found = find_parts_on(obj)
+    if normals is None or found is None:
         return mesh
     kept, _, targets = core.thinned_splats(points, normals.astype(np.float64))
     mesh.from_pydata(targets.vertices, [], targets.triangles.tolist())
-    parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    for material in part_materials(usual_identities(int(parts.max()) + 1), []):
+    for material in own_materials(found.identities, [None] * len(found.identities)):
         mesh.materials.append(material)
-    write_ints(mesh.polygons, "material_index", parts[kept])
+    write_ints(mesh.polygons, "material_index", found.labels[kept])
     return mesh

@@ -1,7 +1,19 @@
 from itertools import combinations
 
 import numpy as np
-from weak_convex_decomposition.operators.bridge.parts.palette import part_color
+import pytest
+from weak_convex_decomposition.operators.bridge.parts.palette import (
+    free_color,
+    part_color,
+    partner_color,
+)
+
+N_COLORS = 24
+
+
+def palette():
+    return [part_color(i)[:3] for i in range(N_COLORS)]
+
 
 # Linear RGB as seen without the middle or the long-wave cones: Machado, Oliveira and
 # Fernandes, "A Physiologically-based Model for Simulation of Color Vision
@@ -42,8 +54,47 @@ def smallest_difference(n_parts, view):
     return min(np.linalg.norm(a - b) for a, b in combinations(colors, 2))
 
 
-def test_thirty_parts_have_distinct_colors():
-    assert smallest_difference(30, np.eye(3)) > 7
+def test_the_colors_of_24_parts_are_told_apart():
+    assert smallest_difference(N_COLORS, np.eye(3)) > 25
+
+
+def test_partners_are_told_apart_from_each_other_and_from_all_parts():
+    colors = lab(np.array([*palette(), *map(partner_color, palette())]))
+    assert min(np.linalg.norm(a - b) for a, b in combinations(colors, 2)) > 13
+
+
+def test_no_color_is_gray_or_near_black():
+    lightness, *opponents = lab(
+        np.array([*palette(), *map(partner_color, palette())])
+    ).T
+    assert lightness.min() > 25
+    assert np.hypot(*opponents).min() > 20
+
+
+def test_partners_have_one_hue_and_are_each_others():
+    for color in palette():
+        partner = partner_color(color)
+        _, a, b = lab(np.array([color, partner])).T
+        hues = np.degrees(np.arctan2(b, a))
+        assert abs((hues[0] - hues[1] + 180) % 360 - 180) < 15
+        assert partner_color(partner) == pytest.approx(color)
+
+
+def test_an_artists_own_color_has_a_partner_of_its_hue():
+    for color in ((0.3, 0.1, 0.02), (0.9, 0.8, 0.1)):
+        assert (
+            np.linalg.norm(np.subtract(*lab(np.array([color, partner_color(color)]))))
+            > 8
+        )
+
+
+def test_free_colors_are_not_in_use_until_all_are():
+    used = []
+    for _ in range(N_COLORS):
+        used.append(free_color(used))
+    assert len(set(used)) == N_COLORS
+    assert free_color([*used, used[0]]) == used[1]
+    assert free_color([partner_color(used[0])]) == used[1]
 
 
 def test_the_first_parts_are_told_apart_by_color_blind_people():
@@ -52,7 +103,7 @@ def test_the_first_parts_are_told_apart_by_color_blind_people():
 
 
 def test_colors_are_within_range_and_repeat_after_a_while():
-    colors = [part_color(i) for i in range(32)]
+    colors = [part_color(i) for i in range(N_COLORS)]
     assert np.min(colors) >= 0
     assert np.max(colors) <= 1
-    assert part_color(32) == part_color(0)
+    assert part_color(N_COLORS) == part_color(0)

@@ -167,7 +167,8 @@ def test_written_files_can_be_decomposed_again(tmp_path, parted, ending):
     (obj,) = load(tmp_path / f"a{ending}")
     labels = bands(obj, 3)
     write_parts(obj, decomposition_of(labels), Parameters())
-    assert [g.name for g in obj.vertex_groups] == ["Part 01", "Part 02", "Part 03"]
+    # A .blend file knows its parts, which those of the new run continue.
+    assert len({group.name for group in obj.vertex_groups}) == 3
     assert sum(s.name.startswith("Part ") for s in obj.material_slots) >= 3
 
 

@@ -4,6 +4,7 @@ import json
 
 import bpy
 import pytest
+from edited import check_in_step
 from hand_made import activate, mesh_object
 from snapshot import snapshot
 
@@ -126,9 +127,15 @@ def test_linked_meshes_are_read_only_but_can_be_measured(library):
     assert not obj.keys()
 
 
-def test_parts_that_came_with_a_joined_object_are_refused(suzanne):
+def test_parts_that_came_with_a_joined_object_are_replaced(suzanne):
     bpy.ops.wcd.decompose(**FAST)
     bpy.ops.mesh.primitive_cube_add()
     suzanne.select_set(True)
     bpy.ops.object.join()
-    refused(bpy.ops.wcd.decompose, "wcd_part that does not come from decomposing")
+    assert bpy.ops.wcd.refresh_parts() == {"FINISHED"}
+    check_in_step(bpy.context.active_object)
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    check_in_step(bpy.context.active_object)
+    bpy.ops.wcd.clear()
+    assert not bpy.context.active_object.vertex_groups
+    assert "wcd_part" not in bpy.context.active_object.data.attributes

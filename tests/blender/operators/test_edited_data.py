@@ -46,8 +46,9 @@ def test_a_new_name_reaches_the_objects_that_share_the_mesh(monkey):
     check_in_step(monkey)
 
 
-def test_without_locks_names_and_colors_begin_anew(monkey):
+def test_after_clear_names_and_colors_begin_anew(monkey):
     monkey.wcd_parts[0].name = "Left"
+    bpy.ops.wcd.clear()
     bpy.ops.wcd.decompose(**FAST, parts=2)
     assert [name for name, _, _ in parts_of(monkey)] == ["Part 01", "Part 02"]
     assert not any(row.chosen or row.locked for row in monkey.wcd_parts)

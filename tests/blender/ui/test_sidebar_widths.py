@@ -6,21 +6,21 @@ from weak_convex_decomposition.ui.parts_table import headings
 
 # At interface scale 1, in points: Blender's own, and others that are dragged to.
 _USUAL = 280
-HULLS = {"hulls": {"hulls": [{"part": 0, "error": 0.1}]}}
+HULLS = [{"part": 0, "error": 0.1}]
 
 
 @pytest.mark.parametrize(
-    ("result", "width", "expected"),
+    ("hulls", "width", "expected"),
     [
-        ({}, _USUAL, ["Faces", "Area", "Rank"]),
+        ([], _USUAL, ["Faces", "Area", "Rank"]),
         (HULLS, _USUAL, ["Faces", "Rank", "Hull"]),
         (HULLS, 2 * _USUAL, ["Faces", "Area", "Rank", "Hull"]),
         (HULLS, 220, ["Rank"]),
-        ({}, 1, ["Rank"]),
+        ([], 1, ["Rank"]),
     ],
 )
-def test_the_table_has_the_figures_that_there_is_room_for(result, width, expected):
-    assert headings(result, width) == expected
+def test_the_table_has_the_figures_that_there_is_room_for(hulls, width, expected):
+    assert headings(hulls, width) == expected
 
 
 @pytest.mark.parametrize(

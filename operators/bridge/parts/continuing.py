@@ -1,0 +1,119 @@
+"""What parts that are written continue: the parts that an object had before."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from .... import core
+from ....core.results import Decomposition
+from ..mesh.attributes import read_floats
+from ..mesh.points import is_cloud
+from ..stored.identity import Identity
+from ..stored.record import record_of
+from ..stored.restore import sharers
+from ..stored.versions import identities_of, past_with
+from .identities import Newcomers, identities_of_run
+from .materials import part_slots
+from .read import FoundParts, find_parts_on, part_materials
+from .rows import Row, kept_rows
+
+
+@dataclass(frozen=True, eq=False)
+class BeforeWriting:
+    """What an object has of parts before others are written.
+
+    Attributes
+    ----------
+    found : FoundParts or None
+        The parts on its faces, None if there are none.
+    noted : tuple of Identity
+        All parts in its record.
+    in_edit_mode : bool
+        Whether undo will bring back faces, but not groups, slots and the record. Then
+        these keep room for all parts that were ever there.
+    past : list of dict
+        Versions of the record that undo may bring back.
+    rows : mapping of str to rows
+        The rows of all objects that share the mesh, by name.
+    materials : mapping of int to bpy.types.Material
+        The material of each part, by its number.
+    """
+
+    found: FoundParts | None
+    noted: tuple[Identity, ...]
+    in_edit_mode: bool
+    past: list[dict[str, Any]]
+    rows: Mapping[str, dict[int, Row]]
+    materials: Mapping[int, bpy.types.Material | None]
+
+    @classmethod
+    def of(cls, obj: bpy.types.Object) -> BeforeWriting:
+        """Return what an object has of parts."""
+        record, found = record_of(obj), find_parts_on(obj)
+        in_edit_mode = obj.mode == "EDIT" and "parts" in record
+        materials: dict[int, bpy.types.Material | None] = {}
+        if not is_cloud(obj):
+            slots = part_slots(obj.data)
+            materials = {n: obj.data.materials[i] for n, (i, *_) in slots.items()}
+            if found is not None:
+                numbers = [each.number for each in found.identities]
+                own = part_materials(obj, found)
+                materials |= dict(zip(numbers, own, strict=True))
+        return cls(
+            found,
+            identities_of(record),
+            in_edit_mode,
+            past_with(record) if in_edit_mode else [],
+            {each.name: kept_rows(each) for each in sharers(obj)},
+            materials,
+        )
+
+    def continued_by(
+        self, obj: bpy.types.Object, decomposition: Decomposition
+    ) -> tuple[Identity, ...]:
+        """Return who the parts of a new run are, by the area shared with those here."""
+        former: list[Identity | None] = [None] * decomposition.n_parts
+        gone: tuple[Identity, ...] = ()
+        if self.found is not None:
+            gone = self.found.identities
+            areas = face_areas(obj, len(decomposition.labels))
+            places = core.match_parts(self.found.labels, decomposition.labels, areas)
+            former = [gone[place] if place >= 0 else None for place in places]
+        stay = [each for each in former if each is not None]
+        newcomers = Newcomers(stay, gone, self.noted if self.in_edit_mode else None)
+        return identities_of_run(newcomers, former, decomposition.pairs)
+
+    def asleep(self, identities: Sequence[Identity]) -> list[Identity]:
+        """Return the parts without faces that undo in Edit Mode may bring back."""
+        here = {each.number for each in identities}
+        noted = self.noted if self.in_edit_mode else ()
+        return [each for each in noted if each.number not in here]
+
+
+def by_number(
+    decomposition: Decomposition, identities: Sequence[Identity]
+) -> tuple[Decomposition, list[Identity]]:
+    """Return parts sorted by their numbers."""
+    order = np.argsort([each.number for each in identities])
+    places = np.argsort(order)
+    ordered = replace(
+        decomposition,
+        labels=places[decomposition.labels],
+        areas=decomposition.areas[order],
+        face_counts=decomposition.face_counts[order],
+        ranks=decomposition.ranks[order],
+        pairs=tuple((int(places[a]), int(places[b])) for a, b in decomposition.pairs),
+    )
+    return ordered, [identities[row] for row in order]
+
+
+def face_areas(obj: bpy.types.Object, n_rows: int) -> np.ndarray:
+    """Return the area of each face, ones for points."""
+    if is_cloud(obj):
+        return np.ones(n_rows)
+    return read_floats(obj.data.polygons, "area")

@@ -1,0 +1,144 @@
+"""The figures of the parts that an object has now: they follow the mesh.
+
+Faces and areas are counted. Convexity ranks and psi are noted with the faces that they
+were measured on, and are known only while a part still has these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.attributes import read_floats
+from ..mesh.points import is_cloud, positions_of
+from ..stored.identity import Identity
+from ..stored.record import record_of
+from ..stored.versions import entries_of, versions_of
+from .read import FoundParts, find_parts_on
+
+# Faces are the same if their area, and their center in lengths of the root of that
+# area, differ by no more than this.
+_SAME = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class PartFigures:
+    """What is known of the parts of an object.
+
+    Attributes
+    ----------
+    found : FoundParts
+    measured_on : (K, 5) float
+        Of each part: number of faces, area and center. Points have an area of 1 each.
+    ranks : (K,) float
+        Convexity ranks; nan where a part has changed since it was measured.
+    record : dict
+        The record of these parts, or of the latest ones if none fits them.
+    problem : str or None
+        Why figures are out of date, and what to do.
+    """
+
+    found: FoundParts
+    measured_on: NDArray[np.float64]
+    ranks: NDArray[np.float64]
+    record: dict[str, Any]
+    problem: str | None
+
+    @property
+    def identities(self) -> tuple[Identity, ...]:
+        """Who the parts are, by number."""
+        return self.found.identities
+
+
+def figures_of(obj: bpy.types.Object) -> PartFigures | None:
+    """Return the figures of an object's parts, None if it has none."""
+    found = find_parts_on(obj)
+    if found is None:
+        return None
+    record = record_of(obj)
+    measured_on = fingerprints(obj, found.labels, len(found.identities))
+    ranks = np.full(len(measured_on), np.nan)
+    for row, (identity, (_, turn)) in enumerate(
+        zip(found.identities, found.origins, strict=True)
+    ):
+        entries = entries_of(record, identity.number) if turn == 0 else []
+        fitting = [each for each in entries if _fits(each, measured_on[row])]
+        if fitting and fitting[0]["convexity_rank"] is not None:
+            ranks[row] = fitting[0]["convexity_rank"]
+    fitting_record = _fitting(record, found, measured_on)
+    return PartFigures(
+        found,
+        measured_on,
+        ranks,
+        fitting_record or record,
+        _problem(found, fitting_record),
+    )
+
+
+def fingerprints(
+    obj: bpy.types.Object, labels: NDArray[np.integer], n_parts: int
+) -> NDArray[np.float64]:
+    """Return what tells the faces of each part from others: see `PartFigures`."""
+    areas, centers = _faces(obj)
+    counts = np.bincount(labels, minlength=n_parts)
+    totals = np.bincount(labels, areas, n_parts)
+    weights = np.maximum(totals, np.finfo(float).tiny)
+    middles = [np.bincount(labels, areas * x, n_parts) / weights for x in centers.T]
+    return np.stack([counts, totals, *middles], axis=1)
+
+
+def _faces(
+    obj: bpy.types.Object,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the areas (P,) and centers (P, 3) of faces, or points, as they are now."""
+    if is_cloud(obj):
+        places = positions_of(obj).astype(np.float64)
+        return np.ones(len(places)), places
+    if obj.data.is_editmode:
+        faces = bmesh.from_edit_mesh(obj.data).faces
+        areas = np.array([face.calc_area() for face in faces])
+        return areas, np.array([face.calc_center_median() for face in faces])
+    polygons = obj.data.polygons
+    return (
+        read_floats(polygons, "area").astype(np.float64),
+        read_floats(polygons, "center", 3).astype(np.float64),
+    )
+
+
+def _fits(entry: dict[str, Any], now: Sequence[float]) -> bool:
+    """Return whether an entry of a record was measured on these faces."""
+    then = entry.get("measured_on")
+    if then is None or then[0] != now[0]:
+        return False
+    area, far = now[1], np.abs(np.subtract(then[2:], now[2:])).max()
+    return bool(abs(then[1] - area) <= _SAME * area and far <= _SAME * np.sqrt(area))
+
+
+def _fitting(
+    record: dict[str, Any], found: FoundParts, measured_on: NDArray[np.float64]
+) -> dict[str, Any] | None:
+    """Return the version of a record that is about these very parts, None without."""
+    now = dict(
+        zip((each.number for each in found.identities), measured_on, strict=True)
+    )
+    for version in versions_of(record):
+        entries = version.get("parts", ())
+        same = {entry["number"] for entry in entries} == now.keys()
+        if same and all(_fits(entry, now[entry["number"]]) for entry in entries):
+            return {**record, **version} if found.in_step else None
+    return None
+
+
+def _problem(found: FoundParts, record: dict[str, Any] | None) -> str | None:
+    """Return why the record that fits is not all there is to know, if it is not."""
+    if record is not None and record["psi"] is not None:
+        return None
+    if not found.in_step:
+        return "Another object was joined to this one; press Refresh to list its parts."
+    return "The mesh has changed; press Refresh to measure the parts again."

@@ -1,0 +1,69 @@
+"""Objects for random work on parts, and what must always hold for them."""
+
+import bmesh
+import bpy
+import numpy as np
+from edited import check_in_step
+from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
+
+
+def bone(x=0.0):
+    """Return a new active object: a bar with a knob at each end, 58 faces."""
+    bm = bmesh.new()
+    bmesh.ops.create_grid(bm, x_segments=6, y_segments=2, size=1)
+    for vertex in bm.verts:
+        vertex.co.y *= 0.2 + 0.8 * (abs(vertex.co.x) > 0.5)
+    bmesh.ops.solidify(bm, geom=bm.faces[:], thickness=0.4)
+    mesh = bpy.data.meshes.new("Bone")
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new("Bone", mesh)
+    obj.location.x = x
+    bpy.context.collection.objects.link(obj)
+    only(obj)
+    return obj
+
+
+def only(*objects):
+    """Select objects, and nothing else; the first is the active one."""
+    for each in bpy.context.view_layer.objects:
+        each.select_set(each in objects)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+def bodies():
+    """Return the objects that can have parts."""
+    there = [o for o in bpy.context.view_layer.objects if "wcd_hull" not in o]
+    return sorted((o for o in there if o.data.polygons), key=lambda o: o.name)
+
+
+def attempt(operator, **options):
+    """Run an operator; an error must be a sentence, and no traceback."""
+    said = ""
+    try:
+        operator("EXEC_DEFAULT", True, **options)
+    except RuntimeError as error:
+        said = str(error)
+    assert "Traceback" not in said, said
+
+
+def check_body(obj):
+    """Check that all that is known of an object's parts tells of the same ones."""
+    figures = figures_of(obj)
+    if figures is None:
+        return
+    identities, labels = figures.identities, figures.found.labels
+    assert np.bincount(labels).tolist() == figures.measured_on[:, 0].tolist()
+    for values in zip(*((i.number, i.name) for i in identities), strict=True):
+        assert len(set(values)) == len(identities), values
+    if figures.problem:
+        return
+    entries = figures.record["parts"]
+    assert [e["faces"] for e in entries] == np.bincount(labels).tolist()
+    assert [e["name"] for e in entries] == [i.name for i in identities]
+    rows = {row.number: row for row in obj.wcd_parts}
+    for identity in identities:
+        assert rows[identity.number].name == identity.name
+        assert np.allclose(rows[identity.number].color, identity.color)
+    if not obj.data.is_editmode and "past" not in figures.record:
+        check_in_step(obj)

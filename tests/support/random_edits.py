@@ -1,0 +1,250 @@
+"""A state machine that works on objects with parts as a restless artist would."""
+
+import bmesh
+import bpy
+import numpy as np
+from bodies import attempt, bodies, bone, check_body, only
+from hand_made import in_mode
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
+from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
+from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
+
+FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
+NUMBERS = st.integers(0, 5)
+NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
+COLORS = st.tuples(*[st.sampled_from([0.1, 0.4, 0.8])] * 3)
+
+
+KINDS = st.sampled_from(["ARRAY", "MIRROR", "SUBSURF", "TRIANGULATE"])
+OPERATORS = (
+    "merge_parts",
+    "split_parts",
+    "smooth_seams",
+    "mirror_parts",
+    "refresh_parts",
+    "face_sets",
+    "color_attribute",
+    "explode",
+    "implode",
+    "clear",
+    "separate",
+)
+
+
+class RestlessArtist(RuleBasedStateMachine):
+    """Operators of ours and of Blender's, in any order."""
+
+    folder = None  # where files are saved
+
+    @initialize()
+    def begin(self):
+        """Start with one object in an empty file."""
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        bone()
+        self.kept, self.saved = [], None
+        attempt(bpy.ops.wcd.decompose, **FAST, parts=3)
+        bpy.ops.ed.undo_push(message="begin")
+
+    def body(self, number):
+        """Return an object, made the active one, in the mode that is on."""
+        there = bodies()
+        active = bpy.context.view_layer.objects.active
+        if not there:
+            return bone()
+        if active in there and active.mode == "EDIT":
+            return active
+        obj = there[number % len(there)]
+        only(obj)
+        return obj
+
+    def object_mode(self):
+        """Leave Edit Mode."""
+        active = bpy.context.view_layer.objects.active
+        if active is not None and active.mode == "EDIT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        self.kept = []
+
+    def done(self):
+        """End a step, to be undone."""
+        bpy.ops.ed.undo_push(message="step")
+
+    @rule(n=NUMBERS, parts=st.sampled_from([0, 2, 3, 4, 6]), keep=st.booleans())
+    def decompose(self, n, parts, keep):
+        self.remember(self.body(n))
+        attempt(bpy.ops.wcd.decompose, **FAST, parts=parts, keep_edits=keep)
+        self.done()
+
+    @rule(n=NUMBERS, name=st.sampled_from(OPERATORS))
+    def operate(self, n, name):
+        self.remember(self.body(n))
+        attempt(getattr(bpy.ops.wcd, name))
+        if name == "clear":  # its undo in Edit Mode brings back layers without a note
+            self.kept = []
+        bpy.context.view_layer.update()
+        self.done()
+
+    @rule(n=NUMBERS)
+    def build_hulls(self, n):
+        self.object_mode()
+        self.body(n)
+        attempt(bpy.ops.wcd.build_hulls, pieces="PARTS", shape="BOX")
+        self.done()
+
+    @rule(n=NUMBERS, row=NUMBERS, name=NAMES, color=COLORS, what=NUMBERS)
+    def change_row(self, n, row, name, color, what):
+        rows = self.body(n).wcd_parts
+        if not rows:
+            return
+        row = rows[row % len(rows)]
+        if what < 2:
+            row.name = name
+        elif what == 2:
+            row.locked = not row.locked
+        elif what == 3:
+            row.color = color
+        else:
+            row.chosen = not row.chosen
+        self.done()
+
+    @rule(n=NUMBERS, row=NUMBERS, from_face=st.integers(0, 50))
+    def assign(self, n, row, from_face):
+        obj = self.body(n)
+        self.select(obj, from_face, 8)
+        in_mode(obj, "EDIT")
+        obj.wcd_active_part = row
+        self.remember(obj)
+        attempt(bpy.ops.wcd.assign_faces)
+        self.done()
+
+    @rule(n=NUMBERS, from_face=st.integers(0, 50), how_many=st.integers(1, 20))
+    def delete_faces(self, n, from_face, how_many):
+        obj = self.body(n)
+        self.select(obj, from_face, how_many)
+        in_mode(obj, "EDIT")
+        self.remember(obj)
+        bpy.ops.mesh.delete(type="FACE")
+        self.object_mode()
+        self.done()
+
+    def select(self, obj, start, how_many):
+        """Select faces that follow each other."""
+        self.object_mode()
+        bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+        flags = np.zeros(len(obj.data.polygons), dtype=bool)
+        flags[start : start + how_many] = True
+        obj.data.vertices.foreach_set("select", np.zeros(len(obj.data.vertices), bool))
+        obj.data.edges.foreach_set("select", np.zeros(len(obj.data.edges), bool))
+        obj.data.polygons.foreach_set("select", flags)
+
+    @rule(n=NUMBERS)
+    def switch_mode(self, n):
+        obj = self.body(n)
+        self.kept = []
+        in_mode(obj, "OBJECT" if obj.mode == "EDIT" else "EDIT")
+        self.done()
+
+    @rule(n=NUMBERS, linked=st.booleans())
+    def duplicate(self, n, linked):
+        self.object_mode()
+        if len(bodies()) < 4:
+            self.body(n)
+            bpy.ops.object.duplicate(linked=linked)
+            bpy.context.active_object.location.x += 3
+        self.done()
+
+    @rule(n=NUMBERS, m=NUMBERS)
+    def join(self, n, m):
+        self.object_mode()
+        one, other = self.body(n), self.body(m)
+        if one != other and len(one.data.polygons) + len(other.data.polygons) < 400:
+            only(one, other)
+            bpy.ops.object.join()
+        self.done()
+
+    @rule(n=NUMBERS)
+    def separate_loose(self, n):
+        self.object_mode()
+        if len(bodies()) < 4 and self.body(n).data.users == 1:
+            bpy.ops.mesh.separate(type="LOOSE")
+        self.done()
+
+    @rule(n=NUMBERS, kind=KINDS)
+    def apply_modifier(self, n, kind):
+        self.object_mode()
+        obj = self.body(n)
+        if len(obj.data.polygons) < 100 and obj.data.users == 1:
+            modifier = obj.modifiers.new("Any", kind)
+            bpy.ops.object.modifier_apply(modifier=modifier.name)
+        self.done()
+
+    @rule(redo=st.booleans())
+    def undo(self, redo):
+        """Undo or redo as in Object Mode: all of the file."""
+        self.kept = []
+        operator = bpy.ops.ed.redo if redo else bpy.ops.ed.undo
+        attempt(operator)
+
+    def remember(self, obj):
+        """Keep the mesh as Edit Mode's undo does: nothing else comes back with it."""
+        if obj.mode == "EDIT":
+            mesh = bpy.data.meshes.new("undo")
+            bmesh.from_edit_mesh(obj.data).to_mesh(mesh)
+            self.kept.append((obj.name, mesh.name))
+
+    @rule(step=NUMBERS)
+    def undo_in_edit_mode(self, step):
+        """Undo or redo as in Edit Mode: faces, and their layers."""
+        active = bpy.context.view_layer.objects.active
+        mine = [m for o, m in self.kept if active is not None and o == active.name]
+        if not mine or active.mode != "EDIT":
+            return
+        self.remember(active)
+        mesh = bpy.data.meshes[mine[step % len(mine)]]
+        bm = bmesh.from_edit_mesh(active.data)
+        bm.clear()
+        bm.from_mesh(mesh)
+        bmesh.update_edit_mesh(active.data)
+        bring_back_record(active)
+
+    @rule()
+    def save_and_reload(self):
+        self.object_mode()
+        path = str(self.folder / "restless.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        # Blender refuses to append from the file itself, and to save over a library.
+        self.saved = self.folder / f"{len(list(self.folder.iterdir()))}.blend"
+        bpy.ops.wm.save_as_mainfile(filepath=str(self.saved), copy=True)
+        bpy.ops.wm.open_mainfile(filepath=path)
+        self.done()
+
+    @rule(n=NUMBERS)
+    def append(self, n):
+        self.object_mode()
+        if not self.saved or len(bodies()) > 3:
+            return
+        with bpy.data.libraries.load(str(self.saved)) as (there, chosen):
+            chosen.objects = there.objects[:1]
+        for obj in chosen.objects:
+            bpy.context.collection.objects.link(obj)
+        self.done()
+
+    @invariant()
+    def all_in_step(self):
+        for obj in bodies():
+            check_body(obj)
+
+    def teardown(self):
+        """Clear all, after which nothing of ours is left."""
+        if not hasattr(self, "kept"):
+            return
+        self.object_mode()
+        for obj in bodies():
+            only(obj)
+            if bpy.ops.wcd.clear.poll():
+                bpy.ops.wcd.clear()
+        for obj in bodies():
+            assert not [a.name for a in obj.data.attributes if "wcd" in a.name]
+            assert not any(map(is_ours, obj.data.materials)) or obj.name.count("Part")
+            assert "wcd" not in obj
+            assert "wcd_restore" not in obj.data
