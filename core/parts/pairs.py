@@ -40,12 +40,12 @@ def mirror_pairs(memo: PartMemo, labels: NDArray[np.int64]) -> Steps[Pairs]:
         Each the part at larger X, then the other; by the first. The steps yield
         `Progress`; `run` returns the pairs.
     """
-    graph, parts = (
-        memo.visibility.transfer.graph,
-        memo.visibility.shape.labels_of_nodes(labels),
-    )
     if count_parts(labels) < 2:
         return ()
+    graph = (yield from memo.transfer_in_steps()).graph
+    parts = memo.visibility.shape.labels_of_nodes(labels)
+    if memo.patches is not None:
+        parts = memo.patches.labels_of_patches(parts)
     sides = yield from memo.sides()
     fitting = [_pairs_of(side, graph, parts) for side in sides if _along_x(side, graph)]
     return tuple(sorted(fitting[0])) if fitting else ()

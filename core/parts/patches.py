@@ -51,6 +51,20 @@ class Patches:
     coarse: FaceGraph
     of_nodes: NDArray[np.int64]
 
+    def labels_of_patches(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the label that most of the area of each patch has, (G,).
+
+        Parameters
+        ----------
+        labels : (P,) int
+            Label of each node, from 0.
+        """
+        n_labels, n_patches = int(labels.max()) + 1, self.coarse.n_polygons
+        cells = self.of_nodes * n_labels + labels
+        areas = np.bincount(cells, self.fine.areas, n_patches * n_labels)
+        found: NDArray[np.int64] = areas.reshape(n_patches, n_labels).argmax(axis=1)
+        return found
+
     def opened(self, chosen: NDArray[np.bool_]) -> tuple[FaceGraph, NDArray[np.int64]]:
         """Return the graph in which the nodes of some patches count on their own.
 

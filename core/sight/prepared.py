@@ -175,12 +175,23 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     yield Progress("Surface", 0.2)
     if flat := flat_mesh(mesh):
         return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
-    edges = yield from within(sort_edges(mesh), 0.2, 0.4)
-    shells = yield from within(find_shells(mesh, edges), 0.4, 0.5)
+    return (yield from within(_prepare_mesh(mesh, make_caster, *frame), 0.2, 1.0))
+
+
+def _prepare_mesh(
+    mesh: TriangleMesh,
+    make_caster: MakeCaster,
+    center: NDArray[np.float64],
+    diagonal: float,
+) -> Steps[PreparedShape]:
+    """Prepare a normalized mesh: shells, orientation, the surface that rays see."""
+    nodes = np.arange(mesh.n_polygons)
+    edges = yield from within(sort_edges(mesh), 0.0, 0.2)
+    shells = yield from within(find_shells(mesh, edges), 0.2, 0.3)
     single, rows = without_doubles(mesh) if shells.crowded else (mesh, nodes)
     if single is not mesh:
-        shells = yield from shells_of(single)
-    turned, notes = yield from within(oriented(single, shells), 0.5, 0.6)
+        shells = yield from within(shells_of(single), 0.3, 0.4)
+    turned, notes = yield from within(oriented(single, shells), 0.4, 0.6)
     targets = yield from within(set_apart(turned, shells), 0.6, 0.7)
     yield from within(targets.normals_in_steps(), 0.7, 0.8)
     if targets is not turned and shells.crowded:  # those that touched are apart now
@@ -190,7 +201,8 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
         edges = yield from within(sort_edges(solid), 0.8, 0.9)
     convex = yield from within(is_convex(solid, shells, edges), 0.9, 1.0)
     return PreparedShape(
-        *frame,
+        center,
+        diagonal,
         targets,
         RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
         len(nodes),
