@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from .decomposition import decompose_in_steps as decompose_in_steps
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.outline import outline_of as outline_of
-    from .mass import combined_mass as combined_mass
-    from .mass import mass_of_mesh as mass_of_mesh
-    from .mass import mass_of_surface as mass_of_surface
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
     from .parts.editing import Change as Change
@@ -34,6 +31,9 @@ if TYPE_CHECKING:
     from .sight.point_view import PointViewer as PointViewer
     from .sight.point_view import point_viewer_in_steps as point_viewer_in_steps
     from .sight.prepared import PreparedShape as PreparedShape
+    from .solids.mass import mass_of_mesh as mass_of_mesh
+    from .solids.mass import mass_of_surface as mass_of_surface
+    from .solids.mass_properties import combined_mass as combined_mass
 
 _HOMES = {
     "ShapeCache": "cache",
@@ -41,9 +41,9 @@ _HOMES = {
     "decompose_in_steps": "decomposition",
     "build_hulls_in_steps": "hulls.build",
     "outline_of": "hulls.outline",
-    "combined_mass": "mass",
-    "mass_of_mesh": "mass",
-    "mass_of_surface": "mass",
+    "combined_mass": "solids.mass_properties",
+    "mass_of_mesh": "solids.mass",
+    "mass_of_surface": "solids.mass",
     "measure_in_steps": "measurement",
     "Change": "parts.editing",
     "compacted": "parts.editing",

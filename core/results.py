@@ -246,23 +246,3 @@ class Picture:
         """Return the width and height in one line."""
         height, width, _ = self.pixels.shape
         return f"Picture({width} x {height} pixels)"
-
-
-@dataclass(frozen=True, eq=False)
-class MassProperties:
-    """Mass, center of mass and inertia of a rigid body.
-
-    Attributes
-    ----------
-    mass : float
-        In kilograms if the density is in kilograms per cubed unit.
-    center : (3,) float
-        Center of mass, in units.
-    inertia : (3, 3) float
-        Inertia tensor about the center of mass, mass times squared units. Products of
-        inertia are negative: I_xy = -∫ x y dm.
-    """
-
-    mass: float
-    center: NDArray[np.float64]
-    inertia: NDArray[np.float64]

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
-from ..geometry.shells import shells_of
+from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
 from .measure.fragments import edge_lengths, fragments_of

@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
 from ..geometry.connectivity import sort_edges
-from ..geometry.convexity import is_convex
-from ..geometry.doubled import with_doubles, without_doubles
 from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import FlatMesh, flat_mesh
 from ..geometry.mesh import TriangleMesh
-from ..geometry.orientation import oriented
 from ..geometry.point_cloud import PointCloud
 from ..geometry.shape import Shape
-from ..geometry.shells import find_shells, set_apart, shells_of
+from ..solids.convexity import is_convex
+from ..solids.doubled import with_doubles, without_doubles
+from ..solids.orientation import oriented
+from ..solids.shells import find_shells, set_apart, shells_of
 from ..steps.progress import Progress, Steps, run, within
 from .ray_march import MakeCaster, RayMarcher
 

@@ -5,7 +5,6 @@ from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.connectivity import sort_edges
 from weak_convex_decomposition.core.geometry.face_graph import face_graph
-from weak_convex_decomposition.core.geometry.shells import find_shells
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.measurement import measure_in_steps
 from weak_convex_decomposition.core.parts.find import find_parts
@@ -19,6 +18,7 @@ from weak_convex_decomposition.core.sight.visibility import (
     find_lines_of_sight,
     see_in_steps,
 )
+from weak_convex_decomposition.core.solids.shells import find_shells
 from weak_convex_decomposition.core.steps.progress import run
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from mathutils import Color
 
 from .....core.parameters.bodies import BodyParameters
-from .....core.results import MassProperties
+from .....core.solids.mass_properties import MassProperties
 from ....bridge.mesh.attributes import read_ints
 from ..names import legal_names
 from ..obj_files import write_obj

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..... import core
 from .....core.geometry.mesh import TriangleMesh
-from .....core.results import MassProperties
+from .....core.solids.mass_properties import MassProperties
 from ..placed_meshes import FloatArray, matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.

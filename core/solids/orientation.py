@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.mesh import TriangleMesh, blocks
 from ..steps.progress import Progress, Steps
-from .mesh import TriangleMesh, blocks
 from .shells import Shells
 
 # Greatest missing area of a solid open shell, as a share of its area. A cube without

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import shapes
 from computed import decompose, prepare
-from weak_convex_decomposition.core.geometry.doubled import (
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.solids.doubled import (
     with_doubles,
     without_doubles,
 )
-from weak_convex_decomposition.core.parameters.parts import Parameters
 
 BOX = shapes.box()
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import shells_of
-from weak_convex_decomposition.core.geometry.orientation import oriented
+from weak_convex_decomposition.core.solids.orientation import oriented
 from weak_convex_decomposition.core.steps.progress import run
 
 

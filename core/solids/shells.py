@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.connectivity import Edges, components, sort_edges
+from ..geometry.frames import unit
+from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
-from .connectivity import Edges, components, sort_edges
-from .frames import unit
-from .mesh import TriangleMesh
 
 # Shells are moved inwards by multiples of this depth, in diagonals.
 _LAYER = 1e-5

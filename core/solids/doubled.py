@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .mesh import TriangleMesh
+from ..geometry.mesh import TriangleMesh
 
 
 def without_doubles(mesh: TriangleMesh) -> tuple[TriangleMesh, NDArray[np.int64]]:

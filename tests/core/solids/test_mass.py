@@ -3,11 +3,8 @@ import pytest
 import shapes
 import trimesh
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
-from weak_convex_decomposition.core.mass import (
-    combined_mass,
-    mass_of_mesh,
-    mass_of_surface,
-)
+from weak_convex_decomposition.core.solids.mass import mass_of_mesh, mass_of_surface
+from weak_convex_decomposition.core.solids.mass_properties import combined_mass
 
 DENSITY = 7.0
 SOLIDS = {

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
+from ..geometry.connectivity import Edges
+from ..geometry.frames import heights_above
+from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
-from .connectivity import Edges
-from .frames import heights_above
-from .mesh import TriangleMesh
 from .shells import Shells
 
 # Heights that count as rounding, in diagonals: vertices are in single precision. Rays

@@ -7,16 +7,14 @@ Terms of its Vertex Coordinates", J. of Mathematics and Statistics 1(1), 2005.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
-from .geometry.mesh import TriangleMesh
-from .geometry.orientation import oriented
-from .geometry.shells import shells_of
-from .results import MassProperties
-from .steps.progress import run
+from ..geometry.mesh import TriangleMesh
+from ..steps.progress import run
+from .mass_properties import MassProperties
+from .orientation import oriented
+from .shells import shells_of
 
 # A solid with less volume, in cubed diagonals, is a sheet with two sides.
 _LEAST_VOLUME = 1e-9
@@ -61,29 +59,6 @@ def mass_of_surface(
     mass = density * abs(volume)
     inertia = mass * (np.trace(spread) * np.eye(3) - spread)
     return MassProperties(mass, center + middle, inertia)
-
-
-def combined_mass(bodies: Sequence[MassProperties]) -> MassProperties:
-    """Return the mass properties of bodies that are fixed to each other.
-
-    Parameters
-    ----------
-    bodies : sequence of MassProperties
-        One or more. Where two of them overlap, both count.
-
-    Returns
-    -------
-    MassProperties
-    """
-    masses = np.array([body.mass for body in bodies])
-    centers = np.array([body.center for body in bodies])
-    center = masses @ centers / masses.sum()
-    inertia = np.zeros((3, 3))
-    for body, arm in zip(bodies, centers - center, strict=True):
-        # The parallel axis theorem.
-        inertia += body.inertia
-        inertia += body.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return MassProperties(float(masses.sum()), center, inertia)
 
 
 def mass_of_mesh(mesh: TriangleMesh, density: float) -> MassProperties | None:

@@ -1,0 +1,1 @@
+"""Solids: which surfaces bound one, which way it faces, how heavy it is."""
