@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.face_graph import FaceGraph
+from ..geometry.patches import Patches
 from ..parameters.parts import Parameters
 from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .part_memo import PartMemo
 from .partition import Partitioner, count_parts
-from .patches import Patches
 from .seams import SeamCutter, Seams
 
 # Most times that seams are cut: again if one has reached patches farther away.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..clusters.embedding import embed
 from ..geometry.face_graph import FaceGraph
+from ..geometry.patches import MOST_NODES, Patches, find_patches
 from ..geometry.symmetry import Plane, Side, find_plane, find_sides
 from ..geometry.transfer import Transfer, carry
 from ..parameters.parts import Parameters
@@ -17,7 +18,6 @@ from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
 from ..steps.memo import Memo
 from ..steps.progress import Steps, run, within
-from .patches import MOST_NODES, Patches, find_patches
 
 Labels: TypeAlias = NDArray[np.int64]
 

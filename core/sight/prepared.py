@@ -31,7 +31,6 @@ class PreparedShape:
 
     Its bounding box has center 0 and diagonal 1, and its faces point outwards.
     `prepare_in_steps` makes it once for a shape, and every later stage takes it.
-    Meshes, flat meshes and point clouds all become this type.
 
     Attributes
     ----------
@@ -170,11 +169,10 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     if isinstance(shape, PointCloud):
         return (yield from _prepare_cloud(shape, make_caster))
     mesh = yield from within(shape.normalized_in_steps(), 0.0, 0.2)
-    nodes = np.arange(mesh.n_polygons)
     frame = shape.center, shape.diagonal
     yield Progress("Surface", 0.2)
     if flat := flat_mesh(mesh):
-        return replace(_prepare_flat(flat, nodes, make_caster, *frame), solid=mesh)
+        return _prepare_flat(flat, mesh, make_caster, *frame)
     return (yield from within(_prepare_mesh(mesh, make_caster, *frame), 0.2, 1.0))
 
 
@@ -216,7 +214,7 @@ def _prepare_mesh(
 
 def _prepare_flat(
     flat: FlatMesh,
-    nodes: NDArray[np.int64],
+    mesh: TriangleMesh,
     make_caster: MakeCaster,
     center: NDArray[np.float64],
     diagonal: float,
@@ -227,10 +225,11 @@ def _prepare_flat(
         diagonal,
         flat.walls,
         RayMarcher(flat.walls, make_caster),
-        len(nodes),
-        nodes,
+        mesh.n_polygons,
+        np.arange(mesh.n_polygons),
         flat.graph,
-        notes=flat.notes,
+        mesh,
+        flat.notes,
         plane=flat.normal,
     )
 

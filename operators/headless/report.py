@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ..bridge.stored.notes import version
+from ..bridge.stored.versions import MEASURED_ON, PAST
 from .atomic import explaining, replacing
 from .request.options import Request
 from .request.outputs import STANDARD_STREAM
@@ -95,7 +96,7 @@ def _stages_entry(stages: Mapping[str, Stage]) -> dict[str, Any]:
 
 def _object_entry(result: ObjectResult) -> dict[str, Any]:
     """Return what the report says of one object; its record is part of it."""
-    record = result.record or {}
+    record = _shown_record(result.record or {})
     hulls = {**record["hulls"], "hulls": list(result.hulls)} if result.hulls else None
     return {
         "name": result.name,
@@ -106,3 +107,14 @@ def _object_entry(result: ObjectResult) -> dict[str, Any]:
         "notes": list(dict.fromkeys((*result.notes, *record.get("notes", ())))),
         "hulls": hulls,
     }
+
+
+def _shown_record(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a record without what only undo and the next run look at."""
+    shown = {key: value for key, value in record.items() if key != PAST}
+    if "parts" in shown:
+        shown["parts"] = [
+            {key: value for key, value in part.items() if key != MEASURED_ON}
+            for part in shown["parts"]
+        ]
+    return shown

@@ -19,7 +19,7 @@ from ..mesh.attributes import read_floats
 from ..mesh.points import is_cloud, positions_of
 from ..stored.identity import Identity
 from ..stored.record import record_of
-from ..stored.versions import entries_of, versions_of
+from ..stored.versions import MEASURED_ON, entries_of, versions_of
 from .read import FoundParts, find_parts_on
 
 # Faces are the same if their area, and their center in lengths of the root of that
@@ -113,7 +113,7 @@ def _faces(
 
 def _fits(entry: dict[str, Any], now: Sequence[float]) -> bool:
     """Return whether an entry of a record was measured on these faces."""
-    then = entry.get("measured_on")
+    then = entry.get(MEASURED_ON)
     if then is None or then[0] != now[0]:
         return False
     area, far = now[1], np.abs(np.subtract(then[2:], now[2:])).max()

@@ -17,7 +17,7 @@ from .identity import Identity
 from .names import RESULT
 from .notes import parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore
-from .versions import PAST, change_entries
+from .versions import MEASURED_ON, PAST, change_entries
 
 _MEASURED = "measured"
 _SELECTION = "selection"
@@ -130,7 +130,7 @@ def _entries(
             "faces": faces,
             "area": area,
             "convexity_rank": _number(rank),
-            "measured_on": list(fingerprint),
+            MEASURED_ON: list(fingerprint),
         }
         for identity, material, faces, area, rank, fingerprint in zip(
             identities,

@@ -12,6 +12,8 @@ from .identity import Identity
 
 # What a record was before the edits of Edit Mode, the latest first.
 PAST = "past"
+# Where the entry of a part keeps the fingerprint of the faces it was measured on.
+MEASURED_ON = "measured_on"
 _KEPT = 64
 # What a record says of parts.
 _OF_PARTS = (

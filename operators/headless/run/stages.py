@@ -34,6 +34,7 @@ STAGE_OF = {
     "Ray tree": "lines_of_sight",
     "Lines of sight": "lines_of_sight",
     "Containers": "lines_of_sight",
+    "Patches": "clusters",
     "Number of parts": "clusters",
     "Symmetry": "clusters",
     "Seams": "seams",

@@ -7,7 +7,7 @@ import os
 
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis.stateful import run_state_machine_as_test
-from random_edits import RestlessArtist
+from random_work.artist import RestlessArtist
 
 STEPS = 30
 STRESS = int(os.environ.get("WCD_STRESS_STEPS", "0"))

@@ -189,7 +189,8 @@ def test_every_stage_of_progress_has_one_in_the_report():
     ]
     named = set(re.findall(r'Progress\(\s*"([^"]+)"', "".join(sources)))
     of_hulls = {"Solid", "Cutting", "Joining", "Measuring", "Shapes"}
-    elsewhere = {"Counting", "Assign", "Merge", "Picture"}  # not on the command line
+    # Not on the command line.
+    elsewhere = {"Counting", "Assign", "Merge", "Picture", "Refresh"}
     assert named - of_hulls - elsewhere == set(STAGE_OF)
     assert set(STAGE_OF.values()) <= set(STAGES)
 

@@ -10,7 +10,8 @@ def test_an_object_gets_the_parts_that_the_operator_gives_it(suzanne):
     found = wcd.decompose(suzanne, samples=300)
     assert "wcd" not in suzanne
     bpy.ops.wcd.decompose(samples=300)
-    assert found.labels.tolist() == part_labels(suzanne).tolist()
+    pairs = set(zip(found.labels.tolist(), part_labels(suzanne).tolist(), strict=True))
+    assert len(pairs) == found.n_parts == len(suzanne.wcd_parts)
 
 
 def test_hulls_and_ranks_of_an_object(suzanne):

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.connectivity import components
-from ..geometry.face_graph import CREASE, FaceGraph
-from ..geometry.frames import unit
 from ..steps.progress import Progress, Steps, within
+from .connectivity import components
+from .face_graph import CREASE, FaceGraph
+from .frames import unit
 
 # Most polygons that are their own patches. More are grouped into half as many patches.
 MOST_NODES = 40_000

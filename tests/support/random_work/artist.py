@@ -3,19 +3,18 @@
 import bmesh
 import bpy
 import numpy as np
-from bodies import attempt, bodies, bone, check_body, only
 from hand_made import in_mode
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
 from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
 
+from .checks import attempt, bodies, bone, check_body, only
+
 FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
 NUMBERS = st.integers(0, 5)
 NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
 COLORS = st.tuples(*[st.sampled_from([0.1, 0.4, 0.8])] * 3)
-
-
 KINDS = st.sampled_from(["ARRAY", "MIRROR", "SUBSURF", "TRIANGULATE"])
 OPERATORS = (
     "merge_parts",
