@@ -18,7 +18,7 @@ from .evaluated import apply_modifiers
 from .finite_checks import check_finite
 from .importers import IMPORTERS
 from .instances import check_libraries, make_all_local, realize_instances
-from .known_hulls import adopt_hulls
+from .known_hulls import adopt_hulls, hull_note
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,13 @@ class LoadedFile:
         Its meshes and point clouds, by name.
     notes : dict of str
         What was done to an object so that it could be read, by its name.
+    hull_note : str or None
+        What is said of hulls that the file has beside its models.
     """
 
     objects: list[bpy.types.Object]
     notes: dict[str, str]
+    hull_note: str | None = None
 
     def notes_of(self, obj: bpy.types.Object) -> tuple[str, ...]:
         """Return what was done to an object so that it could be read, if anything."""
@@ -85,7 +88,7 @@ def load_file(
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())
-    return LoadedFile(_objects_with_shape(path), notes)
+    return LoadedFile(_objects_with_shape(path), notes, hull_note())
 
 
 def _objects_with_shape(path: Path) -> list[bpy.types.Object]:

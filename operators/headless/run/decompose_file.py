@@ -10,7 +10,6 @@ from pathlib import Path
 import bpy
 
 from ..formats import USUAL_UP
-from ..read.known_hulls import hull_note
 from ..read.load import LoadedFile, load_file
 from ..request.options import Request
 from ..request.outputs import Targets
@@ -81,9 +80,8 @@ def _parts_of(
     loaded: LoadedFile, path: Path, targets: Targets, request: Request, screen: Screen
 ) -> tuple[ObjectResult, ...]:
     """Return the result of each object; without parts if only hulls are asked for."""
-    note = hull_note()
-    if note:
-        screen.warning(f"{path.name}: {note}")
+    if loaded.hull_note:
+        screen.warning(f"{path.name}: {loaded.hull_note}")
     if needs_parts(targets, request):
         return decompose_objects(path.name, loaded, request.parameters, screen)
     return list_objects(loaded)
