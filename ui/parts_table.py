@@ -15,9 +15,10 @@ from .sidebar import Sidebar, hulls_of, width_of
 _ROWS = 6
 # Width of a color, as a share of a button's.
 _SWATCH = 0.35
-# Widths at interface scale 1: of a column of figures; of a short name; of all else.
+# Widths at interface scale 1: of a column of figures; of a name like
+# "Part 04.R"; of all else.
 _FIGURE = 30
-_NAME = 50
+_NAME = 62
 _REST = 134
 # The columns that are left out where there is no room, in this order.
 _GO_FIRST = ("Area", "Faces", "Hull")

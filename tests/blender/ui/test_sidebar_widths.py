@@ -12,8 +12,8 @@ HULLS = [{"part": 0, "error": 0.1}]
 @pytest.mark.parametrize(
     ("hulls", "width", "expected"),
     [
-        ([], _USUAL, ["Faces", "Area", "Rank"]),
-        (HULLS, _USUAL, ["Faces", "Rank", "Hull"]),
+        ([], _USUAL, ["Faces", "Rank"]),
+        (HULLS, _USUAL, ["Rank", "Hull"]),
         (HULLS, 2 * _USUAL, ["Faces", "Area", "Rank", "Hull"]),
         (HULLS, 220, ["Rank"]),
         ([], 1, ["Rank"]),
