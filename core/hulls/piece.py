@@ -89,8 +89,10 @@ class Piece:
 
     @cached_property
     def _measured(self) -> tuple[float, NDArray[np.float64]]:
-        """What `error_bound` finds, told apart from the largest error allowed."""
-        return error_bound(self.solid, self.shape, self.hull, self.fit.max_error)
+        """What `error_bound` finds; errors above the largest are not told apart."""
+        largest = self.fit.max_error
+        least = largest * _TOLD_APART
+        return error_bound(self.solid, self.shape, self.hull, least, largest)
 
     @cached_property
     def is_close(self) -> bool:
@@ -108,9 +110,10 @@ class Piece:
     @cached_property
     def stated_error(self) -> float:
         """An upper bound of the shape's error, see `error_bound`."""
-        largest, shape = self.fit.max_error, self.shape
-        bound = error_bound(self.solid, shape, self.hull, largest * _TOLD_APART)[0]
-        return min(bound, largest) if self.is_close else bound
+        if self.is_close:
+            return self._measured[0]
+        least = self.fit.max_error * _TOLD_APART
+        return error_bound(self.solid, self.shape, self.hull, least)[0]
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,6 +27,8 @@ _COARSE = 0.2
 _MOST_PATCHES = 60_000
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
+# Share by which distances may be too large where a rough one may do.
+_ROUGHLY = 0.5
 # Largest number of point-triangle pairs at once.
 _MOST_PAIRS = 400_000
 # The surface is within a shape that it is outside of by less: hulls are simplified.
@@ -37,7 +39,11 @@ _Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def error_bound(
-    solid: Solid, shape: CollisionShape, hull: Hull, enough: float
+    solid: Solid,
+    shape: CollisionShape,
+    hull: Hull,
+    enough: float,
+    limit: float = np.inf,
 ) -> tuple[float, NDArray[np.float64]]:
     """Return an upper bound of the error of a collision shape.
 
@@ -58,19 +64,27 @@ def error_bound(
         Convex hull of the piece that the shape stands for.
     enough : float
         Positive. Errors below it need not be told apart.
+    limit : float
+        Errors above it need not be told apart either: the search ends with the first
+        point that is farther away.
 
     Returns
     -------
     bound : float
         At least the error, and at most the larger of `enough` and the error with a
-        tolerance of a few percent.
+        tolerance of a few percent. Of an error above `limit`, any figure above it.
     place : (1, 3) or (0, 3) float
         A point of the shape that is far from the surface, if there is one.
     """
-    bound = uncovered(shape, hull)
+    bound, place = uncovered(shape, hull), np.zeros((0, 3))
+    if bound > limit:
+        return bound, place
     near, targets = _surface_within(solid, shape)
-    depths = _largest(near, lambda c, _: _depths(shape, c), max(enough, bound))[0]
+    least = max(enough, bound)
+    depths = _largest(near, lambda c, _: _depths(shape, c), least, limit)[0]
     bound = max(bound, depths)
+    if bound > limit:
+        return bound, place
     if len(near) == 0:
         near = targets = solid.fragments
     tree = cKDTree(near.mean(axis=1))
@@ -80,9 +94,9 @@ def error_bound(
         return _distances(solid, targets, tree, corners, level)
 
     least = max(enough - gap, bound, gap)
-    distance, place = _largest(outline, away, least)
+    distance, place = _largest(outline, away, least, limit - gap)
     bound = max(bound, distance + gap)
-    if volume_error(shape.volume) > max(bound, enough):
+    if bound <= limit and volume_error(shape.volume) > max(bound, enough):
         bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
     return bound, place
 
@@ -121,10 +135,12 @@ def _largest(
     corners: NDArray[np.float64],
     bounds_of: Callable[[NDArray[np.float64], float], _Bounds],
     enough: float,
+    limit: float,
 ) -> tuple[float, NDArray[np.float64]]:
     """Return an upper bound of a function's largest value on patches (N, 3, 3).
 
     The second value is where it is reached: (1, 3), or (0, 3) if it is below `enough`.
+    The search ends with the first value above `limit`.
     """
     reached, bound, level = 0.0, 0.0, enough
     place = np.zeros((0, 3))
@@ -134,7 +150,9 @@ def _largest(
         if low.max() > max(reached, enough):
             place = corners[[low.argmax()]].mean(axis=1)
         reached = max(reached, float(low.max()))
-        level = max(reached * (1 + _TOLERANCE), enough)
+        if reached > limit:
+            break
+        level = max(min(reached * (1 + _TOLERANCE), limit), enough)
         left = high > level
         bound = max(bound, float(high[~left].max(initial=0.0)))
         if left.sum() > _MOST_PATCHES:
@@ -166,11 +184,18 @@ def _distances(
 ) -> _Bounds:
     """Return bounds of the distance of patches outside a solid from targets."""
     centers, radii = _reach(corners)
-    rows = tree.query(centers)[1]
     low = np.zeros(len(centers))
-    distances = distances_to(centers, targets[rows])
-    high = distances + radii
+    rows = tree.query(centers, eps=_ROUGHLY)[1]
+    high = distances_to(centers, targets[rows]) + radii
     hard = np.flatnonzero(high > level)
+    inside = solid.inside.holds(centers[hard])
+    # A way from inside to a point outside crosses the surface.
+    within = hard[inside]
+    free = solid.tree.query(centers[within], eps=_ROUGHLY)[0] / (1 + _ROUGHLY)
+    beyond = np.maximum(radii[within] - np.maximum(free - solid.reach, 0.0), 0.0)
+    high[within] = np.minimum(high[within], beyond)
+    left = high[hard] > level
+    hard, inside = hard[left], inside[left]
     if len(hard) == 0:
         return low, high
     # The distance from a triangle is convex: it is largest at a corner of the patch.
@@ -183,14 +208,7 @@ def _distances(
         targets[np.repeat(near, 4, axis=0).ravel()],
     ).reshape(-1, 4, n_near)
     high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
-    distances[hard] = np.minimum(distances[hard], away[:, 3].min(axis=1))
-    hard = hard[high[hard] > level]
-    inside = solid.inside.holds(centers[hard])
-    low[hard[~inside]] = distances[hard[~inside]]
-    # A way from inside to a point outside crosses the surface.
-    hard = hard[inside]
-    free = solid.tree.query(centers[hard])[0] - solid.grain
-    high[hard] = np.where(free > radii[hard], 0.0, np.minimum(high, radii)[hard])
+    low[hard[~inside]] = away[~inside, 3].min(axis=1)
     return low, high
 
 
@@ -208,8 +226,11 @@ def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
     if not rows.any():
         return np.zeros((0, 3, 3)), np.zeros((0, 3, 3))
     near = solid.fragments[rows]
-    held = _held(shape, near)
-    whole = held.all(axis=1)
+    heights = shape.heights(solid.centers[rows])
+    whole = heights <= _WITHIN - solid.reach
+    unsure = np.flatnonzero(~whole & (heights <= _WITHIN + solid.reach))
+    whole[unsure] = _held(shape, near[unsure]).all(axis=1)
+    cut = unsure[~whole[unsure]]
     # Large triangles that are within stand for their pieces.
     numbers, places = np.unique(solid.origins[rows][whole], return_inverse=True)
     large = solid.corners[numbers]
@@ -217,9 +238,7 @@ def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
     of_large = np.all(_held(shape, large), axis=1).take(places)
     targets = np.where(of_large[:, None, None], large[places], near[whole])
     # Others may reach into the shape: of their pieces, take the corners that do.
-    centers, radii = _reach(near[~whole])
-    reaching = shape.heights(centers) <= radii + _WITHIN
-    pieces = fragments_of(near[~whole][reaching], solid.grain / 4)[0]
+    pieces = fragments_of(near[cut], solid.grain / 4)[0]
     held = _held(shape, pieces)
     pieces, held = pieces[held.any(axis=1)], held[held.any(axis=1)]
     order = np.argsort(~held, axis=1, kind="stable")

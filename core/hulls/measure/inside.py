@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...geometry.frames import heights_above
 from ...geometry.primitives import CollisionShape
-from ..chords import crossings_of
+from .fragments import fragments_of
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
 _AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
@@ -18,6 +18,8 @@ _AXES *= np.sign(np.linalg.det(_AXES))
 _CELLS = 96
 # Lines through a collision shape along the longer side of its bounding box.
 _LINES = 40
+# Longest edge of the triangles in the table.
+_COARSE = 0.3
 # Factor by which volumes are raised, for what lies between the lines: it raises the
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
@@ -32,17 +34,18 @@ class InsideTest:
     Parameters
     ----------
     corners : (T, 3, 3) float
-        Corners of small triangles, counter-clockwise seen from outside.
+        Corners of the triangles, counter-clockwise seen from outside.
     n_axes : int
         Number of axes to ask about points: 1 if the mesh is closed, else 3.
     """
 
     def __init__(self, corners: NDArray[np.float64], n_axes: int) -> None:
         self._n_axes = n_axes
-        self._corners = corners @ _AXES.T
-        self._low = self._corners.min(axis=(0, 1))
-        self._step = np.ptp(self._corners, axis=(0, 1)).max() / _CELLS or 1.0
-        self._tables = [self._table(axis) for axis in range(3)]
+        corners = fragments_of(corners @ _AXES.T, _COARSE)[0]
+        self._low = corners.min(axis=(0, 1))
+        self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
+        self._slopes = [_slopes_of(corners, axis) for axis in range(3)]
+        self._tables = [self._table(corners, axis) for axis in range(3)]
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return which points are inside, by most of the axes.
@@ -120,16 +123,19 @@ class InsideTest:
         end = np.minimum(heights[inside + 1], leave[rows])
         return float(np.maximum(end - start, 0.0).sum())
 
-    def _table(self, axis: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def _table(
+        self, corners: NDArray[np.float64], axis: int
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the triangles over each cell of a grid, and where they start."""
         sides = [(axis + 1) % 3, (axis + 2) % 3]
-        flat = (self._corners[:, :, sides] - self._low[sides]) / self._step
+        flat = (corners[:, :, sides] - self._low[sides]) / self._step
         low, high = (
             np.clip(ends.astype(np.int64), 0, _CELLS - 1)
             for ends in (flat.min(axis=1), flat.max(axis=1))
         )
         widths = high - low + 1
-        counts = widths.prod(axis=1)
+        faces_lines = self._slopes[axis][-1] != 0
+        counts = np.where(faces_lines, widths.prod(axis=1), 0)
         triangle = np.repeat(np.arange(len(flat)), counts)
         rank = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
         column, row = np.divmod(rank, widths[triangle, 1])
@@ -151,8 +157,31 @@ class InsideTest:
         line = np.repeat(np.arange(len(spots)), counts)
         rank = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
         triangle = triangles[starts[cell[line]] + rank]
-        hit, heights, turns = crossings_of(self._corners[triangle], axis, spots[line])
-        return line[hit], heights, turns
+        x0, y0, z0, bx, by, bz, cx, cy, cz, turns = self._slopes[axis]
+        x, y = spots[line, 0] - x0[triangle], spots[line, 1] - y0[triangle]
+        b = x * bx[triangle] + y * by[triangle]
+        c = x * cx[triangle] + y * cy[triangle]
+        hit = np.flatnonzero((b >= 0) & (c >= 0) & (b + c <= 1))
+        triangle = triangle[hit]
+        heights = z0[triangle] + b[hit] * bz[triangle] + c[hit] * cz[triangle]
+        return line[hit], heights, turns[triangle].astype(np.int64)
+
+
+def _slopes_of(corners: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Return what tells where lines along an axis cross triangles, (10, T).
+
+    Three rows have the first corner: across the lines (x, y), then along them (z). Then
+    three for each other corner: how much its share of a point grows along x and y, and
+    its z above that of the first corner. The last row is 1 where a line in the direction
+    of the axis enters the inside, −1 where it leaves it, 0 where it runs along.
+    """
+    a, b, c = np.moveaxis(corners[..., [(axis + 1) % 3, (axis + 2) % 3, axis]], 1, 0)
+    a, b, c = a.T, (b - a).T, (c - a).T
+    area = b[0] * c[1] - b[1] * c[0]
+    faces = area != 0
+    of_b = np.divide([c[1], -c[0]], area, out=np.zeros((2, len(area))), where=faces)
+    of_c = np.divide([-b[1], b[0]], area, out=np.zeros((2, len(area))), where=faces)
+    return np.concatenate([a, of_b, b[2:], of_c, c[2:], [-np.sign(area)]])
 
 
 def chord_in(
