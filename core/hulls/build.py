@@ -30,6 +30,8 @@ _SAME_VOLUME = 1e-9
 # Number of pieces to cut, as a multiple of the number of hulls allowed. Each cut is
 # the best one only at its turn; joining the surplus pieces corrects that.
 _SURPLUS = 2.0
+# The same for the other shapes, which take longer to fit.
+_SMALL_SURPLUS = 1.5
 
 
 def build_hulls_in_steps(
@@ -174,7 +176,8 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
         return (yield from join_pieces(start, 0.0, most))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    cells = yield from within(_cut(whole(solid, fit), int(_SURPLUS * most)), 0.0, 0.9)
+    surplus = _SURPLUS if fit.parameters.shape == "HULL" else _SMALL_SURPLUS
+    cells = yield from within(_cut(whole(solid, fit), int(surplus * most)), 0.0, 0.9)
     return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
 
 
@@ -204,7 +207,11 @@ def _cut(cell: Cell, most: int) -> Steps[list[Cell]]:
         share, far = (len(cells) + len(done)) / most, []
         for cell in cells:
             yield Progress("Cutting", share)
-            far += [] if cell.is_close else [cell]
+            far += [cell] if cell.error > cell.fit.max_error else []
+        if not far:  # estimates are quick, bounds are not
+            for cell in cells:
+                yield Progress("Cutting", share)
+                far += [] if cell.is_close else [cell]
         if not far:
             break
         worst = max(far, key=lambda cell: round(cell.error, 6))

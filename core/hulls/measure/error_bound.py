@@ -184,18 +184,18 @@ def _distances(
 ) -> _Bounds:
     """Return bounds of the distance of patches outside a solid from targets."""
     centers, radii = _reach(corners)
-    low = np.zeros(len(centers))
-    rows = tree.query(centers, eps=_ROUGHLY)[1]
-    high = distances_to(centers, targets[rows]) + radii
-    hard = np.flatnonzero(high > level)
-    inside = solid.inside.holds(centers[hard])
+    low, high = np.zeros(len(centers)), np.full(len(centers), np.inf)
+    inside = solid.inside.holds(centers)
     # A way from inside to a point outside crosses the surface.
-    within = hard[inside]
-    free = solid.tree.query(centers[within], eps=_ROUGHLY)[0] / (1 + _ROUGHLY)
-    beyond = np.maximum(radii[within] - np.maximum(free - solid.reach, 0.0), 0.0)
-    high[within] = np.minimum(high[within], beyond)
-    left = high[hard] > level
-    hard, inside = hard[left], inside[left]
+    most = float(radii.max()) + solid.reach
+    free = solid.tree.query(centers[inside], distance_upper_bound=most)[0]
+    free = np.minimum(free, most) - solid.reach
+    high[inside] = np.maximum(radii[inside] - np.maximum(free, 0.0), 0.0)
+    hard = np.flatnonzero(high > level)
+    rows = tree.query(centers[hard], eps=_ROUGHLY)[1]
+    rough = distances_to(centers[hard], targets[rows]) + radii[hard]
+    high[hard] = np.minimum(high[hard], rough)
+    hard = hard[high[hard] > level]
     if len(hard) == 0:
         return low, high
     # The distance from a triangle is convex: it is largest at a corner of the patch.
@@ -208,7 +208,7 @@ def _distances(
         targets[np.repeat(near, 4, axis=0).ravel()],
     ).reshape(-1, 4, n_near)
     high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
-    low[hard[~inside]] = away[~inside, 3].min(axis=1)
+    low[hard] = np.where(inside[hard], 0.0, away[:, 3].min(axis=1))
     return low, high
 
 
