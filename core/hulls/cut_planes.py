@@ -76,7 +76,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         added += sketch.added_volumes(direction, offsets)
         gains += _gains(heights, offsets)
         yield Progress("Cutting", 0.5)
-    if cell.fit.parameters.shape != "SPHERE":  # others may well be long or flat
+    if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
         gains = [0.0] * len(added)
     order = np.lexsort((-np.round(gains, _DIGITS), np.round(added, _DIGITS)))
     return np.array(planes)[order[np.isfinite(added)[order]]]
@@ -148,12 +148,10 @@ def _sketch_of(cell: Cell) -> _Sketch:
     return _Sketch(cell, points, rounded, reaches_of(rounded), float(np.prod(widths)))
 
 
-def _gains(
-    heights: NDArray[np.float64], offsets: NDArray[np.float64]
-) -> list[float]:
+def _gains(heights: NDArray[np.float64], offsets: NDArray[np.float64]) -> list[float]:
     """Return by how much planes shorten the longer side, as a square: ties end so.
 
-    The hulls of a convex piece add nothing, wherever it is cut; its spheres do.
+    Hulls of a convex piece add nothing, wherever it is cut; other shapes do.
     """
     low, high = heights.min(), heights.max()
     longer = np.maximum(offsets - low, high - offsets)

@@ -147,7 +147,7 @@ def _best_along(
     hull: Hull,
     along: Callable[[Hull, NDArray[np.float64], int], CollisionShape],
 ) -> CollisionShape:
-    """Return the smallest shape along one of the axes; only the best is made exactly."""
+    """Return the smallest shape along an axis; only the best is made exactly."""
     rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
     best = min(rough, key=lambda shape: round(shape.volume, 9))
     return along(hull, best.axes[2], _ROUNDS)

@@ -18,9 +18,6 @@ from .measure.error_bound import error_bound
 from .measure.estimate import estimated_error, volume_error
 from .solid import Solid
 
-# Errors below this share of the largest one allowed need not be told apart.
-_TOLD_APART = 0.3
-
 
 @dataclass(frozen=True, eq=False)
 class Piece:
@@ -90,9 +87,7 @@ class Piece:
     @cached_property
     def _measured(self) -> tuple[float, NDArray[np.float64]]:
         """What `error_bound` finds; errors above the largest are not told apart."""
-        largest = self.fit.max_error
-        least = largest * _TOLD_APART
-        return error_bound(self.solid, self.shape, self.hull, least, largest)
+        return self._bound(self.fit.max_error)
 
     @cached_property
     def is_close(self) -> bool:
@@ -110,10 +105,12 @@ class Piece:
     @cached_property
     def stated_error(self) -> float:
         """An upper bound of the shape's error, see `error_bound`."""
-        if self.is_close:
-            return self._measured[0]
-        least = self.fit.max_error * _TOLD_APART
-        return error_bound(self.solid, self.shape, self.hull, least)[0]
+        return self._measured[0] if self.is_close else self._bound(np.inf)[0]
+
+    def _bound(self, limit: float) -> tuple[float, NDArray[np.float64]]:
+        """Return what `error_bound` finds."""
+        largest = self.fit.max_error
+        return error_bound(self.solid, self.shape, self.hull, largest, limit)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,10 @@ from ..outline import fine_outline
 from ..solid import Solid
 from .estimate import volume_error
 from .fragments import distances_to, fragments_of, halved
+from .uncovered import uncovered
 
+# Errors below this share of the largest one allowed need not be told apart.
+_TOLD_APART = 0.5
 # The bound exceeds the error by this share at most, where there is time for it.
 _TOLERANCE = 0.03
 # Longest edge of the first patches; the longest side of the shape is 2.
@@ -29,8 +32,6 @@ _MOST_PATCHES = 60_000
 _NEIGHBORS = 3
 # Share by which distances may be too large where a rough one may do.
 _ROUGHLY = 0.5
-# Largest number of point-triangle pairs at once.
-_MOST_PAIRS = 400_000
 # The surface is within a shape that it is outside of by less: hulls are simplified.
 _WITHIN = THIN / 10
 
@@ -42,7 +43,7 @@ def error_bound(
     solid: Solid,
     shape: CollisionShape,
     hull: Hull,
-    enough: float,
+    largest: float,
     limit: float = np.inf,
 ) -> tuple[float, NDArray[np.float64]]:
     """Return an upper bound of the error of a collision shape.
@@ -62,73 +63,53 @@ def error_bound(
         In the space of the solid.
     hull : Hull
         Convex hull of the piece that the shape stands for.
-    enough : float
-        Positive. Errors below it need not be told apart.
+    largest : float
+        Largest error allowed. Errors below half of it are not told apart.
     limit : float
-        Errors above it need not be told apart either: the search ends with the first
-        point that is farther away.
+        Errors above it are not told apart either: the search ends there.
 
     Returns
     -------
     bound : float
-        At least the error, and at most the larger of `enough` and the error with a
-        tolerance of a few percent. Of an error above `limit`, any figure above it.
+        At least the error, and a few percent more at most where errors are told apart.
+        Any figure above `limit` if the error is above it.
     place : (1, 3) or (0, 3) float
         A point of the shape that is far from the surface, if there is one.
     """
-    bound, place = uncovered(shape, hull), np.zeros((0, 3))
-    if bound > limit:
-        return bound, place
+    enough, bound = largest * _TOLD_APART, uncovered(shape, hull)
     near, targets = _surface_within(solid, shape)
     least = max(enough, bound)
     depths = _largest(near, lambda c, _: _depths(shape, c), least, limit)[0]
-    bound = max(bound, depths)
-    if bound > limit:
-        return bound, place
-    if len(near) == 0:
-        near = targets = solid.fragments
-    tree = cKDTree(near.mean(axis=1))
+    bound, place = max(bound, depths), np.zeros((0, 3))
+    if bound <= limit:
+        surface = (near, targets) if len(near) else (solid.fragments,) * 2
+        away, place = _farthest(solid, shape, surface, max(enough, bound), limit)
+        bound = max(bound, away)
+    if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
+        bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
+    return bound, place
+
+
+def _farthest(
+    solid: Solid,
+    shape: CollisionShape,
+    surface: _Bounds,
+    enough: float,
+    limit: float,
+) -> tuple[float, NDArray[np.float64]]:
+    """Return a bound of the distance of points on a shape from a surface, and where.
+
+    The surface is as `_surface_within` returns it.
+    """
+    small, targets = surface
+    tree = cKDTree(small.mean(axis=1))
     outline, gap = fine_outline(shape)
 
     def away(corners: NDArray[np.float64], level: float) -> _Bounds:
         return _distances(solid, targets, tree, corners, level)
 
-    least = max(enough - gap, bound, gap)
-    distance, place = _largest(outline, away, least, limit - gap)
-    bound = max(bound, distance + gap)
-    if bound <= limit and volume_error(shape.volume) > max(bound, enough):
-        bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
-    return bound, place
-
-
-def uncovered(shape: CollisionShape, hull: Hull) -> float:
-    """Return the largest distance from a collision shape of a point of a hull.
-
-    Parameters
-    ----------
-    shape : CollisionShape
-    hull : Hull
-
-    Returns
-    -------
-    float
-        0 if the shape contains the hull. A corner is the farthest point: distances
-        from a convex shape are convex.
-    """
-    heights = shape.heights(hull.vertices)
-    if shape.kind != "HULL":
-        return float(max(heights.max(), 0.0))
-    points = hull.vertices[heights > 0]
-    corners, farthest = shape.hull.corners, 0.0
-    step = max(_MOST_PAIRS // len(corners), 1)
-    for start in range(0, len(points), step):
-        some = points[start : start + step]
-        away = distances_to(
-            np.repeat(some, len(corners), axis=0), np.tile(corners, (len(some), 1, 1))
-        )
-        nearest = away.reshape(len(some), -1).min(axis=1)
-        farthest = max(farthest, float(nearest.max()))
-    return farthest
+    distance, place = _largest(outline, away, max(enough - gap, gap), limit - gap)
+    return distance + gap, place
 
 
 def _largest(

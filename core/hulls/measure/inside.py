@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import heights_above
 from ...geometry.primitives import CollisionShape
 from .fragments import fragments_of
+from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
 _AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
@@ -170,10 +170,10 @@ class InsideTest:
 def _slopes_of(corners: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     """Return what tells where lines along an axis cross triangles, (10, T).
 
-    Three rows have the first corner: across the lines (x, y), then along them (z). Then
-    three for each other corner: how much its share of a point grows along x and y, and
-    its z above that of the first corner. The last row is 1 where a line in the direction
-    of the axis enters the inside, −1 where it leaves it, 0 where it runs along.
+    Three rows have the first corner: x and y across the lines, z along them. Then three
+    for each other corner: how much its share of a point grows along x and y, and its z
+    above that of the first corner. The last row is 1 where a line along the axis
+    enters the inside, −1 where it leaves it, 0 where it is in the plane.
     """
     a, b, c = np.moveaxis(corners[..., [(axis + 1) % 3, (axis + 2) % 3, axis]], 1, 0)
     a, b, c = a.T, (b - a).T, (c - a).T
@@ -184,83 +184,8 @@ def _slopes_of(corners: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     return np.concatenate([a, of_b, b[2:], of_c, c[2:], [-np.sign(area)]])
 
 
-def chord_in(
-    shape: CollisionShape, origins: NDArray[np.float64], direction: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where parallel lines enter and leave a collision shape.
-
-    Parameters
-    ----------
-    shape : CollisionShape
-    origins : (L, 3) float
-        A point of each line.
-    direction : (3,) float
-        Unit vector.
-
-    Returns
-    -------
-    enter, leave : (L,) float
-        Distances from the points along the direction. Lines that miss the shape leave
-        it before they enter.
-    """
-    if shape.kind == "HULL":
-        planes = shape.hull.planes
-        return _between(heights_above(planes, origins), planes[:, :3] @ direction)
-    local, along = (origins - shape.center) @ shape.axes.T, shape.axes @ direction
-    radius, _, half = shape.sizes
-    if shape.kind == "BOX":
-        return _between(
-            np.hstack([local, -local]) - np.tile(shape.sizes, 2), np.r_[along, -along]
-        )
-    if shape.kind == "SPHERE":
-        return _in_ball(local, along, radius)
-    ends = _between(
-        np.stack([local[:, 2], -local[:, 2]], 1) - half, np.r_[along[2], -along[2]]
-    )
-    round_ = _in_ball(local[:, :2], along[:2], radius)
-    middle = np.maximum(ends[0], round_[0]), np.minimum(ends[1], round_[1])
-    if shape.kind == "CYLINDER":
-        return middle
-    tip = np.array([0.0, 0.0, half])
-    chords = [
-        middle,
-        _in_ball(local - tip, along, radius),
-        _in_ball(local + tip, along, radius),
-    ]
-    enter, leave = np.stack([c[0] for c in chords]), np.stack([c[1] for c in chords])
-    met = leave > enter
-    return np.where(met, enter, np.inf).min(axis=0), np.where(met, leave, -np.inf).max(
-        axis=0
-    )
-
-
 def _turned(shape: CollisionShape) -> CollisionShape:
     """Return a collision shape in the coordinates of the lines."""
     hull = replace(shape.hull, vertices=shape.hull.vertices @ _AXES.T)
     center, axes = _AXES @ shape.center, shape.axes @ _AXES.T
     return replace(shape, hull=hull, center=center, axes=axes)
-
-
-def _between(
-    heights: NDArray[np.float64], slopes: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where lines are below planes: at heights (L, P), rising by slopes."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ends = -heights / slopes
-    ends = np.where(slopes == 0, np.where(heights <= 0, np.inf, -np.inf), ends)
-    enter = ends[:, slopes < 0].max(axis=1, initial=-np.inf)
-    return enter, ends[:, slopes >= 0].min(axis=1, initial=np.inf)
-
-
-def _in_ball(
-    places: NDArray[np.float64], along: NDArray[np.float64], radius: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where lines are within a radius of the origin, in 2D or 3D."""
-    square = max(float(along @ along), 1e-30)
-    middle = -(places @ along) / square
-    away = places + middle[:, None] * along
-    room = (radius**2 - np.einsum("ld,ld->l", away, away)) / square
-    half = np.sqrt(np.maximum(room, 0.0))
-    return np.where(room > 0, middle - half, np.inf), np.where(
-        room > 0, middle + half, -np.inf
-    )
