@@ -202,7 +202,8 @@ def _cut(cell: Cell, most: int) -> Steps[list[Cell]]:
     cells, largest = [cell], cell.fit.max_error
     done: list[Cell] = []
     while cells and len(cells) + len(done) < most:
-        share, far = (len(cells) + len(done)) / most, []
+        share = (len(cells) + len(done)) / most
+        far: list[Cell] = []
         for surely in (False, True):  # estimates are quick, bounds are not
             for cell in cells if not far else []:
                 yield Progress("Cutting", share)
