@@ -89,12 +89,12 @@ def _crossings(
     column, row = np.divmod(rank, (top - bottom)[triangle])
     column, row = column + left[triangle], row + bottom[triangle]
     spots = np.stack([lines[0][column], lines[1][row]], axis=1)
-    hit, heights, turns = crossings_of(corners[triangle], axis, spots)
+    hit, heights, turns = _crossings_of(corners[triangle], axis, spots)
     line = column * len(lines[1]) + row
     return line[hit], heights, turns
 
 
-def crossings_of(
+def _crossings_of(
     corners: NDArray[np.float64], axis: int, spots: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
     """Return where lines along an axis cross a triangle each.

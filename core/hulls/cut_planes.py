@@ -53,27 +53,32 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         least volume come first.
     """
     sketch = _sketch_of(cell)
-    planes, added = [], []
+    planes, added, gains = [], [], []
     for direction in _directions(cell):
         yield Progress("Cutting", 0.0)
         heights = sketch.points @ direction
         offsets = np.linspace(heights.min(), heights.max(), _PLANES + 2)[1:-1]
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += sketch.added_volumes(direction, offsets)
+        gains += _gains(heights, offsets)
     # Rounded, so that noise does not decide between equal planes. Flat faces may lie
     # between the evenly spaced planes, so their levels are tried too.
     best = np.round(added, _DIGITS).reshape(-1, _PLANES).argmin(axis=1)
     for row in best + _PLANES * np.arange(len(best)):
         direction, offset = planes[row][:3], -planes[row][3]
-        step = np.ptp(sketch.points @ direction) / (_PLANES + 1)
+        heights = sketch.points @ direction
+        step = np.ptp(heights) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)
         near = levels[np.abs(levels - offset) < step][:_MOST_LEVELS]
         steps = [offset + _BETWEEN * step, near - _SKIM, near + _SKIM]
         offsets = np.sort(np.concatenate(steps))
         planes += [np.r_[direction, -offset] for offset in offsets]
         added += sketch.added_volumes(direction, offsets)
+        gains += _gains(heights, offsets)
         yield Progress("Cutting", 0.5)
-    order = np.argsort(np.round(added, _DIGITS), kind="stable")
+    if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
+        gains = [0.0] * len(added)
+    order = np.lexsort((-np.round(gains, _DIGITS), np.round(added, _DIGITS)))
     return np.array(planes)[order[np.isfinite(added)[order]]]
 
 
@@ -141,6 +146,16 @@ def _sketch_of(cell: Cell) -> _Sketch:
     widths = np.maximum(local.std(axis=0), _FLAT)
     rounded = local / widths
     return _Sketch(cell, points, rounded, reaches_of(rounded), float(np.prod(widths)))
+
+
+def _gains(heights: NDArray[np.float64], offsets: NDArray[np.float64]) -> list[float]:
+    """Return by how much planes shorten the longer side, as a square: ties end so.
+
+    Hulls of a convex piece add nothing, wherever it is cut; other shapes do.
+    """
+    low, high = heights.min(), heights.max()
+    longer = np.maximum(offsets - low, high - offsets)
+    return list((high - low) ** 2 - longer**2)
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:

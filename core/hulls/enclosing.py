@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
@@ -76,7 +78,7 @@ def cylinder_around(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    return min((_cylinder(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
+    return _best_along(hull, _cylinder)
 
 
 def capsule_around(hull: Hull) -> CollisionShape:
@@ -91,7 +93,7 @@ def capsule_around(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    return min((_capsule(hull, axis) for axis in _axes(hull)), key=lambda s: s.volume)
+    return _best_along(hull, _capsule)
 
 
 _EXACT = {
@@ -141,6 +143,16 @@ def roughly_around(hull: Hull, kind: str) -> CollisionShape:
     return min(shapes, key=lambda shape: shape.volume)
 
 
+def _best_along(
+    hull: Hull,
+    along: Callable[[Hull, NDArray[np.float64], int], CollisionShape],
+) -> CollisionShape:
+    """Return the smallest shape along an axis; only the best is made exactly."""
+    rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
+    best = min(rough, key=lambda shape: round(shape.volume, 9))
+    return along(hull, best.axes[2], _ROUNDS)
+
+
 def _sphere(hull: Hull, rounds: int) -> CollisionShape:
     """Return the smallest sphere, found in a number of rounds."""
     center, radius = _smallest_ball(hull.vertices, rounds)
@@ -148,9 +160,7 @@ def _sphere(hull: Hull, rounds: int) -> CollisionShape:
     return CollisionShape("SPHERE", hull, center, np.eye(3), sizes)
 
 
-def _cylinder(
-    hull: Hull, axis: NDArray[np.float64], rounds: int = _ROUNDS
-) -> CollisionShape:
+def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
     """Return the smallest cylinder along an axis."""
     frame = _frame(axis)
     local = hull.vertices @ frame.T
@@ -161,9 +171,7 @@ def _cylinder(
     return CollisionShape("CYLINDER", hull, middle, frame, sizes)
 
 
-def _capsule(
-    hull: Hull, axis: NDArray[np.float64], rounds: int = _ROUNDS
-) -> CollisionShape:
+def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
     """Return the shortest of the capsules with the least radius along an axis."""
     frame = _frame(axis)
     local = hull.vertices @ frame.T

@@ -18,9 +18,6 @@ from .measure.error_bound import error_bound
 from .measure.estimate import estimated_error, volume_error
 from .solid import Solid
 
-# Errors below this share of the largest one allowed need not be told apart.
-_TOLD_APART = 0.3
-
 
 @dataclass(frozen=True, eq=False)
 class Piece:
@@ -89,8 +86,8 @@ class Piece:
 
     @cached_property
     def _measured(self) -> tuple[float, NDArray[np.float64]]:
-        """What `error_bound` finds, told apart from the largest error allowed."""
-        return error_bound(self.solid, self.shape, self.hull, self.fit.max_error)
+        """What `error_bound` finds; errors above the largest are not told apart."""
+        return self._bound(self.fit.max_error)
 
     @cached_property
     def is_close(self) -> bool:
@@ -108,9 +105,12 @@ class Piece:
     @cached_property
     def stated_error(self) -> float:
         """An upper bound of the shape's error, see `error_bound`."""
-        largest, shape = self.fit.max_error, self.shape
-        bound = error_bound(self.solid, shape, self.hull, largest * _TOLD_APART)[0]
-        return min(bound, largest) if self.is_close else bound
+        return self._measured[0] if self.is_close else self._bound(np.inf)[0]
+
+    def _bound(self, limit: float) -> tuple[float, NDArray[np.float64]]:
+        """Return what `error_bound` finds."""
+        largest = self.fit.max_error
+        return error_bound(self.solid, self.shape, self.hull, largest, limit)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,10 @@ from ..outline import fine_outline
 from ..solid import Solid
 from .estimate import volume_error
 from .fragments import distances_to, fragments_of, halved
+from .uncovered import uncovered
 
+# Errors below this share of the largest one allowed need not be told apart.
+_TOLD_APART = 0.5
 # The bound exceeds the error by this share at most, where there is time for it.
 _TOLERANCE = 0.03
 # Longest edge of the first patches; the longest side of the shape is 2.
@@ -27,8 +30,8 @@ _COARSE = 0.2
 _MOST_PATCHES = 60_000
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
-# Largest number of point-triangle pairs at once.
-_MOST_PAIRS = 400_000
+# Share by which distances may be too large where a rough one may do.
+_ROUGHLY = 0.5
 # The surface is within a shape that it is outside of by less: hulls are simplified.
 _WITHIN = THIN / 10
 
@@ -37,7 +40,11 @@ _Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def error_bound(
-    solid: Solid, shape: CollisionShape, hull: Hull, enough: float
+    solid: Solid,
+    shape: CollisionShape,
+    hull: Hull,
+    largest: float,
+    limit: float = np.inf,
 ) -> tuple[float, NDArray[np.float64]]:
     """Return an upper bound of the error of a collision shape.
 
@@ -56,75 +63,65 @@ def error_bound(
         In the space of the solid.
     hull : Hull
         Convex hull of the piece that the shape stands for.
-    enough : float
-        Positive. Errors below it need not be told apart.
+    largest : float
+        Largest error allowed. Errors below half of it are not told apart.
+    limit : float
+        Errors above it are not told apart either: the search ends there.
 
     Returns
     -------
     bound : float
-        At least the error, and at most the larger of `enough` and the error with a
-        tolerance of a few percent.
+        At least the error, and a few percent more at most where errors are told apart.
+        Any figure above `limit` if the error is above it.
     place : (1, 3) or (0, 3) float
         A point of the shape that is far from the surface, if there is one.
     """
-    bound = uncovered(shape, hull)
+    enough, bound = largest * _TOLD_APART, uncovered(shape, hull)
     near, targets = _surface_within(solid, shape)
-    depths = _largest(near, lambda c, _: _depths(shape, c), max(enough, bound))[0]
-    bound = max(bound, depths)
-    if len(near) == 0:
-        near = targets = solid.fragments
-    tree = cKDTree(near.mean(axis=1))
+    least = max(enough, bound)
+    depths = _largest(near, lambda c, _: _depths(shape, c), least, limit)[0]
+    bound, place = max(bound, depths), np.zeros((0, 3))
+    if bound <= limit:
+        surface = (near, targets) if len(near) else (solid.fragments,) * 2
+        away, place = _farthest(solid, shape, surface, max(enough, bound), limit)
+        bound = max(bound, away)
+    if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
+        bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
+    return bound, place
+
+
+def _farthest(
+    solid: Solid,
+    shape: CollisionShape,
+    surface: _Bounds,
+    enough: float,
+    limit: float,
+) -> tuple[float, NDArray[np.float64]]:
+    """Return a bound of the distance of points on a shape from a surface, and where.
+
+    The surface is as `_surface_within` returns it.
+    """
+    small, targets = surface
+    tree = cKDTree(small.mean(axis=1))
     outline, gap = fine_outline(shape)
 
     def away(corners: NDArray[np.float64], level: float) -> _Bounds:
         return _distances(solid, targets, tree, corners, level)
 
-    least = max(enough - gap, bound, gap)
-    distance, place = _largest(outline, away, least)
-    bound = max(bound, distance + gap)
-    if volume_error(shape.volume) > max(bound, enough):
-        bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
-    return bound, place
-
-
-def uncovered(shape: CollisionShape, hull: Hull) -> float:
-    """Return the largest distance from a collision shape of a point of a hull.
-
-    Parameters
-    ----------
-    shape : CollisionShape
-    hull : Hull
-
-    Returns
-    -------
-    float
-        0 if the shape contains the hull. A corner is the farthest point: distances
-        from a convex shape are convex.
-    """
-    heights = shape.heights(hull.vertices)
-    if shape.kind != "HULL":
-        return float(max(heights.max(), 0.0))
-    points = hull.vertices[heights > 0]
-    corners, farthest = shape.hull.corners, 0.0
-    step = max(_MOST_PAIRS // len(corners), 1)
-    for start in range(0, len(points), step):
-        some = points[start : start + step]
-        away = distances_to(
-            np.repeat(some, len(corners), axis=0), np.tile(corners, (len(some), 1, 1))
-        )
-        nearest = away.reshape(len(some), -1).min(axis=1)
-        farthest = max(farthest, float(nearest.max()))
-    return farthest
+    distance, place = _largest(outline, away, max(enough - gap, gap), limit - gap)
+    return distance + gap, place
 
 
 def _largest(
     corners: NDArray[np.float64],
     bounds_of: Callable[[NDArray[np.float64], float], _Bounds],
     enough: float,
+    limit: float,
 ) -> tuple[float, NDArray[np.float64]]:
     """Return an upper bound of a function's largest value on patches (N, 3, 3).
 
     The second value is where it is reached: (1, 3), or (0, 3) if it is below `enough`.
+    The search ends with the first value above `limit`.
     """
     reached, bound, level = 0.0, 0.0, enough
     place = np.zeros((0, 3))
@@ -134,7 +131,9 @@ def _largest(
         if low.max() > max(reached, enough):
             place = corners[[low.argmax()]].mean(axis=1)
         reached = max(reached, float(low.max()))
-        level = max(reached * (1 + _TOLERANCE), enough)
+        if reached > limit:
+            break
+        level = max(min(reached * (1 + _TOLERANCE), limit), enough)
         left = high > level
         bound = max(bound, float(high[~left].max(initial=0.0)))
         if left.sum() > _MOST_PATCHES:
@@ -166,11 +165,18 @@ def _distances(
 ) -> _Bounds:
     """Return bounds of the distance of patches outside a solid from targets."""
     centers, radii = _reach(corners)
-    rows = tree.query(centers)[1]
-    low = np.zeros(len(centers))
-    distances = distances_to(centers, targets[rows])
-    high = distances + radii
+    low, high = np.zeros(len(centers)), np.full(len(centers), np.inf)
+    inside = solid.inside.holds(centers)
+    # A way from inside to a point outside crosses the surface.
+    most = float(radii.max()) + solid.reach
+    free = solid.tree.query(centers[inside], distance_upper_bound=most)[0]
+    free = np.minimum(free, most) - solid.reach
+    high[inside] = np.maximum(radii[inside] - np.maximum(free, 0.0), 0.0)
     hard = np.flatnonzero(high > level)
+    rows = tree.query(centers[hard], eps=_ROUGHLY)[1]
+    rough = distances_to(centers[hard], targets[rows]) + radii[hard]
+    high[hard] = np.minimum(high[hard], rough)
+    hard = hard[high[hard] > level]
     if len(hard) == 0:
         return low, high
     # The distance from a triangle is convex: it is largest at a corner of the patch.
@@ -183,14 +189,7 @@ def _distances(
         targets[np.repeat(near, 4, axis=0).ravel()],
     ).reshape(-1, 4, n_near)
     high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
-    distances[hard] = np.minimum(distances[hard], away[:, 3].min(axis=1))
-    hard = hard[high[hard] > level]
-    inside = solid.inside.holds(centers[hard])
-    low[hard[~inside]] = distances[hard[~inside]]
-    # A way from inside to a point outside crosses the surface.
-    hard = hard[inside]
-    free = solid.tree.query(centers[hard])[0] - solid.grain
-    high[hard] = np.where(free > radii[hard], 0.0, np.minimum(high, radii)[hard])
+    low[hard] = np.where(inside[hard], 0.0, away[:, 3].min(axis=1))
     return low, high
 
 
@@ -208,8 +207,11 @@ def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
     if not rows.any():
         return np.zeros((0, 3, 3)), np.zeros((0, 3, 3))
     near = solid.fragments[rows]
-    held = _held(shape, near)
-    whole = held.all(axis=1)
+    heights = shape.heights(solid.centers[rows])
+    whole = heights <= _WITHIN - solid.reach
+    unsure = np.flatnonzero(~whole & (heights <= _WITHIN + solid.reach))
+    whole[unsure] = _held(shape, near[unsure]).all(axis=1)
+    cut = unsure[~whole[unsure]]
     # Large triangles that are within stand for their pieces.
     numbers, places = np.unique(solid.origins[rows][whole], return_inverse=True)
     large = solid.corners[numbers]
@@ -217,9 +219,7 @@ def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
     of_large = np.all(_held(shape, large), axis=1).take(places)
     targets = np.where(of_large[:, None, None], large[places], near[whole])
     # Others may reach into the shape: of their pieces, take the corners that do.
-    centers, radii = _reach(near[~whole])
-    reaching = shape.heights(centers) <= radii + _WITHIN
-    pieces = fragments_of(near[~whole][reaching], solid.grain / 4)[0]
+    pieces = fragments_of(near[cut], solid.grain / 4)[0]
     held = _held(shape, pieces)
     pieces, held = pieces[held.any(axis=1)], held[held.any(axis=1)]
     order = np.argsort(~held, axis=1, kind="stable")

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import heights_above
 from ...geometry.primitives import CollisionShape
-from ..chords import crossings_of
+from .fragments import fragments_of
+from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
 _AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
@@ -18,6 +18,8 @@ _AXES *= np.sign(np.linalg.det(_AXES))
 _CELLS = 96
 # Lines through a collision shape along the longer side of its bounding box.
 _LINES = 40
+# Longest edge of the triangles in the table.
+_COARSE = 0.3
 # Factor by which volumes are raised, for what lies between the lines: it raises the
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
@@ -32,17 +34,18 @@ class InsideTest:
     Parameters
     ----------
     corners : (T, 3, 3) float
-        Corners of small triangles, counter-clockwise seen from outside.
+        Corners of the triangles, counter-clockwise seen from outside.
     n_axes : int
         Number of axes to ask about points: 1 if the mesh is closed, else 3.
     """
 
     def __init__(self, corners: NDArray[np.float64], n_axes: int) -> None:
         self._n_axes = n_axes
-        self._corners = corners @ _AXES.T
-        self._low = self._corners.min(axis=(0, 1))
-        self._step = np.ptp(self._corners, axis=(0, 1)).max() / _CELLS or 1.0
-        self._tables = [self._table(axis) for axis in range(3)]
+        corners = fragments_of(corners @ _AXES.T, _COARSE)[0]
+        self._low = corners.min(axis=(0, 1))
+        self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
+        self._slopes = [_slopes_of(corners, axis) for axis in range(3)]
+        self._tables = [self._table(corners, axis) for axis in range(3)]
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return which points are inside, by most of the axes.
@@ -120,16 +123,19 @@ class InsideTest:
         end = np.minimum(heights[inside + 1], leave[rows])
         return float(np.maximum(end - start, 0.0).sum())
 
-    def _table(self, axis: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def _table(
+        self, corners: NDArray[np.float64], axis: int
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the triangles over each cell of a grid, and where they start."""
         sides = [(axis + 1) % 3, (axis + 2) % 3]
-        flat = (self._corners[:, :, sides] - self._low[sides]) / self._step
+        flat = (corners[:, :, sides] - self._low[sides]) / self._step
         low, high = (
             np.clip(ends.astype(np.int64), 0, _CELLS - 1)
             for ends in (flat.min(axis=1), flat.max(axis=1))
         )
         widths = high - low + 1
-        counts = widths.prod(axis=1)
+        faces_lines = self._slopes[axis][-1] != 0
+        counts = np.where(faces_lines, widths.prod(axis=1), 0)
         triangle = np.repeat(np.arange(len(flat)), counts)
         rank = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
         column, row = np.divmod(rank, widths[triangle, 1])
@@ -151,58 +157,31 @@ class InsideTest:
         line = np.repeat(np.arange(len(spots)), counts)
         rank = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
         triangle = triangles[starts[cell[line]] + rank]
-        hit, heights, turns = crossings_of(self._corners[triangle], axis, spots[line])
-        return line[hit], heights, turns
+        x0, y0, z0, bx, by, bz, cx, cy, cz, turns = self._slopes[axis]
+        x, y = spots[line, 0] - x0[triangle], spots[line, 1] - y0[triangle]
+        b = x * bx[triangle] + y * by[triangle]
+        c = x * cx[triangle] + y * cy[triangle]
+        hit = np.flatnonzero((b >= 0) & (c >= 0) & (b + c <= 1))
+        triangle = triangle[hit]
+        heights = z0[triangle] + b[hit] * bz[triangle] + c[hit] * cz[triangle]
+        return line[hit], heights, turns[triangle].astype(np.int64)
 
 
-def chord_in(
-    shape: CollisionShape, origins: NDArray[np.float64], direction: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where parallel lines enter and leave a collision shape.
+def _slopes_of(corners: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Return what tells where lines along an axis cross triangles, (10, T).
 
-    Parameters
-    ----------
-    shape : CollisionShape
-    origins : (L, 3) float
-        A point of each line.
-    direction : (3,) float
-        Unit vector.
-
-    Returns
-    -------
-    enter, leave : (L,) float
-        Distances from the points along the direction. Lines that miss the shape leave
-        it before they enter.
+    Three rows have the first corner: x and y across the lines, z along them. Then three
+    for each other corner: how much its share of a point grows along x and y, and its z
+    above that of the first corner. The last row is 1 where a line along the axis
+    enters the inside, −1 where it leaves it, 0 where it is in the plane.
     """
-    if shape.kind == "HULL":
-        planes = shape.hull.planes
-        return _between(heights_above(planes, origins), planes[:, :3] @ direction)
-    local, along = (origins - shape.center) @ shape.axes.T, shape.axes @ direction
-    radius, _, half = shape.sizes
-    if shape.kind == "BOX":
-        return _between(
-            np.hstack([local, -local]) - np.tile(shape.sizes, 2), np.r_[along, -along]
-        )
-    if shape.kind == "SPHERE":
-        return _in_ball(local, along, radius)
-    ends = _between(
-        np.stack([local[:, 2], -local[:, 2]], 1) - half, np.r_[along[2], -along[2]]
-    )
-    round_ = _in_ball(local[:, :2], along[:2], radius)
-    middle = np.maximum(ends[0], round_[0]), np.minimum(ends[1], round_[1])
-    if shape.kind == "CYLINDER":
-        return middle
-    tip = np.array([0.0, 0.0, half])
-    chords = [
-        middle,
-        _in_ball(local - tip, along, radius),
-        _in_ball(local + tip, along, radius),
-    ]
-    enter, leave = np.stack([c[0] for c in chords]), np.stack([c[1] for c in chords])
-    met = leave > enter
-    return np.where(met, enter, np.inf).min(axis=0), np.where(met, leave, -np.inf).max(
-        axis=0
-    )
+    a, b, c = np.moveaxis(corners[..., [(axis + 1) % 3, (axis + 2) % 3, axis]], 1, 0)
+    a, b, c = a.T, (b - a).T, (c - a).T
+    area = b[0] * c[1] - b[1] * c[0]
+    faces = area != 0
+    of_b = np.divide([c[1], -c[0]], area, out=np.zeros((2, len(area))), where=faces)
+    of_c = np.divide([-b[1], b[0]], area, out=np.zeros((2, len(area))), where=faces)
+    return np.concatenate([a, of_b, b[2:], of_c, c[2:], [-np.sign(area)]])
 
 
 def _turned(shape: CollisionShape) -> CollisionShape:
@@ -210,28 +189,3 @@ def _turned(shape: CollisionShape) -> CollisionShape:
     hull = replace(shape.hull, vertices=shape.hull.vertices @ _AXES.T)
     center, axes = _AXES @ shape.center, shape.axes @ _AXES.T
     return replace(shape, hull=hull, center=center, axes=axes)
-
-
-def _between(
-    heights: NDArray[np.float64], slopes: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where lines are below planes: at heights (L, P), rising by slopes."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ends = -heights / slopes
-    ends = np.where(slopes == 0, np.where(heights <= 0, np.inf, -np.inf), ends)
-    enter = ends[:, slopes < 0].max(axis=1, initial=-np.inf)
-    return enter, ends[:, slopes >= 0].min(axis=1, initial=np.inf)
-
-
-def _in_ball(
-    places: NDArray[np.float64], along: NDArray[np.float64], radius: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where lines are within a radius of the origin, in 2D or 3D."""
-    square = max(float(along @ along), 1e-30)
-    middle = -(places @ along) / square
-    away = places + middle[:, None] * along
-    room = (radius**2 - np.einsum("ld,ld->l", away, away)) / square
-    half = np.sqrt(np.maximum(room, 0.0))
-    return np.where(room > 0, middle - half, np.inf), np.where(
-        room > 0, middle + half, -np.inf
-    )

@@ -1,0 +1,41 @@
+"""How far points of a piece are from the collision shape around it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...geometry.primitives import CollisionShape, Hull
+from .fragments import distances_to
+
+# Largest number of point-triangle pairs at once.
+_MOST_PAIRS = 400_000
+
+
+def uncovered(shape: CollisionShape, hull: Hull) -> float:
+    """Return the largest distance from a collision shape of a point of a hull.
+
+    Parameters
+    ----------
+    shape : CollisionShape
+    hull : Hull
+
+    Returns
+    -------
+    float
+        0 if the shape contains the hull. A corner is the farthest point: distances
+        from a convex shape are convex.
+    """
+    heights = shape.heights(hull.vertices)
+    if shape.kind != "HULL":
+        return float(max(heights.max(), 0.0))
+    points = hull.vertices[heights > 0]
+    corners, farthest = shape.hull.corners, 0.0
+    step = max(_MOST_PAIRS // len(corners), 1)
+    for start in range(0, len(points), step):
+        some = points[start : start + step]
+        away = distances_to(
+            np.repeat(some, len(corners), axis=0), np.tile(corners, (len(some), 1, 1))
+        )
+        nearest = away.reshape(len(some), -1).min(axis=1)
+        farthest = max(farthest, float(nearest.max()))
+    return farthest
