@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from .sight.prepared import PreparedShape as PreparedShape
     from .solids.mass import mass_of_mesh as mass_of_mesh
     from .solids.mass import mass_of_surface as mass_of_surface
-    from .solids.mass_properties import combined_mass as combined_mass
 
 _HOMES = {
     "ShapeCache": "cache",
@@ -41,7 +40,6 @@ _HOMES = {
     "decompose_in_steps": "decomposition",
     "build_hulls_in_steps": "hulls.build",
     "outline_of": "hulls.outline",
-    "combined_mass": "solids.mass_properties",
     "mass_of_mesh": "solids.mass",
     "mass_of_surface": "solids.mass",
     "measure_in_steps": "measurement",

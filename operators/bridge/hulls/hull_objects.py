@@ -64,18 +64,19 @@ def write_hulls(
     collection[HULL_TAG] = True
     rows, materials = _materials(obj, found)
     scale = stretch(obj)
-    hulls = []
+    hulls, noted = [], []
     for row, name in enumerate(names):
         material = materials[rows[row]]
         shape = found.shapes[row]
         mesh = meshes[row] if meshes else _hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
-        hull[HULL_TAG] = json.dumps(_figures(found, row) | _pose(shape, scale))
+        figures = _figures(found, row)
+        noted.append({"name": hull.name, **figures})
+        hull[HULL_TAG] = json.dumps(figures | _pose(shape, scale))
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
-    figures = [{"name": h.name, **_figures(found, row)} for row, h in enumerate(hulls)]
-    write_hull_record(obj, found, parameters, figures)
+    write_hull_record(obj, found, parameters, noted)
     return hulls
 
 

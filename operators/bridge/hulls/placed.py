@@ -9,13 +9,12 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from .... import core
 from ....core.geometry.primitives import CollisionShape
 from ..read.shape import stretch
 
 
 def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
-    """Return pose, size, volume and number of vertices of a shape, in the scene.
+    """Return pose, size and volume of a shape, in the scene.
 
     Parameters
     ----------
@@ -34,10 +33,7 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
     to_scene = np.array(obj.matrix_world, dtype=np.float64)
     turn = to_scene[:3, :3] / stretch(obj)  # it keeps angles, and may mirror
     scale = float(np.cbrt(abs(np.linalg.det(turn))))
-    found = {
-        "volume": float(shape.volume) * scale**3,
-        "vertices": len(core.outline_of(shape).vertices),
-    }
+    volume = float(shape.volume) * scale**3
     if shape.kind == "HULL":
         vertices = shape.hull.vertices @ turn.T + to_scene[:3, 3]
         low, high = vertices.min(axis=0), vertices.max(axis=0)
@@ -45,7 +41,7 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
             "position": ((low + high) / 2).tolist(),
             "rotation": [1.0, 0.0, 0.0, 0.0],
             "size": {"extents": (high - low).tolist()},
-            **found,
+            "volume": volume,
         }
     axes = turn @ shape.axes.T / scale  # columns
     if np.linalg.det(axes) < 0:  # shapes are symmetric: one axis may point back
@@ -54,7 +50,7 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
         "position": (turn @ shape.center + to_scene[:3, 3]).tolist(),
         "rotation": list(Matrix(axes.tolist()).to_quaternion().normalized()),
         "size": _size(shape.kind, shape.sizes * scale),
-        **found,
+        "volume": volume,
     }
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..... import core
 from .....core.geometry.mesh import TriangleMesh
-from .....core.solids.mass_properties import MassProperties
+from .....core.solids.mass_properties import MassProperties, combined_mass
 from ..placed_meshes import FloatArray, matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.
@@ -57,7 +57,7 @@ def mass_of_objects(
                 masses.append(of_hull)
     if not masses:  # flat hulls
         return MassProperties(0.0, np.zeros(3), np.zeros((3, 3))), without_solid
-    return core.combined_mass(masses), without_solid
+    return combined_mass(masses), without_solid
 
 
 def mass_notes(
