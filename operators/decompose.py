@@ -14,6 +14,7 @@ from .bridge.parts.images import erase_images
 from .bridge.read.carrier import carrier_for, placed_carrier
 from .bridge.refusals import clear_refusal, decompose_refusal
 from .bridge.work.computing import summary
+from .bridge.work.in_step import let_undo_see_all
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running.computation import Computation
@@ -83,3 +84,4 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         implode(obj)
         erase_images(obj)
         clear(obj)
+        let_undo_see_all(obj)

@@ -20,6 +20,7 @@ from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
 from ..read.shape import read_shape, reading_notes
 from ..stored.identity import Identity
+from .in_step import let_undo_see_all
 from .libraries import load_libraries
 from .session_cache import session_cache
 
@@ -65,6 +66,7 @@ class Edited:
         write_parts(
             obj, self.decomposition, self.parameters, self.identities, self.by_hand
         )
+        let_undo_see_all(obj)
 
 
 def edit_object(
