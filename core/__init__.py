@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .cache import ShapeCache as ShapeCache
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
+    from .geometry.transfer import labels_by_area as labels_by_area
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.outline import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
@@ -38,6 +39,7 @@ _HOMES = {
     "ShapeCache": "cache",
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
+    "labels_by_area": "geometry.transfer",
     "build_hulls_in_steps": "hulls.build",
     "outline_of": "hulls.outline",
     "mass_of_mesh": "solids.mass",

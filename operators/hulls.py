@@ -10,11 +10,18 @@ from ..core.results import HullDecomposition
 from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import hulls_of, write_hulls
 from .bridge.hulls.rigid_bodies import make_rigid
+from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, rigid_refusal
 from .bridge.work.computing import build_hulls_of, hull_summary
 from .running.computation import Computation
 from .running.on_objects import OnEach
-from .settings import HULLS, draw, hull_parameters_from, parameters_from, properties_for
+from .settings import (
+    HULL_RUN,
+    draw,
+    hull_parameters_from,
+    parameters_from,
+    properties_for,
+)
 
 
 class WCD_OT_build_hulls(Computation, bpy.types.Operator):
@@ -34,21 +41,22 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
-        draw(self.layout, self, HULLS)
+        draw(self.layout, self, HULL_RUN)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[HullDecomposition]:
         self._parameters = hull_parameters_from(self)
         parameters = parameters_from(context.scene.wcd)
-        return build_hulls_of(obj, parameters, self._parameters)
+        seen = read_as(self.mesh, obj)
+        return build_hulls_of(obj, parameters, self._parameters, seen)
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         write_hulls(obj, value, self._parameters)
         return hull_summary(value)
 
 
-WCD_OT_build_hulls.__annotations__ = properties_for(HULLS)
+WCD_OT_build_hulls.__annotations__ = properties_for(HULL_RUN)
 
 
 class WCD_OT_make_rigid(OnEach, bpy.types.Operator):

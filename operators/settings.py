@@ -20,18 +20,10 @@ FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
 ADVANCED = tuple(f.name for f in fields(Parameters) if info_of(f).advanced)
 RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight)
 HULLS = tuple(field.name for field in fields(HullParameters))
+HULL_RUN = (*HULLS, "mesh")
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
-# Settings of runs on objects that have parts; the core does not know of them.
-_OF_RUNS = {
-    "keep_edits": bpy.props.BoolProperty(
-        name="Keep Edits",
-        description=(
-            "A new run keeps what was done by hand: merged and split parts, and the"
-            " faces that were assigned. Locked parts are kept in any case"
-        ),
-        default=True,
-    )
-}
+# Settings of runs on objects of Blender; the core does not know of them.
+_OF_RUNS = ("keep_edits", "mesh")
 RUN = (*ALL, *_OF_RUNS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
@@ -40,9 +32,36 @@ SELECTION = ("samples", "seed")
 def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
     """Return settings as Blender properties, for the annotations of a class."""
     return {
-        name: _OF_RUNS[name] if name in _OF_RUNS else _property(_FIELDS[name])
+        name: _of_runs(name) if name in _OF_RUNS else _property(_FIELDS[name])
         for name in names
     }
+
+
+def _of_runs(name: str, **more: Any) -> Any:
+    """Return a setting of `_OF_RUNS` as a Blender property."""
+    if name == "keep_edits":
+        return bpy.props.BoolProperty(
+            name="Keep Edits",
+            description=(
+                "A new run keeps what was done by hand: merged and split parts, and the"
+                " faces that were assigned. Locked parts are kept in any case"
+            ),
+            default=True,
+        )
+    return bpy.props.EnumProperty(
+        name="Mesh",
+        description="Mesh of the object that is read",
+        items=(
+            ("ORIGINAL", "Original", "The mesh itself, as in Edit Mode"),
+            (
+                "EVALUATED",
+                "Evaluated",
+                "The mesh as it is seen: with modifiers, shape keys and poses. Parts go"
+                " to the faces that it comes from; if there are none, to a new object",
+            ),
+        ),
+        **more,
+    )
 
 
 def _setting(name: str) -> Any:
@@ -196,7 +215,8 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
-    **_OF_RUNS,
+    "keep_edits": _of_runs("keep_edits"),
+    "mesh": _of_runs("mesh", update=_recut),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..operators.settings import HULLS, draw, hand_over, other_error
+from ..operators.settings import HULL_RUN, HULLS, draw, hand_over, other_error
 from .panels import line
 from .sidebar import Sidebar, draw_choices, hulls_of, result_of
 
@@ -33,7 +33,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         button = layout.operator(
             "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
         )
-        hand_over(settings, button, HULLS)
+        hand_over(settings, button, HULL_RUN)
         result = result_of(context.active_object).get("hulls", {})
         hulls = hulls_of(context.active_object) if result else []
         if not hulls:

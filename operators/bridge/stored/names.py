@@ -44,3 +44,5 @@ EXPLODE_TAG = "wcd_explode"
 IMAGE_TAG = "wcd_picture"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.
 CARRIER_TAG = "wcd_parts_of"
+# Custom property of such an object: how the curve was shown before we hid it.
+HIDDEN_TAG = "wcd_hidden"

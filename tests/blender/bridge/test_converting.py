@@ -42,7 +42,7 @@ def test_the_outline_of_a_hand_has_a_palm_and_five_fingers():
     bpy.context.view_layer.update()
     assert carrier.matrix_world == hand.matrix_world
     check_fingers(carrier, face_values(carrier.data, "wcd_part"))
-    assert "Hand is as it was" in json.loads(carrier["wcd"])["notes"][0]
+    assert "Hand is hidden" in json.loads(carrier["wcd"])["notes"][0]
 
 
 def test_running_again_replaces_the_mesh():
