@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from .decomposition import decompose_in_steps as decompose_in_steps
     from .geometry.transfer import labels_by_area as labels_by_area
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
+    from .hulls.measure.one_shape import refit_in_steps as refit_in_steps
+    from .hulls.outline import faces_of as faces_of
     from .hulls.outline import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
@@ -41,6 +43,8 @@ _HOMES = {
     "decompose_in_steps": "decomposition",
     "labels_by_area": "geometry.transfer",
     "build_hulls_in_steps": "hulls.build",
+    "refit_in_steps": "hulls.measure.one_shape",
+    "faces_of": "hulls.outline",
     "outline_of": "hulls.outline",
     "mass_of_mesh": "solids.mass",
     "mass_of_surface": "solids.mass",

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, cast
 import bpy
 import numpy as np
 
+from ..core.parameters.choices import LOOKS, MESHES
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parameter import ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
@@ -20,11 +21,16 @@ FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
 ADVANCED = tuple(f.name for f in fields(Parameters) if info_of(f).advanced)
 RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight)
 HULLS = tuple(field.name for field in fields(HullParameters))
-HULL_RUN = (*HULLS, "mesh")
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 # Settings of runs on objects of Blender; the core does not know of them.
 _OF_RUNS = ("keep_edits", "mesh")
+_OF_HULLS = ("mesh", "look")
+_CHOICES = {
+    "mesh": ("Mesh", "Mesh of the object that is read", MESHES),
+    "look": ("Display", "How hulls are seen in the viewport", LOOKS),
+}
 RUN = (*ALL, *_OF_RUNS)
+HULL_RUN = (*HULLS, *_OF_HULLS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
 
@@ -32,13 +38,13 @@ SELECTION = ("samples", "seed")
 def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
     """Return settings as Blender properties, for the annotations of a class."""
     return {
-        name: _of_runs(name) if name in _OF_RUNS else _property(_FIELDS[name])
+        name: _property(_FIELDS[name]) if name in _FIELDS else _of_runs(name)
         for name in names
     }
 
 
 def _of_runs(name: str, **more: Any) -> Any:
-    """Return a setting of `_OF_RUNS` as a Blender property."""
+    """Return a setting of `_OF_RUNS` or `_OF_HULLS` as a Blender property."""
     if name == "keep_edits":
         return bpy.props.BoolProperty(
             name="Keep Edits",
@@ -48,19 +54,10 @@ def _of_runs(name: str, **more: Any) -> Any:
             ),
             default=True,
         )
+    label, help_text, choices = _CHOICES[name]
+    items = [(each.identifier, each.label, each.help) for each in choices]
     return bpy.props.EnumProperty(
-        name="Mesh",
-        description="Mesh of the object that is read",
-        items=(
-            ("ORIGINAL", "Original", "The mesh itself, as in Edit Mode"),
-            (
-                "EVALUATED",
-                "Evaluated",
-                "The mesh as it is seen: with modifiers, shape keys and poses. Parts go"
-                " to the faces that it comes from; if there are none, to a new object",
-            ),
-        ),
-        **more,
+        name=label, description=help_text, items=items, **more
     )
 
 
@@ -73,6 +70,12 @@ def _recut(settings: Any, context: bpy.types.Context) -> None:
     """Replace the parts of the active object if the settings are live."""
     if settings.live and bpy.ops.wcd.recut.poll():
         bpy.ops.wcd.recut()
+
+
+def _show_hulls(settings: Any, context: bpy.types.Context) -> None:
+    """Show the hulls of the selected objects as it is set."""
+    if bpy.ops.wcd.show_hulls.poll():
+        bpy.ops.wcd.show_hulls(look=settings.look)
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -217,6 +220,7 @@ WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
     "keep_edits": _of_runs("keep_edits"),
     "mesh": _of_runs("mesh", update=_recut),
+    "look": _of_runs("look", update=_show_hulls),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

@@ -11,6 +11,7 @@ import bpy
 
 from ..operators.settings import HULL_RUN, HULLS, draw, hand_over, other_error
 from .panels import line
+from .shown_figures import shown_figures
 from .sidebar import Sidebar, draw_choices, hulls_of, result_of
 
 
@@ -27,6 +28,10 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         settings = context.scene.wcd
         draw(layout, settings, HULLS)
         obj = context.active_object
+        figures = shown_figures(obj)
+        if settings.pieces == "PARTS" and figures:
+            _shapes_of_parts(layout, obj, {each.number for each in figures.identities})
+        draw(layout, settings, ("look",))
         other = other_error(settings, obj) if obj else None
         if other:
             line(layout, *other)
@@ -42,7 +47,9 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         line(layout, "Largest Error", f"{largest:.3g}")
         if result["volume_ratio"] and len(hulls) == len(result["hulls"]):
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
-        draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
+        row = layout.row(align=True)
+        draw_choices(row, "wcd.make_rigid", "kind", icon="PHYSICS")
+        row.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
         box = layout.box().column(align=True)
         _columns(box.row(), None, "Hull", "Vertices", "Error")
         names = [hull["name"] for hull in hulls]
@@ -50,7 +57,24 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
             obj = bpy.data.objects[hull["name"]]
             material = obj.data.materials[0] if obj.data.materials else None
             error = f"{hull['error']:.3g}"
-            _columns(box.row(), material, name, str(hull["vertices"]), error)
+            row = box.row(align=True)
+            _columns(row.row(), material, name, str(hull["vertices"]), error)
+            shape = row.operator_menu_enum(
+                "wcd.refit_hull", "shape", text="", icon="MESH_CUBE"
+            )
+            shape.hull = hull["name"]
+            remove = row.operator("wcd.remove_hull", text="", icon="X", emboss=False)
+            remove.hull = hull["name"]
+
+
+def _shapes_of_parts(
+    layout: bpy.types.UILayout, obj: bpy.types.Object, here: set[int]
+) -> None:
+    """Draw the choice of a shape for each part that has faces."""
+    column = layout.column(align=True)
+    for row in obj.wcd_parts:
+        if row.number in here:
+            column.prop(row, "hull_shape", text=row.name)
 
 
 def endings(names: Sequence[str]) -> list[str]:

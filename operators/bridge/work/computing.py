@@ -21,6 +21,7 @@ from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
 from ..parts.read import part_identities, part_labels
+from ..parts.rows import hull_shapes
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
@@ -194,6 +195,7 @@ def build_hulls_of(
     if seen is not None and labels is not None:
         labels = labels[seen.origins] if seen.corresponds else None
     unit = scene_unit(obj)
+    kinds = hull_shapes(obj) if labels is not None else {}
 
     def work() -> Steps[HullDecomposition]:
         cache, known, start = session_cache(), labels, 0.0
@@ -202,7 +204,7 @@ def build_hulls_of(
             parts = core.decompose_in_steps(shape, parameters, cache)
             known = (yield from within(parts, 0.0, start)).labels
         steps = core.build_hulls_in_steps(
-            shape, hull_parameters, cache, known, parameters.seed, unit
+            shape, hull_parameters, cache, known, parameters.seed, unit, kinds
         )
         return (yield from within(steps, start, 1.0))
 
