@@ -10,7 +10,13 @@ from ..core.results import HullDecomposition
 from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import erase_hulls, hulls_of, write_hulls
 from .bridge.hulls.looks import look_like
-from .bridge.hulls.one_hull import forget_hulls, refit, remove_hull, write_refit
+from .bridge.hulls.one_hull import (
+    forget_hulls,
+    note_mesh_of_hulls,
+    refit,
+    remove_hull,
+    write_refit,
+)
 from .bridge.hulls.rigid_bodies import make_rigid
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, rigid_refusal
@@ -55,6 +61,7 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         hulls = write_hulls(obj, value, self._parameters, to_be_edited=True)
+        note_mesh_of_hulls(obj, self.mesh)
         look_like(hulls, self.look)
         return hull_summary(value)
 

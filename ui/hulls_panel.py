@@ -47,18 +47,17 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         line(layout, "Largest Error", f"{largest:.3g}")
         if result["volume_ratio"] and len(hulls) == len(result["hulls"]):
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
-        row = layout.row(align=True)
-        draw_choices(row, "wcd.make_rigid", "kind", icon="PHYSICS")
-        row.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
+        draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
+        layout.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
         box = layout.box().column(align=True)
-        _columns(box.row(), None, "Hull", "Vertices", "Error")
+        _columns(box.row(align=True), None, "Hull", "Vertices", "Error")
         names = [hull["name"] for hull in hulls]
         for hull, name in zip(hulls, endings(names), strict=True):
             obj = bpy.data.objects[hull["name"]]
             material = obj.data.materials[0] if obj.data.materials else None
             error = f"{hull['error']:.3g}"
             row = box.row(align=True)
-            _columns(row.row(), material, name, str(hull["vertices"]), error)
+            _columns(row, material, name, str(hull["vertices"]), error)
             shape = row.operator_menu_enum(
                 "wcd.refit_hull", "shape", text="", icon="MESH_CUBE"
             )
@@ -95,10 +94,13 @@ def _columns(
         split.prop(material, "diffuse_color", text="")
     else:
         split.label(text="")
-    split = split.split(factor=0.46)
+    split = split.split(factor=0.34)
     split.label(text=name)
-    numbers = split.split(factor=0.55)
+    numbers = split.split(factor=0.46)
     for text in (vertices, error):
         cell = numbers.row()
         cell.alignment = "RIGHT"
         cell.label(text=text)
+    if not material:  # room for the buttons of the rows below
+        row.label(text="", icon="BLANK1")
+        row.label(text="", icon="BLANK1")

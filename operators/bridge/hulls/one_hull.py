@@ -14,8 +14,9 @@ from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results import HullDecomposition
 from ....core.steps.progress import Steps
+from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
-from ..stored.record import record_of, write_record
+from ..stored.record import ORIGINAL, record_of, write_record
 from ..work.libraries import with_libraries
 from ..work.session_cache import session_cache
 from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, hulls_of, tag_hull
@@ -44,7 +45,8 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
     if has_margin:
         parameters = replace(parameters, margin=0.0)
     points = points * stretch(obj)
-    mesh, unit = read_shape(obj), scene_unit(obj)
+    seen = read_as(record_of(obj)["hulls"].get("mesh", ORIGINAL), obj)
+    mesh, unit = seen.shape if seen else read_shape(obj), scene_unit(obj)
     assert isinstance(mesh, TriangleMesh)  # clouds have no hulls
 
     def work() -> Steps[HullDecomposition]:
@@ -97,6 +99,13 @@ def forget_hulls(obj: bpy.types.Object) -> None:
     """Remove what is noted of an object's hulls; all else stays noted."""
     record = {key: kept for key, kept in record_of(obj).items() if key != "hulls"}
     write_record(obj, record if record.keys() - {"version"} else {})
+
+
+def note_mesh_of_hulls(obj: bpy.types.Object, mesh: str) -> None:
+    """Note which mesh of an object its hulls are around."""
+    record = record_of(obj)
+    record["hulls"]["mesh"] = mesh
+    write_record(obj, record)
 
 
 def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:

@@ -184,6 +184,11 @@ def test_hulls_go_around_what_is_seen(dumbbell):
     hulls = build_hulls([dumbbell], mesh="EVALUATED", max_error=0.2)
     reach = [max(v.co.y for v in hull.data.vertices) for hull in hulls]
     assert max(reach) > 4
+    assert record_of(dumbbell)["hulls"]["mesh"] == "EVALUATED"
+    name, error = hulls[0].name, record_of(dumbbell)["hulls"]["hulls"][0]["error"]
+    bpy.ops.wcd.refit_hull(hull=name, shape="HULL")
+    again = record_of(dumbbell)["hulls"]["hulls"][0]["error"]
+    assert again == pytest.approx(error, rel=0.1)
 
 
 @pytest.mark.parametrize("obstacle", ["EDIT", "hidden", "nothing"])
