@@ -58,7 +58,7 @@ def point_colors(obj: bpy.types.Object) -> NDArray[np.float32]:
     Points without a part are gray.
     """
     parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    colors = np.tile(np.float32(UNPAINTED), (parts.max(initial=-1) + 2, 1))
+    colors = np.tile(np.array(UNPAINTED, np.float32), (parts.max(initial=-1) + 2, 1))
     for identity in part_identities(obj):
         colors[identity.number] = (*identity.color, 1.0)
     return colors[parts]  # the last row is of part -1
