@@ -70,7 +70,9 @@ def _middles(obj: bpy.types.Object) -> np.ndarray:
     """Return the middle of the faces of each part, (K, 3)."""
     centers = np.array([face.center for face in obj.data.polygons])
     labels = extension.parts_of_faces(obj)
-    return np.array([centers[labels == k].mean(axis=0) for k in range(labels.max() + 1)])
+    return np.array(
+        [centers[labels == k].mean(axis=0) for k in range(labels.max() + 1)]
+    )
 
 
 def _written(obj: bpy.types.Object) -> list[bpy.types.Object]:

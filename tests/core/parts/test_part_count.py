@@ -58,4 +58,3 @@ def test_also_where_clusters_are_better_for_each_number(even, expected):
 def test_numbers_whose_clusters_are_better_give_way():
     assert chosen((), lambda k: as_parts(k) + 0.01 * (k < 5)) == 5
     assert chosen((6,), lambda k: as_parts(k) + 0.01 * (k > 4)) == 3
-
