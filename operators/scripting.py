@@ -145,24 +145,24 @@ def build_hulls(
     ----------
     mesh : (V, 3) float, TriangleMesh, bpy.types.Object, or with `vertices` and `faces`
     faces : (F, 3) int or lists of vertex rows, counter-clockwise from outside, optional
-    labels : (F,) int, optional
-        Part of each face, from 0; ``pieces="PARTS"`` needs it.
-    part_shapes : mapping of int to str, optional
-        Shape of single parts, such as ``{0: "SPHERE"}``, with ``pieces="PARTS"``.
+    labels : (F,) int, the part of each face, from 0; ``pieces="PARTS"`` needs it
+    part_shapes : mapping of int to str, shapes of single parts: ``{0: "SPHERE"}``
     parameters : HullParameters, default ``HullParameters()``
     progress : callable, called as ``progress(stage, fraction)``, optional
     **changes : values of fields of `HullParameters`, such as ``shape="BOX"``
 
     Returns
     -------
-    HullDecomposition
-        Its `shapes` are in the unit of the vertices, the largest first; `errors` are
-        as in CoACD, section 4 (Wei, Liu, Ling, Su 2022).
+    HullDecomposition with `shapes` in the unit of the vertices, the largest first
 
     Raises
     ------
     TypeError, DecompositionError
         If an argument has a wrong type, or a value that makes no sense.
+
+    References
+    ----------
+    Wei, Liu, Ling, Su 2022, CoACD, section 4: the `errors` of the hulls.
 
     Examples
     --------
