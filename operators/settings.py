@@ -14,6 +14,7 @@ from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parameter import ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
 from ..core.parameters.presets import PRESETS, Preset, preset
+from .bridge.views.colors import CHOICES, MATERIALS
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -22,7 +23,7 @@ RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 # Settings of runs on objects that have parts; the core does not know of them.
-_OF_RUNS = {
+_OF_RUNS: dict[str, Any] = {
     "keep_edits": bpy.props.BoolProperty(
         name="Keep Edits",
         description=(
@@ -30,7 +31,13 @@ _OF_RUNS = {
             " faces that were assigned. Locked parts are kept in any case"
         ),
         default=True,
-    )
+    ),
+    "colors": bpy.props.EnumProperty(
+        name="Colors",
+        description="How the colors of the parts are shown",
+        items=CHOICES,
+        default=MATERIALS,
+    ),
 }
 RUN = (*ALL, *_OF_RUNS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
@@ -54,6 +61,12 @@ def _recut(settings: Any, context: bpy.types.Context) -> None:
     """Replace the parts of the active object if the settings are live."""
     if settings.live and bpy.ops.wcd.recut.poll():
         bpy.ops.wcd.recut()
+
+
+def _recolor(settings: Any, context: bpy.types.Context) -> None:
+    """Show the colors of the selected objects as the setting says."""
+    if bpy.ops.wcd.show_colors.poll():
+        bpy.ops.wcd.show_colors(colors=settings.colors)
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -197,6 +210,11 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
     **_OF_RUNS,
+    "colors": bpy.props.EnumProperty(**_OF_RUNS["colors"].keywords, update=_recolor),
+    "highlight": bpy.props.BoolProperty(
+        name="Highlight",
+        description="Show in the viewports which parts are chosen in the table",
+    ),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 import bpy
 
-from ..operators import sight_overlay
-from ..operators.bridge.parts.exploding import exploding, slider
+from ..operators.bridge.views.exploding import exploding, slider
 from ..operators.settings import SELECTION, hand_over
+from ..operators.viewport import sight_overlay
 from .panels import line
 from .sidebar import Sidebar, draw_choices, result_of
 
@@ -37,8 +37,11 @@ class WCD_PT_use(Sidebar, bpy.types.Panel):
             icon="OUTLINER_OB_MESH",
         )
         row = layout.row(align=True)
+        row.use_property_split = False
+        row.prop(context.scene.wcd, "colors", expand=True)
+        row = layout.row(align=True)
         row.operator("wcd.face_sets", text="Face Sets", icon="FACE_MAPS")
-        row.operator("wcd.color_attribute", text="Colors", icon="GROUP_VCOL")
+        row.operator("wcd.color_attribute", text="Color Attribute", icon="GROUP_VCOL")
 
 
 class WCD_PT_why(Sidebar, bpy.types.Panel):

@@ -1,9 +1,10 @@
 """What the extension may leave behind in a window: none of it must stay."""
 
 import bpy
-from weak_convex_decomposition.operators import recut, sight_overlay
+from weak_convex_decomposition.operators import recut
 from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.running import modal as running
+from weak_convex_decomposition.operators.viewport import sight_overlay
 
 
 def leftovers():

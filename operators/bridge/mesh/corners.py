@@ -56,6 +56,30 @@ def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
     return np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
 
 
+def edge_sides(
+    mesh: bpy.types.Mesh, labels: NDArray[np.integer[Any]]
+) -> tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]:
+    """Return the lowest and the highest label of the faces at each edge.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    labels : (P,) int
+        Label of each face, 0 or more.
+
+    Returns
+    -------
+    lowest, highest : (E,) int
+        `highest` is -1 for edges without faces.
+    """
+    edges, of_corners = corner_edges(mesh), labels[corner_faces(mesh)]
+    lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max, dtype=labels.dtype)
+    highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
+    np.minimum.at(lowest, edges, of_corners)
+    np.maximum.at(highest, edges, of_corners)
+    return lowest, highest
+
+
 def boundary_edges(
     mesh: bpy.types.Mesh, labels: NDArray[np.integer[Any]], chosen: Sequence[int]
 ) -> BoolArray:
@@ -73,12 +97,8 @@ def boundary_edges(
     -------
     (E,) bool
     """
-    edges, of_corners = corner_edges(mesh), labels[corner_faces(mesh)]
-    lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max)
-    highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
-    np.minimum.at(lowest, edges, of_corners)
-    np.maximum.at(highest, edges, of_corners)
-    between = (highest >= 0) & (lowest != highest)
+    lowest, highest = edge_sides(mesh, labels)
     of_chosen = np.zeros(len(mesh.edges), dtype=bool)
-    of_chosen[edges[np.isin(of_corners, chosen)]] = True
-    return between & of_chosen
+    corners = np.isin(labels[corner_faces(mesh)], chosen)
+    of_chosen[corner_edges(mesh)[corners]] = True
+    return (highest >= 0) & (lowest != highest) & of_chosen

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ..mesh.layers import layers_of
 from ..mesh.points import is_cloud, set_points
+from ..parts.read import part_identities, part_labels
 from ..stored.identity import Identity
 from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
-from .read import part_identities, part_labels
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:
