@@ -23,7 +23,7 @@ RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 # Settings of runs on objects that have parts; the core does not know of them.
-_OF_RUNS: dict[str, Any] = {
+_OF_RUNS = {
     "keep_edits": bpy.props.BoolProperty(
         name="Keep Edits",
         description=(
@@ -34,7 +34,7 @@ _OF_RUNS: dict[str, Any] = {
     ),
     "colors": bpy.props.EnumProperty(
         name="Colors",
-        description="How the colors of the parts are shown",
+        description="How runs show the colors of the parts",
         items=CHOICES,
         default=MATERIALS,
     ),
@@ -61,12 +61,6 @@ def _recut(settings: Any, context: bpy.types.Context) -> None:
     """Replace the parts of the active object if the settings are live."""
     if settings.live and bpy.ops.wcd.recut.poll():
         bpy.ops.wcd.recut()
-
-
-def _recolor(settings: Any, context: bpy.types.Context) -> None:
-    """Show the colors of the selected objects as the setting says."""
-    if bpy.ops.wcd.show_colors.poll():
-        bpy.ops.wcd.show_colors(colors=settings.colors)
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -210,7 +204,6 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
     **_OF_RUNS,
-    "colors": bpy.props.EnumProperty(**_OF_RUNS["colors"].keywords, update=_recolor),
     "highlight": bpy.props.BoolProperty(
         name="Highlight",
         description="Show in the viewports which parts are chosen in the table",

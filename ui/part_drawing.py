@@ -7,10 +7,12 @@ from typing import Any
 import blf
 import bpy
 import gpu
+import numpy as np
 from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix
+from numpy.typing import NDArray
 
 from ..operators.bridge.parts.kept_materials import is_overlaid
+from ..operators.bridge.parts.palette import srgb_of
 from ..operators.bridge.parts.read import noted_identities
 from ..operators.bridge.parts.rows import chosen_numbers
 from ..operators.bridge.refusals import faces_refusal
@@ -20,8 +22,8 @@ from ..operators.viewport.shown_parts import ShownParts, shown_parts
 # How opaque the colors of an overlay are, and the tints of what is under the cursor and
 # what is chosen.
 _COLORS = 0.65
-_HOVERED = (1.0, 1.0, 1.0, 0.35)
-_CHOSEN = 0.15
+_HOVERED = (1.0, 1.0, 1.0, 0.2)
+_CHOSEN = (1.0, 1.0, 1.0, 0.06)
 # Widths of borders, in points at interface scale 1.
 _HOVERED_WIDTH = 2.5
 _CHOSEN_WIDTH = 2.0
@@ -60,7 +62,7 @@ def _draw() -> None:
         shown = shown_parts(obj) if is_overlaid(obj) else None
         if shown is not None and obj.visible_in_viewport_get(space):
             for number, identity in noted_identities(obj).items():
-                _fill(obj, shown, number, (*identity.color, _COLORS), 1)
+                _fill(obj, shown, number, (*srgb_of(identity.color), _COLORS), 1)
     _draw_chosen(context)
     _draw_hovered()
     gpu.state.depth_test_set("NONE")
@@ -83,7 +85,7 @@ def _draw_chosen(context: bpy.types.Context) -> None:
         return
     color = context.preferences.themes[0].view_3d.object_active
     for number in chosen_numbers(obj):
-        _fill(obj, shown, number, (*color, _CHOSEN), 2)
+        _fill(obj, shown, number, _CHOSEN, 2)
         _outline(obj, shown, number, (*color, 1.0), _CHOSEN_WIDTH)
 
 
@@ -105,12 +107,10 @@ def _fill(
     layer: int,
 ) -> None:
     """Tint the faces of a part."""
-    if ("faces", number) not in shown.kept:
-        shader = gpu.shader.from_builtin("UNIFORM_COLOR")
-        places = {"pos": shown.triangles_of(number)}
-        batch = batch_for_shader(shader, "TRIS", places)
-        shown.kept["faces", number] = shader, batch
-    shader, batch = shown.kept["faces", number]
+    key = "faces", number
+    if key not in shown.kept:
+        shown.kept[key] = _batch("UNIFORM_COLOR", "TRIS", shown.triangles_of(number))
+    shader, batch = shown.kept[key]
     shader.bind()
     shader.uniform_float("color", color)
     _draw_nearer(obj, shader, batch, layer)
@@ -124,12 +124,11 @@ def _outline(
     width: float,
 ) -> None:
     """Draw the edges around a part."""
-    if ("border", number) not in shown.kept:
-        shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-        places = {"pos": shown.border_of(number)}
-        batch = batch_for_shader(shader, "LINES", places)
-        shown.kept["border", number] = shader, batch
-    shader, batch = shown.kept["border", number]
+    key = "border", number
+    if key not in shown.kept:
+        places = shown.border_of(number)
+        shown.kept[key] = _batch("POLYLINE_UNIFORM_COLOR", "LINES", places)
+    shader, batch = shown.kept[key]
     shader.bind()
     shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
     shader.uniform_float("lineWidth", width * bpy.context.preferences.system.ui_scale)
@@ -137,8 +136,19 @@ def _outline(
     _draw_nearer(obj, shader, batch, 4)
 
 
+def _batch(name: str, kind: str, places: NDArray[np.float32]) -> tuple[Any, Any]:
+    """Return a shader of Blender's, and a batch for it; None if there is no place."""
+    shader = gpu.shader.from_builtin(name)
+    # `batch_for_shader` takes no empty arrays.
+    return shader, batch_for_shader(shader, kind, {"pos": places}) if len(
+        places
+    ) else None
+
+
 def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> None:
     """Draw in the space of an object, a little before its surface."""
+    if batch is None:
+        return
     view = bpy.context.region_data
     projection = gpu.matrix.get_projection_matrix()
     nearer = _NEARER * layer
@@ -187,7 +197,5 @@ def _rectangle(
     gpu.state.blend_set("ALPHA")
     shader.bind()
     shader.uniform_float("color", (*color[:3], 0.9))
-    with gpu.matrix.push_pop():
-        gpu.matrix.multiply_matrix(Matrix.Identity(4))
-        batch_for_shader(shader, "TRIS", {"pos": corners}).draw(shader)
+    batch_for_shader(shader, "TRIS", {"pos": corners}).draw(shader)
     gpu.state.blend_set("NONE")

@@ -26,11 +26,21 @@ def part_at(
     What hides a part hides it from here, too. In Edit Mode the objects that are edited
     hide each other, and other objects hide nothing.
     """
-    ray = ray_at(region, x, y)
+    area = next(a for a in context.window.screen.areas if region in a.regions[:])
+    return part_along(context, area.spaces.active, *ray_at(region, x, y))
+
+
+def part_along(
+    context: bpy.types.Context,
+    space: bpy.types.SpaceView3D,
+    origin: Vector,
+    direction: Vector,
+) -> tuple[bpy.types.Object, int] | None:
+    """Return the object and the number of the first part along a ray in the world."""
     if context.mode == "EDIT_MESH":
-        hit = _first_edited(context, *ray)
+        hit = _first_edited(context, origin, direction)
     else:
-        hit = _first_seen(context, region, *ray)
+        hit = _first_seen(context, space, origin, direction)
     if hit is None:
         return None
     obj, face = hit
@@ -42,13 +52,11 @@ def part_at(
 
 def _first_seen(
     context: bpy.types.Context,
-    region: bpy.types.Region,
+    space: bpy.types.SpaceView3D,
     origin: Vector,
     direction: Vector,
 ) -> tuple[bpy.types.Object, int] | None:
     """Return the first object along a ray in Object Mode, and its face there."""
-    space = next(a for a in context.window.screen.areas if region in a.regions[:])
-    view = space.spaces.active
     graph = context.evaluated_depsgraph_get()
     start = origin
     for _ in range(_MOST_HITS):
@@ -58,7 +66,7 @@ def _first_seen(
         if not hit:
             return None
         obj = obj.original
-        if obj.display_type not in _SEEN_THROUGH and obj.visible_in_viewport_get(view):
+        if obj.display_type not in _SEEN_THROUGH and obj.visible_in_viewport_get(space):
             return (obj, face) if _is_itself(obj, matrix) else None
         start = place + direction * _BEHIND * max((place - origin).length, 1e-3)
     return None

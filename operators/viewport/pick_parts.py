@@ -35,7 +35,10 @@ class WCD_OT_pick_parts(bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = set()
 
-    _wanted: int | None = None  # the number of parts to be cut next
+    # The number of parts that was asked for, and the one that is being cut; 0 for none.
+    _asked: int = 0
+    _cut_last: int = 0
+    _right: bool = False  # whether the right mouse button is down
     _busy: str | None = None  # what ran when the last event came
 
     @classmethod
@@ -66,10 +69,13 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         if self._busy != modal.busy():
             self._busy = modal.busy()
             picking.tell(context)
-        if self._wanted is not None and not self._busy:
+        if self._asked:
             self._cut(context)
         if event.type == "MOUSEMOVE":
             return self._hover(context, event.mouse_x, event.mouse_y)
+        if event.type == "RIGHTMOUSE" and event.value == "RELEASE" and self._right:
+            self._right = False
+            return self._open_menu(context)
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
         return self._press(context, event)
@@ -83,7 +89,10 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         if event.type == "LEFTMOUSE":
             self._click(context, event.shift)
             return {"RUNNING_MODAL"}
-        if event.type == "RIGHTMOUSE" or (event.type == "W" and not _modified(event)):
+        if event.type == "RIGHTMOUSE":  # its release would close a menu
+            self._right = True
+            return {"RUNNING_MODAL"}
+        if event.type == "W" and not _modified(event):
             return self._open_menu(context)
         step = (_WHEELS if event.alt else _PAGES).get(event.type)
         if step is None:
@@ -126,7 +135,9 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             return
         elif number not in chosen_numbers(obj):
             self._picking.merging = False
+            into = obj.wcd_active_part
             choose(obj, number, extend=True)
+            obj.wcd_active_part = into  # whose name the result has
             self._call(bpy.ops.wcd.merge_parts)
         picking.tell(context)
 
@@ -141,19 +152,22 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def _count(self, context: bpy.types.Context, step: int) -> None:
-        """Ask for one part more or less, from what was asked for already."""
+        """Ask for one part more or less, from what was asked for last."""
         obj = context.active_object
         if edit_refusal(obj) is None:
-            now = self._wanted or len(part_identities(obj))
-            self._wanted = min(max(now + step, _FEWEST), _MOST)
-            if modal.busy() is None:
-                self._cut(context)
+            now = self._asked or len(part_identities(obj))
+            self._asked = min(max(now + step, _FEWEST), _MOST)
+            self._cut(context)
 
     def _cut(self, context: bpy.types.Context) -> None:
-        """Cut the active object into the parts that were asked for, as the chart."""
-        wanted, self._wanted = self._wanted, None
-        if wanted != len(part_identities(context.active_object)):
-            self._call(bpy.ops.wcd.choose_part_count, parts=wanted)
+        """Cut the active object into as many parts as were asked for, as the chart."""
+        if modal.busy() is not None:
+            return
+        if self._asked == self._cut_last:
+            self._asked = self._cut_last = 0
+            return
+        self._cut_last = self._asked
+        self._call(bpy.ops.wcd.choose_part_count, parts=self._asked)
 
     def _call(self, operator: Any, **values: int) -> None:
         """Start an operator as its button does; tell if it cannot work."""

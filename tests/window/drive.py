@@ -24,13 +24,13 @@ import weak_convex_decomposition as package  # noqa: E402
 from hands import Hands  # noqa: E402
 
 # Seconds that a subject waits for anything at most.
-_PATIENCE = 240
+_PATIENCE = 40
 _PAUSE = 0.05
 
 
 def load(name):
     """Return the module of a subject."""
-    path = HERE / "subjects" / f"{name}.py"
+    path = next((HERE / "subjects").rglob(f"{name}.py"))
     spec = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
