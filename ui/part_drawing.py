@@ -19,11 +19,11 @@ from ..operators.bridge.refusals import faces_refusal
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_parts
 
-# How opaque the colors of an overlay are, and the tints of what is under the cursor and
-# what is chosen.
-_COLORS = 0.65
-_HOVERED = (1.0, 1.0, 1.0, 0.2)
-_CHOSEN = (1.0, 1.0, 1.0, 0.06)
+# How opaque the colors of an overlay are, in Edit Mode less, where edges are to be seen;
+# and the tints of what is under the cursor and what is chosen.
+_OPAQUE = (0.65, 0.3)
+_HOVERED = (1.0, 1.0, 1.0, 0.14)
+_CHOSEN = (1.0, 1.0, 1.0, 0.1)
 # Widths of borders, in points at interface scale 1.
 _HOVERED_WIDTH = 2.5
 _CHOSEN_WIDTH = 2.0
@@ -62,7 +62,7 @@ def _draw() -> None:
         shown = shown_parts(obj) if is_overlaid(obj) else None
         if shown is not None and obj.visible_in_viewport_get(space):
             for number, identity in noted_identities(obj).items():
-                _fill(obj, shown, number, (*srgb_of(identity.color), _COLORS), 1)
+                _fill(obj, shown, number, (*srgb_of(identity.color), _OPAQUE[obj.mode == "EDIT"]), 1)
     _draw_chosen(context)
     _draw_hovered()
     gpu.state.depth_test_set("NONE")

@@ -24,7 +24,7 @@ import weak_convex_decomposition as package  # noqa: E402
 from hands import Hands  # noqa: E402
 
 # Seconds that a subject waits for anything at most.
-_PATIENCE = 40
+_PATIENCE = 240
 _PAUSE = 0.05
 
 

@@ -28,6 +28,8 @@ OPERATORS = (
     "implode",
     "clear",
     "separate",
+    "isolate_parts",
+    "lock_parts",
 )
 
 
@@ -81,6 +83,13 @@ class RestlessArtist(RuleBasedStateMachine):
         if name == "clear":  # its undo in Edit Mode brings back layers without a note
             self.kept = []
         bpy.context.view_layer.update()
+        self.done()
+
+    @rule(n=NUMBERS, choice=st.sampled_from(["MATERIALS", "OVERLAY"]))
+    def show_colors(self, n, choice):
+        self.object_mode()
+        self.body(n)
+        attempt(bpy.ops.wcd.show_colors, colors=choice)
         self.done()
 
     @rule(n=NUMBERS)
