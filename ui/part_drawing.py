@@ -19,8 +19,8 @@ from ..operators.bridge.refusals import faces_refusal
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_parts
 
-# How opaque the colors of an overlay are, in Edit Mode less, where edges are to be seen;
-# and the tints of what is under the cursor and what is chosen.
+# How opaque the colors of an overlay are: less in Edit Mode, where edges are seen.
+# And the tints of what is under the cursor and what is chosen.
 _OPAQUE = (0.65, 0.3)
 _HOVERED = (1.0, 1.0, 1.0, 0.14)
 _CHOSEN = (1.0, 1.0, 1.0, 0.1)
@@ -61,8 +61,9 @@ def _draw() -> None:
     for obj in context.visible_objects:
         shown = shown_parts(obj) if is_overlaid(obj) else None
         if shown is not None and obj.visible_in_viewport_get(space):
+            opaque = _OPAQUE[obj.mode == "EDIT"]
             for number, identity in noted_identities(obj).items():
-                _fill(obj, shown, number, (*srgb_of(identity.color), _OPAQUE[obj.mode == "EDIT"]), 1)
+                _fill(obj, shown, number, (*srgb_of(identity.color), opaque), 1)
     _draw_chosen(context)
     _draw_hovered()
     gpu.state.depth_test_set("NONE")
@@ -91,10 +92,11 @@ def _draw_chosen(context: bpy.types.Context) -> None:
 
 def _draw_hovered() -> None:
     """Draw the part under the cursor."""
-    obj = picking.current and picking.current.object()
-    shown = shown_parts(obj) if obj else None
-    if shown is not None:
-        number = picking.current.hovered[1]
+    picked = picking.current
+    obj = None if picked is None else picked.object()
+    shown = None if obj is None else shown_parts(obj)
+    if picked is not None and shown is not None:
+        number = picked.number
         _fill(obj, shown, number, _HOVERED, 3)
         _outline(obj, shown, number, (1.0, 1.0, 1.0, 1.0), _HOVERED_WIDTH)
 
@@ -164,14 +166,11 @@ def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> 
 
 def _draw_name() -> None:
     """Draw the name of the part under the cursor beside it."""
-    row = picking.current and picking.current.row()
-    region = bpy.context.region
-    if row is None:
+    picked, region = picking.current, bpy.context.region
+    row = None if picked is None else picked.row()
+    if picked is None or row is None:
         return
-    x, y = (
-        at - start
-        for at, start in zip(picking.current.place, (region.x, region.y), strict=True)
-    )
+    x, y = picked.place[0] - region.x, picked.place[1] - region.y
     if not (0 <= x < region.width and 0 <= y < region.height):
         return
     scale = bpy.context.preferences.system.ui_scale

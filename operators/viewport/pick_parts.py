@@ -109,7 +109,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         self._picking.place = x, y
         if hovered != before:
             picking.tell(context)
-        elif hovered:  # its name goes with the cursor
+        elif hovered and there:  # its name goes with the cursor
             there[0].tag_redraw()
         return {"PASS_THROUGH"}
 
@@ -192,7 +192,8 @@ class WCD_OT_merge_next(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Wait for the click."""
-        picking.current.merging = True
+        if picking.current is not None:
+            picking.current.merging = True
         picking.tell(context)
         return {"FINISHED"}
 

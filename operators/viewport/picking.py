@@ -45,7 +45,12 @@ class Picking:
         """Return the row of the part under the cursor, None if there is none."""
         obj = self.object()
         rows = obj.wcd_parts if obj is not None else ()
-        return next((r for r in rows if r.number == self.hovered[1]), None)
+        return next((r for r in rows if r.number == self.number), None)
+
+    @property
+    def number(self) -> int:
+        """The number of the part under the cursor, -1 for none."""
+        return -1 if self.hovered is None else self.hovered[1]
 
     def object(self) -> bpy.types.Object | None:
         """Return the object under the cursor, None if there is none."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
@@ -16,7 +17,9 @@ from .materials import is_ours
 
 
 def put_in_slots(
-    obj: bpy.types.Object, materials: Sequence[bpy.types.Material], rows: IntArray
+    obj: bpy.types.Object,
+    materials: Sequence[bpy.types.Material],
+    rows: NDArray[np.integer],
 ) -> dict[str, Any]:
     """Put materials into slots after the user's, and give them to faces.
 

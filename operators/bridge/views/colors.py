@@ -52,17 +52,17 @@ def show_as_overlay(obj: bpy.types.Object) -> None:
     mesh = obj.data
     materials = {n: mesh.materials[row] for n, (row, *_) in part_slots(mesh).items()}
     take_out_of_slots(obj, restore)
-    layers = layers_of(obj)
-    layers.remove(MATERIAL_LAYER)
+    layers_of(obj).remove(MATERIAL_LAYER)
     keep(obj, materials)
 
 
 def show_as_materials(obj: bpy.types.Object) -> None:
     """Put the materials of parts into slots after those that the user has now."""
-    restore = read_restore(obj.data)
-    if restore is None or not is_overlaid(obj):
-        return
+    restore, layers = read_restore(obj.data), layers_of(obj)
     identities = sorted(identities_of(record_of(obj)), key=lambda each: each.number)
+    numbers = layers.faces(PART_LAYER)
+    if restore is None or numbers is None or not (identities and is_overlaid(obj)):
+        return
     kept = kept_materials(obj.data)
     drop_kept(obj.data)
     materials = own_materials(identities, [kept.get(i.number) for i in identities])
@@ -70,10 +70,8 @@ def show_as_materials(obj: bpy.types.Object) -> None:
         recolor(material, identity.color)
         for sharer in sharers(obj):
             change_part(sharer, identity.number, {"material": material.name})
-    layers = layers_of(obj)
     layers.remove(OWNER_LAYER)
-    numbers = layers.faces(PART_LAYER)
     rows = np.searchsorted([each.number for each in identities], numbers)
     fields = put_in_slots(obj, materials, np.minimum(rows, len(identities) - 1))
     write_restore(obj.data, replace(restore, **fields))
-    layers_of(obj).finish()
+    layers.finish()
