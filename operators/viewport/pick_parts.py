@@ -14,6 +14,7 @@ from ..running import modal
 from . import picking
 from .choose_parts import choose
 from .part_at import part_at
+from .shown_parts import shown_parts
 from .viewports import viewport_at
 
 # The pie menu, which `ui` draws.
@@ -54,6 +55,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         if picking.current is not None:
             picking.stop()
             return {"FINISHED"}
+        shown_parts(context.active_object)  # read now, and not when something hovers
         self._picking = picking.start(context)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}

@@ -80,8 +80,9 @@ def _read(obj: bpy.types.Object) -> ShownParts | None:
         if layer is None or layer.domain != "FACE" or layer.data_type != "INT":
             return None
         numbers = read_ints(layer.data, "value")
-        hidden = read_flags(mesh.polygons, "hide")
-        hidden &= obj.mode == "EDIT"  # Object Mode shows all faces
+        hidden = np.zeros(len(numbers), dtype=bool)
+        if obj.mode == "EDIT":  # Object Mode shows all faces
+            hidden = read_flags(mesh.polygons, "hide")
         vertices, triangles, faces = triangles_of(mesh)
         places = vertices.astype(np.float32)
         seen = ~hidden[faces]
