@@ -30,7 +30,6 @@ OPERATORS = (
     "clear",
     "separate",
     "isolate_parts",
-    "lock_parts",
     "show_colors",
 )
 
