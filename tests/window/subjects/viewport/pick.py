@@ -79,7 +79,7 @@ def by_the_menu(hands, chin):
         yield 0.5
         assert rows() == (chin, [])
         there = isolating(bpy.context.active_object)
-        hands.picture("pie-all" if there else "pie", hands.cutout())
+        hands.picture("pie-all" if there else "pie", hands.area)
         yield from hands.press(key)
         yield (
             lambda there=there: (
