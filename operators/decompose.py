@@ -9,12 +9,13 @@ import bpy
 from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import erase_hulls
 from .bridge.parts.erase import clear
-from .bridge.parts.exploding import implode
 from .bridge.parts.images import erase_images
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import clear_refusal, decompose_refusal
 from .bridge.stored.names import CARRIER_TAG
+from .bridge.views.colors import show_colors_as
+from .bridge.views.node_modifiers import remove_views
 from .bridge.work.computing import summary
 from .bridge.work.in_step import let_undo_see_all
 from .bridge.work.locking import decompose_unlocked
@@ -48,7 +49,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings; those at the front of the sidebar come first."""
-        draw(self.layout, self, (*FRONT, "keep_edits", "mesh"))
+        draw(self.layout, self, (*FRONT, "keep_edits", "mesh", "colors"))
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
@@ -60,7 +61,9 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         return decompose_unlocked(target, parameters, self.keep_edits, seen)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(placed_carrier(obj, value.seen))
+        carrier = placed_carrier(obj, value.seen)
+        value.write(carrier)
+        show_colors_as(carrier, self.colors)
         return summary(value.decomposition)
 
 
@@ -84,7 +87,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         erase_hulls(obj)
-        implode(obj)
+        remove_views(obj)
         erase_images(obj)
         clear(obj)
         if CARRIER_TAG in obj:

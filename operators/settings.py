@@ -12,9 +12,10 @@ import numpy as np
 
 from ..core.parameters.choices import LOOKS, MESHES
 from ..core.parameters.hulls import HullParameters
-from ..core.parameters.parameter import ParameterInfo, info_of
+from ..core.parameters.parameter import Choice, ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
 from ..core.parameters.presets import PRESETS, Preset, preset
+from .bridge.views.colors import CHOICES
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -23,9 +24,11 @@ RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
 # Settings of runs on objects of Blender; the core does not know of them.
-_OF_RUNS = ("keep_edits", "mesh")
+_OF_RUNS = ("keep_edits", "mesh", "colors")
 _OF_HULLS = ("mesh", "look")
+_COLORS = [Choice(*each) for each in CHOICES]
 _CHOICES = {
+    "colors": ("Colors", "How runs show the colors of the parts", _COLORS),
     "mesh": ("Mesh", "Mesh of the object that is read", MESHES),
     "look": ("Display", "How hulls are seen in the viewport", LOOKS),
 }
@@ -54,11 +57,9 @@ def _of_runs(name: str, **more: Any) -> Any:
             ),
             default=True,
         )
-    label, help_text, choices = _CHOICES[name]
+    label, text, choices = _CHOICES[name]
     items = [(each.identifier, each.label, each.help) for each in choices]
-    return bpy.props.EnumProperty(
-        name=label, description=help_text, items=items, **more
-    )
+    return bpy.props.EnumProperty(name=label, description=text, items=items, **more)
 
 
 def _setting(name: str) -> Any:
@@ -218,9 +219,13 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
-    "keep_edits": _of_runs("keep_edits"),
+    **{name: _of_runs(name) for name in ("keep_edits", "colors")},
     "mesh": _of_runs("mesh", update=_recut),
     "look": _of_runs("look", update=_show_hulls),
+    "highlight": bpy.props.BoolProperty(
+        name="Highlight",
+        description="Show in the viewports which parts are chosen in the table",
+    ),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

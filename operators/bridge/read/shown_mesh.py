@@ -7,13 +7,12 @@ from contextlib import contextmanager
 
 import bpy
 
-from ..parts.exploding import exploding
+from ..views.node_modifiers import is_view
 
 
 def shown_modifiers(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
     """Return the modifiers that have an effect in the viewport, but for ours."""
-    ours = exploding(obj)
-    return [each for each in obj.modifiers if each.show_viewport and each != ours]
+    return [m for m in obj.modifiers if m.show_viewport and not is_view(m)]
 
 
 def shows_keys(obj: bpy.types.Object) -> bool:
@@ -34,16 +33,16 @@ def differs(obj: bpy.types.Object | None) -> bool:
 def evaluated(
     obj: bpy.types.Object,
 ) -> Iterator[tuple[bpy.types.Object, bpy.types.Depsgraph]]:
-    """Give the evaluated object, without an exploded view of ours."""
-    ours = exploding(obj)
-    if ours is not None:
-        shown, ours.show_viewport = ours.show_viewport, False
+    """Give the evaluated object, without the modifiers of ours that show parts."""
+    views = [m for m in obj.modifiers if m.show_viewport and is_view(m)]
+    for modifier in views:
+        modifier.show_viewport = False
     depsgraph = bpy.context.evaluated_depsgraph_get()
     try:
         yield obj.evaluated_get(depsgraph), depsgraph
     finally:
-        if ours is not None:
-            ours.show_viewport = shown
+        for modifier in views:
+            modifier.show_viewport = True
 
 
 def evaluated_copy(obj: bpy.types.Object) -> bpy.types.Mesh:
