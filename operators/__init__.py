@@ -62,12 +62,13 @@ def unregister() -> None:
 
     from . import recut, settings, show_sight
     from .bridge.parts import rows
-    from .bridge.work import in_step, session_cache
+    from .bridge.work import in_step, libraries, session_cache
     from .headless import command_line
     from .running import modal
 
     recut.stop()
     modal.stop()
+    libraries.unregister()
     rows.unregister()
     show_sight.unregister()
     in_step.unregister()
