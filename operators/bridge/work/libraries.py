@@ -84,7 +84,9 @@ def _load_next() -> float | None:
 
 def _missing() -> Iterator[str]:
     """Yield the modules that are not loaded yet, in the order to load them."""
-    yield from (name for name in (*_LIBRARIES, *core.MODULES) if name not in sys.modules)
+    yield from (
+        name for name in (*_LIBRARIES, *core.MODULES) if name not in sys.modules
+    )
 
 
 def _load(name: str) -> None:

@@ -59,7 +59,8 @@ def test_each_call_of_the_timer_loads_one(two_libraries):
 
 def test_a_run_loads_the_rest_and_nothing_waits_after_it(two_libraries):
     libraries.load_while_idle()
-    assert waits() and loaded() == []
+    assert waits()
+    assert loaded() == []
     libraries._load_next()
     assert len(list(libraries.load_libraries())) >= 1
     assert loaded() == [*NAMES]
