@@ -4,7 +4,8 @@
 
 A subject is a file in subjects/, or the path of another file, with `steps(hands)`, a
 generator that acts as a user does. It yields seconds to wait, or a function to wait
-for; Blender goes on meanwhile. Exit status 0 says that it came to its end and nothing was left behind.
+for; Blender goes on meanwhile. Exit status 0 says that it came to its end and nothing
+was left behind.
 """
 
 import importlib.util
