@@ -54,7 +54,8 @@ def line(points: list[tuple[float, float]], color: str, width: float = 1) -> str
 
 def short(number: float) -> str:
     """Return a number of triangles in few letters."""
-    return f"{number / 1e6:g}M" if number >= 1e6 else f"{number / 1e3:g}k"
+    millions = number / 1e6
+    return f"{millions:.0f}M" if millions > 0.9 else f"{number / 1e3:.0f}k"
 
 
 def seconds_plot(curves: dict[str, Points]) -> list[str]:
@@ -103,7 +104,7 @@ def shares_plot(rows: list[list[float]]) -> list[str]:
                 f' height="{tall:.1f}" fill="{color}"/>'
             )
             y += tall
-        found.append(text(x + 0.4 * step, top + height + 18, short(round(row[0], -3))))
+        found.append(text(x + 0.4 * step, top + height + 18, short(row[0])))
     for share in (0, 50, 100):
         y = top + height * (1 - share / 100)
         found.append(text(left - 6, y + 4, f"{share} %", "end"))
