@@ -31,7 +31,8 @@ _PAUSE = 0.05
 
 def load(name):
     """Return the module of a subject."""
-    path = Path(name) if name.endswith(".py") else HERE / "subjects" / f"{name}.py"
+    inside = (HERE / "subjects").rglob(f"{name}.py")
+    path = Path(name) if name.endswith(".py") else next(inside)
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
