@@ -33,13 +33,18 @@ def triangles_of(
     faces : (T,) int
     """
     mesh.calc_loop_triangles()
-    return (
+    if (read_ints(mesh.polygons, "loop_total") == 3).all():  # quicker than to ask
+        corners = np.arange(3 * len(mesh.polygons), dtype=np.int32).reshape(-1, 3)
+    else:
+        corners = read_ints(mesh.loop_triangles, "loops", 3)
+    arrays = (
         read_floats(mesh.vertices, "co", 3).astype(np.float64),
-        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)].astype(
-            np.int64
-        ),
+        corner_vertices(mesh).astype(np.int64)[corners],
         read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
     )
+    for array in arrays:
+        array.flags.writeable = False  # a shape need not copy it
+    return arrays
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> IntArray:

@@ -240,4 +240,6 @@ def _vertices_by_part(
         vertices = corner_vertices(obj.data)
         parts = labels[corner_faces(obj.data)]
     for part in range(n_parts):
-        yield np.unique(vertices[parts == part])
+        members = np.zeros(len(vertices), dtype=bool)
+        members[vertices[parts == part]] = True
+        yield np.flatnonzero(members).astype(np.int32)

@@ -40,7 +40,9 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     flush_edits(obj)
     with mesh_of(obj) as mesh:
         vertices, triangles, polygons = triangles_of(mesh)
-    return TriangleMesh(vertices * factors, triangles, polygons)
+    vertices = vertices * factors
+    vertices.flags.writeable = False  # as the others: the shape need not copy it
+    return TriangleMesh(vertices, triangles, polygons)
 
 
 def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
