@@ -32,8 +32,12 @@ LINES = [Vector(axis) for axis in AXES]
 
 
 def mesh_files(folder):
-    """Return the meshes below a folder; of the Princeton benchmark, model 3 of each."""
-    files = sorted(p for p in Path(folder).rglob("*") if p.suffix in ENDINGS)
+    """Return the meshes below a folder, small ones first.
+
+    Of the Princeton benchmark, model 3 of each category is taken.
+    """
+    files = [p for p in Path(folder).rglob("*") if p.suffix in ENDINGS]
+    files.sort(key=lambda p: (p.stat().st_size, p))
     return [p for p in files if not p.stem.isdigit() or int(p.stem) % 20 == 3]
 
 
