@@ -23,7 +23,7 @@ _NEAR = 0.05
 _CONVEX = 0.05
 # Shapes that fit a convex piece the better the less long it is.
 _ROUND = ("SPHERE", "CYLINDER", "CAPSULE")
-# Cuts of convex pieces are undone if the largest error falls by less than this factor.
+# Cuts that leave more than this share of the error are in vain.
 _LOWER = 0.9
 
 
@@ -85,8 +85,10 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
 
     Planes are ranked by the volume that the hulls of both sides add. Only the first few
     different ones are cut with, and compared by `cost_of_sides`: the errors of both
-    hulls and the volume that they add. Where hulls add no volume and the shapes are
-    round, the piece is cut through the middle of its longest side.
+    hulls and the volume that they add. Where this tells little about shapes other than
+    hulls, the piece is cut across its longest side: round shapes around convex pieces,
+    and where both sides would be no better than the piece, such as a film and the rest.
+    A sphere may have to be cut more than once before that gains anything.
 
     Parameters
     ----------
@@ -98,12 +100,23 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
         The pieces below and above the plane. None if no plane has some of the surface
         on both sides.
     """
+    kind = cell.fit.parameters.shape
+    if kind in _ROUND and _is_convex(cell):
+        return (yield from _cheapest(cell, _middle(cell)))
+    planes = yield from ranked_planes(cell)
+    best = yield from _cheapest(cell, planes)
+    in_vain = best and min(side.error for side in best) > _LOWER * cell.error
+    if in_vain and kind not in ("HULL", "SPHERE"):
+        best = (yield from _cheapest(cell, _middle(cell))) or best
+    return best
+
+
+def _cheapest(
+    cell: Cell, planes: NDArray[np.float64]
+) -> Steps[tuple[Cell, Cell] | None]:
+    """Return the sides of lowest cost, of cuts by the first planes that differ."""
     best, least = None, np.inf
     solid_volume = cell.solid.volume
-    if cell.fit.parameters.shape in _ROUND and _is_convex(cell):
-        planes = _middle(cell)
-    else:
-        planes = yield from ranked_planes(cell)
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
