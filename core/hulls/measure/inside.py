@@ -25,6 +25,10 @@ _COARSE = 0.3
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
 
+# Patches of an open mesh are wholly inside if their centers are, and they are smaller
+# than the first radius, or than the second with all corners inside.
+_NARROW, _WIDE = 0.01, 0.06
+
 
 class InsideTest:
     """Tells by lines along three axes what is inside a solid.
@@ -69,6 +73,37 @@ class InsideTest:
             left = np.bincount(line[~below], -turns[~below], len(points))
             votes += (entered > 0) & (left > 0)
         return 2 * votes > self._n_axes
+
+    def holds_patches(
+        self,
+        corners: NDArray[np.float64],
+        centers: NDArray[np.float64],
+        radii: NDArray[np.float64],
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return which patches have centers inside, and no way out but the surface.
+
+        Parameters
+        ----------
+        corners : (M, 3, 3) float
+        centers : (M, 3) float
+        radii : (M,) float
+            Largest distance of a corner from the center.
+
+        Returns
+        -------
+        inside : (M,) bool
+            Whether the center is inside.
+        whole : (M,) bool
+            Of those, whether nothing but the surface leads outside.
+        """
+        inside = self.holds(centers)
+        if self._n_axes == 1:  # nothing but the surface is between inside and outside
+            return inside, np.ones(len(centers), dtype=bool)
+        whole = radii < _NARROW
+        rows = np.flatnonzero(inside & ~whole & (radii < _WIDE))
+        held = self.holds(corners[rows].reshape(-1, 3)).reshape(-1, 3)
+        whole[rows] = held.all(axis=1)
+        return inside, whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
         """Return the volume of a collision shape that is outside.
