@@ -12,7 +12,7 @@ from ....core.geometry.point_cloud import PointCloud
 from ..mesh.corners import triangles_of
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
-from ..parts.exploding import exploding
+from ..views.node_modifiers import is_view
 from .carrier import is_waiting
 from .converting import mesh_of
 
@@ -42,7 +42,9 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     flush_edits(obj)
     with mesh_of(obj) as mesh:
         vertices, triangles, polygons = triangles_of(mesh)
-    return TriangleMesh(vertices * factors, triangles, polygons)
+    vertices = vertices * factors
+    vertices.flags.writeable = False  # as the others: the shape need not copy it
+    return TriangleMesh(vertices, triangles, polygons)
 
 
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
@@ -57,7 +59,7 @@ def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     modifiers = [
         modifier.name
         for modifier in obj.modifiers
-        if modifier.show_viewport and modifier != exploding(obj)
+        if modifier.show_viewport and not is_view(modifier)
     ]
     if modifiers:
         notes.append(
