@@ -17,19 +17,21 @@ from ..parameters.hulls import HullParameters
 from ..results import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
-from .best_cut import best_cut
 from .convex_hull import THIN, convex_hull, offset
+from .cutting import cut_until_close
 from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .measure.uncovered import uncovered
-from .piece import Cell, Piece, piece_of_part, whole
+from .piece import Piece, piece_of_part, whole
 from .solid import Solid, solid_of
 
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.
 _SAME_VOLUME = 1e-9
 # Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
-# best at their turn only. Shapes other than hulls take longer to fit.
-_SURPLUS, _SMALL_SURPLUS = 2.0, 1.5
+# best at their turn only. Shapes other than hulls take longer to fit, and spheres
+# around two neighbors are seldom close.
+_SURPLUS = {"HULL": 2.0, "SPHERE": 1.0}
+_OTHER_SURPLUS = 1.5
 
 
 def build_hulls_in_steps(
@@ -183,8 +185,9 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
         return (yield from join_pieces(start, 0.0, most))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    surplus = _SURPLUS if fit.parameters.shape == "HULL" else _SMALL_SURPLUS
-    cells = yield from within(_cut(whole(solid, fit), int(surplus * most)), 0.0, 0.9)
+    surplus = _SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS)
+    steps = cut_until_close(whole(solid, fit), int(surplus * most))
+    cells = yield from within(steps, 0.0, 0.9)
     return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
 
 
@@ -198,28 +201,6 @@ def _parts_of_triangles(
     if labels is None:
         return np.array([-1]), np.zeros(len(mesh.triangles), dtype=np.int64)
     return np.unique(labels[mesh.polygons], return_inverse=True)
-
-
-def _cut(cell: Cell, most: int) -> Steps[list[Cell]]:
-    """Cut the piece of largest error repeatedly, into `most` pieces at most."""
-    cells, largest = [cell], cell.fit.max_error
-    done: list[Cell] = []
-    while cells and len(cells) + len(done) < most:
-        share = (len(cells) + len(done)) / most
-        far: list[Cell] = []
-        for surely in (False, True):  # estimates are quick, bounds are not
-            for cell in cells if not far else []:
-                yield Progress("Cutting", share)
-                is_close = cell.is_close if surely else cell.error <= largest
-                far += [] if is_close else [cell]
-        if not far:
-            break
-        worst = max(far, key=lambda cell: round(cell.error, 6))
-        cells.remove(worst)
-        sides = yield from within(best_cut(worst), share, share + 1 / most)
-        cells += sides or ()
-        done += () if sides else (worst,)
-    return done + cells
 
 
 def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, ...]:
