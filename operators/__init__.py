@@ -10,8 +10,9 @@ from typing import Any
 
 def _classes() -> tuple[Any, ...]:
     """Return the classes that Blender is to know."""
-    from . import edit_parts, settings, show_parts, show_sight, use_parts
+    from . import settings, show_parts, show_sight, use_parts
     from .decompose import WCD_OT_clear, WCD_OT_decompose
+    from .editing import edit_parts, rename_parts
     from .hulls import WCD_OT_build_hulls, WCD_OT_make_rigid
     from .measure import WCD_OT_measure, WCD_OT_measure_selection
     from .recut import WCD_OT_choose_part_count, WCD_OT_recut
@@ -33,6 +34,7 @@ def _classes() -> tuple[Any, ...]:
         *show_sight.CLASSES,
         WCD_OT_show_picture,
         *edit_parts.CLASSES,
+        *rename_parts.CLASSES,
         *show_parts.CLASSES,
     )
 

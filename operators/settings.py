@@ -32,6 +32,8 @@ _OF_RUNS = {
         default=True,
     )
 }
+# Number of parts that Auto is switched to on an object without parts.
+_FIRST_NUMBER = 6
 RUN = (*ALL, *_OF_RUNS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
@@ -64,6 +66,16 @@ def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
 def hull_parameters_from(owner: Any) -> HullParameters:
     """Return the `HullParameters` of an object whose class has these properties."""
     return HullParameters(**{name: _value(owner, _FIELDS[name]) for name in HULLS})
+
+
+def _is_auto(settings: Any) -> bool:
+    return bool(settings.parts == 0)
+
+
+def _set_auto(settings: Any, auto: bool) -> None:
+    """Leave the number of parts to the search, or take the number that there is."""
+    obj = bpy.context.active_object
+    settings.parts = 0 if auto else (len(obj.wcd_parts) if obj else 0) or _FIRST_NUMBER
 
 
 def is_used(owner: Any, name: str) -> bool:
@@ -197,11 +209,18 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
     **_OF_RUNS,
+    "auto_parts": bpy.props.BoolProperty(
+        name="Auto",
+        description="Let psi choose the number of parts; click to set it yourself",
+        get=_is_auto,
+        set=_set_auto,
+        options={"SKIP_SAVE"},
+    ),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(
             "Replace the active object's parts as soon as a setting changes, such as"
-            " their number or the balance. Settings that need new lines of sight are"
+            " their number or the detail. Settings that need new lines of sight are"
             " left out"
         ),
         update=_recut,

@@ -14,6 +14,7 @@ _ENTRIES = (
     ("wcd.measure", MEASURE),
     ("wcd.measure_selection", SELECTION),
     None,
+    ("wcd.rename_parts", ()),
     ("wcd.separate", "original"),
     ("wcd.explode", ()),
     ("wcd.implode", ()),

@@ -19,7 +19,9 @@ FACE_SET_LAYER = "wcd_face_set"
 COLOR_LAYER = "wcd_color"
 # Attribute of points: the normals that we estimated.
 NORMAL_LAYER = "wcd_normal"
-# All attributes of ours, with their data types.
+# Attribute of edges: 1 where we marked a seam that was not there before.
+SEAM_LAYER = "wcd_seam"
+# All attributes of faces or points of ours, with their data types.
 LAYERS = {
     PART_LAYER: "INT",
     HAND_LAYER: "INT",
@@ -44,3 +46,6 @@ EXPLODE_TAG = "wcd_explode"
 IMAGE_TAG = "wcd_picture"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.
 CARRIER_TAG = "wcd_parts_of"
+
+# Bytes that Blender keeps of the name of a vertex group.
+LONGEST_NAME = 63
