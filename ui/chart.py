@@ -39,24 +39,22 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         column.scale_y = _HEIGHT
         for k, gain in gains.items():
             split = column.split(factor=_NUMBER, align=True)
-            self._draw_number(split, k, result)
+            _draw_number(split, k, result)
             split.progress(factor=gain, text=f"{gain:.0%}")
         reason = reason_for(result.get("best_k"), gains)
         if reason:
             paragraph(self.layout, reason, context, icon="SOLO_ON")
 
-    @staticmethod
-    def _draw_number(
-        layout: bpy.types.UILayout, k: int, result: dict[str, Any]
-    ) -> None:
-        """Draw the button that chooses a number of parts; a star marks the best."""
-        icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
-        # With deeper levels, k counts the parts of all levels.
-        shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
-        button = layout.operator(
-            "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
-        )
-        button.parts = k
+
+def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> None:
+    """Draw the button that chooses a number of parts; a star marks the best."""
+    icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
+    # With deeper levels, k counts the parts of all levels.
+    shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
+    button = layout.operator(
+        "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
+    )
+    button.parts = k
 
 
 def gains_of(psi_by_k: Mapping[str, float]) -> dict[int, float]:
