@@ -35,15 +35,15 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         """Draw a row for each number of parts, and why the best is the best."""
         result = result_of(context.active_object)
         gains = gains_of(result["psi_by_k"])
+        reason = reason_for(result.get("best_k"), gains)
+        if reason:
+            paragraph(self.layout, reason, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
         column.scale_y = _HEIGHT
         for k, gain in gains.items():
             split = column.split(factor=_NUMBER, align=True)
             _draw_number(split, k, result)
             split.progress(factor=gain, text=f"{gain:.0%}")
-        reason = reason_for(result.get("best_k"), gains)
-        if reason:
-            paragraph(self.layout, reason, context, icon="SOLO_ON")
 
 
 def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> None:

@@ -8,7 +8,7 @@ from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.rows import noted_refusal
 from weak_convex_decomposition.operators.running import modal as running
 
-# Where a row of the table has its box to tick, in shares of the sidebar's width.
+# Where a row of the table has its box and its name, in shares of the sidebar's width.
 _TICK = 0.11
 _NAME = 0.35
 
@@ -58,16 +58,20 @@ def steps(hands):
     assert [row.chosen for row in rows[:3]] == [False, True, True]
 
     # A click on another row takes the ticks away; a name that is taken is refused.
-    place = yield from hands.find("wcd_parts[3].name", columns=(_NAME,))
+    _, height = yield from hands.find("wcd_parts[3].chosen", columns=(_TICK,))
+    region = hands.region()
+    place = int(region.x + _NAME * (region.width - 20)), height
     yield from hands.click(place)
     yield lambda: bpy.context.active_object.wcd_active_part == 3
     obj = bpy.context.active_object
     assert not any(row.chosen for row in obj.wcd_parts)
-    for _ in range(2):
-        yield from hands.click(place)
+    yield 0.5
+    hands._do("click", "--repeat", 2, "--delay", 60, 1)
     yield 0.3
-    for key in ("ctrl+a", *"Part", "space", "0", "1", "Return"):
-        yield from hands.press(key)
+    yield from hands.press("ctrl+a")
+    hands._do("type", "Part 01")
+    yield 0.3
+    yield from hands.press("Return")
     yield lambda: noted_refusal(bpy.context.active_object)
     hands.picture("refused", hands.area)
     assert "called Part 01" in noted_refusal(bpy.context.active_object)

@@ -6,10 +6,10 @@ import bpy
 
 THEMES = {"dark": "Blender_Dark", "light": "Blender_Light"}
 SCALES = (1.0, 1.5)
-# Those that are open in each picture; a small screen has no room for all.
+# Those that are open in pictures of a name; the screen has no room for all.
 PANELS = {
-    "parts": ("WCD_PT_parts", "WCD_PT_edit", "WCD_PT_chart"),
     "edit": ("WCD_PT_parts", "WCD_PT_edit"),
+    "chart": ("WCD_PT_parts", "WCD_PT_chart"),
     "others": ("WCD_PT_use", "WCD_PT_why", "WCD_PT_hulls"),
     "advanced": ("WCD_PT_advanced",),
 }
@@ -28,30 +28,41 @@ def use_theme(name):
 
 
 def steps(hands):
-    view = bpy.context.preferences.view
-    yield from hands.fill_screen()
-    yield from hands.open_sidebar()
-    hands.suzanne(2)
-    bpy.context.scene.wcd.samples = 600
-    yield 0.5
-    hands.picture("before", hands.region(), height=240)
-    with hands.context():
-        bpy.ops.wcd.decompose(samples=600)
-    yield from hands.move(300, 300)
-    yield 0.5
-    hands.picture("after", hands.area)
+    yield from decomposed_suzanne(hands, "before", "after")
     with hands.context():
         bpy.ops.wcd.rename_parts("INVOKE_DEFAULT")
     yield 0.5
     hands.picture("names", hands.area)
     yield from hands.press("Escape")
-    for theme, file in THEMES.items():
+    for name, panels in PANELS.items():
         with hands.context():
-            use_theme(file)
-        for scale in SCALES:
-            view.ui_scale = scale
-            for name, panels in PANELS.items():
-                hands.open_panels(*panels)
+            bpy.ops.wm.read_homefile()  # forgets which panels are open
+        yield 0.5
+        hands.open_panels(*panels)
+        yield from decomposed_suzanne(hands)
+        for theme, file in THEMES.items():
+            with hands.context():
+                use_theme(file)
+            for bpy.context.preferences.view.ui_scale in SCALES:
+                yield 0.5
                 yield from hands.open_sidebar()
-                yield 0.3
-                hands.picture(f"{theme}-{scale}-{name}", hands.area)
+                scale = bpy.context.preferences.view.ui_scale
+                hands.picture(f"{theme}-{scale:.1f}-{name}", hands.area)
+        bpy.context.preferences.view.ui_scale = 1.0
+
+
+def decomposed_suzanne(hands, *pictures):
+    """Decompose the monkey; take pictures of the tab before, and of all after that."""
+    yield from hands.fill_screen()
+    yield from hands.open_sidebar()
+    hands.suzanne(2)
+    bpy.context.scene.wcd.samples = 600
+    yield 0.5
+    for name in pictures[:1]:
+        hands.picture(name, hands.region(), height=240)
+    with hands.context():
+        bpy.ops.wcd.decompose(samples=600)
+    yield from hands.move(300, 300)
+    yield 0.5
+    for name in pictures[1:]:
+        hands.picture(name, hands.area)
