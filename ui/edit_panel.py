@@ -58,7 +58,7 @@ class WCD_PT_edit(Sidebar, bpy.types.Panel):
         row = column.row(align=True)
         row.operator("wcd.merge_parts", text=half("Merge") if names[1:] else "Merge")
         row.operator(
-            "wcd.assign_faces", text=half("Assign to", [active.name] if active else [])
+            "wcd.assign_faces", text=half("Add to", [active.name] if active else [])
         )
         row = _labelled(column, label("Split"))
         row.operator("wcd.split_parts", text="In Two").parts = 2

@@ -170,6 +170,14 @@ def test_columns_go_before_figures_are_cut(suzanne, n_parts, hulls):
     assert any("." in text for text in layout.texts() if text != row.name)
 
 
+def test_usual_names_have_room_on_buttons(decomposed):
+    decomposed.wcd_parts[1].name = "Part 04.R"
+    decomposed.wcd_active_part = 1
+    texts = list(drawn(WCD_PT_edit).texts())
+    assert sum(text.endswith(" Part 04.R") for text in texts) == 6
+    assert not any("…" in text for text in texts)
+
+
 def test_buttons_say_what_they_act_on(decomposed):
     decomposed.wcd_active_part = 0
     assert {"Isolate Part 01", "Frame Part 01"} <= set(drawn(WCD_PT_edit).texts())
