@@ -12,6 +12,7 @@ import pytest
 from edited import FAST
 from hand_made import decompose_by_hand
 from weak_convex_decomposition import ui
+from weak_convex_decomposition.operators.settings import FRONT, is_used
 from weak_convex_decomposition.ui.edit_panel import WCD_PT_edit, acted_on
 from weak_convex_decomposition.ui.panels import WCD_PT_main, WCD_PT_parts
 from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
@@ -218,3 +219,15 @@ def test_the_number_of_parts_is_auto_or_a_number(decomposed):
     assert settings.parts == 7  # as many as there are
     settings.auto_parts = True
     assert settings.parts == 0
+
+
+@pytest.mark.parametrize("sight", ["BLOCKS", "ALL_PAIRS", "CONE"])
+def test_parts_rays_and_detail_are_in_front_and_never_gray(sight):
+    settings = bpy.context.scene.wcd
+    settings.sight = sight
+    assert FRONT == ("parts", "rays", "alpha")
+    assert all(is_used(settings, name) for name in FRONT)
+    labels = [settings.bl_rna.properties[name].name for name in FRONT]
+    assert labels == ["Parts", "Rays", "Detail"]
+    for name, symbol in zip(FRONT, ("(k)", "(r)", "(α)"), strict=True):
+        assert symbol in settings.bl_rna.properties[name].description
