@@ -1,7 +1,8 @@
 """The panel with a bar for each number of parts that was tried: its gain in psi.
 
-The bars compare psi of samples before seams are cut. Psi of the parts, in the panel
-above, is after that, and lower. So bars are shares of the largest gain, not psi.
+The bars compare psi before seams are cut, for no more than one number is cut. Psi of
+the parts, in the panel above, is after that. So bars are shares of the largest gain,
+and psi itself is shown once.
 """
 
 from __future__ import annotations
@@ -74,5 +75,5 @@ def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:
     more = f"{gains[longest] - gains[best]:.0%}"
     more = "less than 1%" if more == "0%" else f"only {more}"
     if longest > best:
-        return f"{best} is best: {longest} parts gain {more} more."
-    return f"{best} is best: {longest} parts gain {more} more, but split less evenly."
+        return f"{best} is best: {longest} gain {more} more."
+    return f"{best} is best: {longest} gain {more} more, but split less evenly."

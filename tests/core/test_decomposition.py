@@ -43,12 +43,10 @@ def test_a_given_number_of_parts_has_its_psi(seen):
     assert found.notes == ()
 
 
-def test_psi_differs_from_that_of_the_search_by_what_seams_cost(seen):
-    for smoothness in (0.0, 2.0):
-        parameters = Parameters(samples=150, smoothness=smoothness)
-        found = parts_of(seen(shapes.comb), parameters)
-        cost = found.psi_by_k[found.n_parts] - found.psi
-        assert cost == 0 if smoothness == 0 else cost >= 0
+def test_psi_is_that_of_the_search_but_for_the_seams(seen):
+    found = parts_of(seen(shapes.comb), Parameters(samples=150, smoothness=0.0))
+    assert found.n_parts > 1
+    assert found.psi == found.psi_by_k[found.n_parts]
 
 
 def test_detail_decides_how_far_to_split(seen):

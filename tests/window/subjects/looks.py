@@ -59,7 +59,7 @@ def decomposed_suzanne(hands, *pictures):
     bpy.context.scene.wcd.samples = 600
     yield 0.5
     for name in pictures[:1]:
-        hands.picture(name, hands.region(), height=240)
+        hands.picture(name, hands.region(), height=229)
     with hands.context():
         bpy.ops.wcd.decompose(samples=600)
     yield from hands.move(300, 300)
