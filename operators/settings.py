@@ -14,6 +14,7 @@ from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parameter import ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
 from ..core.parameters.presets import PRESETS, Preset, preset
+from .bridge.views.colors import CHOICES, MATERIALS
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -30,7 +31,13 @@ _OF_RUNS = {
             " faces that were assigned. Locked parts are kept in any case"
         ),
         default=True,
-    )
+    ),
+    "colors": bpy.props.EnumProperty(
+        name="Colors",
+        description="How runs show the colors of the parts",
+        items=CHOICES,
+        default=MATERIALS,
+    ),
 }
 # Number of parts that Auto is switched to on an object without parts.
 _FIRST_NUMBER = 6
@@ -214,7 +221,10 @@ WCD_PG_settings.__annotations__ = {
         description="Let psi choose the number of parts; click to set it yourself",
         get=_is_auto,
         set=_set_auto,
-        options={"SKIP_SAVE"},
+    ),
+    "highlight": bpy.props.BoolProperty(
+        name="Highlight",
+        description="Show in the viewports which parts are chosen in the table",
     ),
     "live": bpy.props.BoolProperty(
         name="Live",

@@ -22,27 +22,28 @@ def table(monkey):
 
 
 def test_a_click_on_a_row_that_is_not_ticked_takes_old_ticks_away(monkey):
-    assert chosen_numbers(monkey) == [1, 2]
+    assert chosen_numbers(monkey) == {1, 2}
     monkey.wcd_active_part = 2  # which is ticked
-    assert chosen_numbers(monkey) == [1, 2]
+    assert chosen_numbers(monkey) == {1, 2}
     monkey.wcd_active_part = 3
     assert ticked(monkey) == []
-    assert chosen_numbers(monkey) == chosen_parts(monkey) == [3]
+    assert chosen_numbers(monkey) == {3}
+    assert chosen_parts(monkey) == [3]
     assert not bpy.ops.wcd.merge_parts.poll()
 
 
 def test_a_tick_counts_whichever_row_was_highlighted(table):
     table.wcd_parts[3].chosen = True
-    assert (table.wcd_active_part, chosen_numbers(table)) == (3, [3])
+    assert (table.wcd_active_part, chosen_numbers(table)) == (3, {3})
     table.wcd_parts[0].chosen = True
-    assert (table.wcd_active_part, chosen_numbers(table)) == (3, [0, 3])
+    assert (table.wcd_active_part, chosen_numbers(table)) == (3, {0, 3})
 
 
 def test_the_highlight_leaves_a_row_whose_tick_is_taken_away(monkey):
     monkey.wcd_parts[1].chosen = False
-    assert (monkey.wcd_active_part, chosen_numbers(monkey)) == (2, [2])
+    assert (monkey.wcd_active_part, chosen_numbers(monkey)) == (2, {2})
     monkey.wcd_parts[2].chosen = False
-    assert chosen_numbers(monkey) == [2]  # it is highlighted
+    assert chosen_numbers(monkey) == {2}  # it is highlighted
 
 
 def test_merged_parts_have_the_name_of_the_row_that_was_ticked_first(table):
