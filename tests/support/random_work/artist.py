@@ -23,7 +23,7 @@ OPERATORS = (
     "smooth_seams",
     "mirror_parts",
     "refresh_parts",
-    *("rename_parts", "mark_seams", "unmark_seams"),
+    "rename_parts",
     "face_sets",
     "color_attribute",
     *("explode", "implode"),
