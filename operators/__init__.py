@@ -10,8 +10,9 @@ from typing import Any
 
 def _classes() -> tuple[Any, ...]:
     """Return the classes that Blender is to know."""
-    from . import edit_parts, hulls, settings, show_parts, use_parts
+    from . import hulls, scene_settings, show_parts, use_parts
     from .decompose import WCD_OT_clear, WCD_OT_decompose
+    from .editing import edit_parts, rename_parts
     from .measure import WCD_OT_measure, WCD_OT_measure_selection
     from .recut import WCD_OT_choose_part_count, WCD_OT_recut
     from .running.modal import WCD_OT_cancel
@@ -19,7 +20,7 @@ def _classes() -> tuple[Any, ...]:
     from .viewport import choose_parts, pick_parts, show_sight
 
     return (
-        *settings.CLASSES,
+        *scene_settings.CLASSES,
         WCD_OT_decompose,
         WCD_OT_measure,
         WCD_OT_measure_selection,
@@ -34,6 +35,7 @@ def _classes() -> tuple[Any, ...]:
         *pick_parts.CLASSES,
         WCD_OT_show_picture,
         *edit_parts.CLASSES,
+        *rename_parts.CLASSES,
         *show_parts.CLASSES,
     )
 
@@ -42,7 +44,7 @@ def register() -> None:
     """Register the operators, the settings, the command and the table's rows."""
     import bpy
 
-    from . import settings
+    from . import scene_settings
     from .bridge.parts import rows
     from .bridge.work import in_step, session_cache
     from .headless import command_line
@@ -50,7 +52,7 @@ def register() -> None:
 
     for cls in _classes():
         bpy.utils.register_class(cls)
-    settings.register()
+    scene_settings.register()
     command_line.register()
     session_cache.register()
     in_step.register()
@@ -64,7 +66,7 @@ def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     import bpy
 
-    from . import recut, settings
+    from . import recut, scene_settings
     from .bridge.parts import rows
     from .bridge.work import in_step, libraries, session_cache
     from .headless import command_line
@@ -81,6 +83,6 @@ def unregister() -> None:
     in_step.unregister()
     session_cache.unregister()
     command_line.unregister()
-    settings.unregister()
+    scene_settings.unregister()
     for cls in reversed(_classes()):
         bpy.utils.unregister_class(cls)

@@ -1,11 +1,11 @@
-"""The settings: Blender properties made of the parameters' fields, and presets."""
+"""Settings as Blender properties, made of the fields of the parameters."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
 from dataclasses import Field, fields
-from typing import Any, ClassVar, cast
+from typing import Any, cast
 
 import bpy
 import numpy as np
@@ -14,7 +14,6 @@ from ..core.parameters.choices import LOOKS, MESHES
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parameter import Choice, ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
-from ..core.parameters.presets import PRESETS, Preset, preset
 from .bridge.views.colors import CHOICES
 
 ALL = tuple(field.name for field in fields(Parameters))
@@ -40,10 +39,14 @@ SELECTION = ("samples", "seed")
 
 def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
     """Return settings as Blender properties, for the annotations of a class."""
-    return {
-        name: _property(_FIELDS[name]) if name in _FIELDS else _of_runs(name)
-        for name in names
-    }
+    return {name: property_for(name) for name in names}
+
+
+def property_for(name: str, **more: Any) -> Any:
+    """Return a setting as a Blender property; `more` is given to Blender as it is."""
+    if name in _FIELDS:
+        return _property(_FIELDS[name], **more)
+    return _of_runs(name, **more)
 
 
 def _of_runs(name: str, **more: Any) -> Any:
@@ -56,27 +59,11 @@ def _of_runs(name: str, **more: Any) -> Any:
                 " faces that were assigned. Locked parts are kept in any case"
             ),
             default=True,
+            **more,
         )
     label, text, choices = _CHOICES[name]
     items = [(each.identifier, each.label, each.help) for each in choices]
     return bpy.props.EnumProperty(name=label, description=text, items=items, **more)
-
-
-def _setting(name: str) -> Any:
-    """Return the annotation of a parameter as a setting of a scene."""
-    return _property(_FIELDS[name], **({"update": _recut} if name in RECUT else {}))
-
-
-def _recut(settings: Any, context: bpy.types.Context) -> None:
-    """Replace the parts of the active object if the settings are live."""
-    if settings.live and bpy.ops.wcd.recut.poll():
-        bpy.ops.wcd.recut()
-
-
-def _show_hulls(settings: Any, context: bpy.types.Context) -> None:
-    """Show the hulls of the selected objects as it is set."""
-    if bpy.ops.wcd.show_hulls.poll():
-        bpy.ops.wcd.show_hulls(look=settings.look)
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -171,80 +158,3 @@ def hand_over(settings: Any, button: Any, names: Iterable[str]) -> None:
     """Copy settings of a scene to the operator of a button."""
     for name in names:
         setattr(button, name, getattr(settings, name))
-
-
-def use_preset(settings: Any, chosen: Preset) -> None:
-    """Set all settings of a scene to those of a preset."""
-    parameters = chosen.parameters()
-    live, settings.live = settings.live, False  # replace the parts once, at the end
-    for name in ALL:
-        setattr(settings, name, getattr(parameters, name))
-    settings.live = live
-    _recut(settings, bpy.context)
-
-
-class WCD_OT_use_preset(bpy.types.Operator):
-    """Set all settings of the scene to those of a preset."""
-
-    bl_idname = "wcd.use_preset"
-    bl_label = "Use Convex Parts Preset"
-    bl_description = "Set all settings in the sidebar to those of a preset"
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def description(
-        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
-    ) -> str:
-        """Return the tooltip of a preset's entry in the menu."""
-        return preset(properties.preset).help
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Set them."""
-        use_preset(context.scene.wcd, preset(self.preset))
-        return {"FINISHED"}
-
-
-WCD_OT_use_preset.__annotations__ = {
-    "preset": bpy.props.EnumProperty(
-        name="Preset",
-        description="The preset to use",
-        items=[(each.identifier, each.label, each.help) for each in PRESETS],
-    )
-}
-
-
-class WCD_PG_settings(bpy.types.PropertyGroup):
-    """The settings of a scene; the sidebar hands them to the operators."""
-
-
-WCD_PG_settings.__annotations__ = {
-    **{name: _setting(name) for name in (*ALL, *HULLS)},
-    **{name: _of_runs(name) for name in ("keep_edits", "colors")},
-    "mesh": _of_runs("mesh", update=_recut),
-    "look": _of_runs("look", update=_show_hulls),
-    "highlight": bpy.props.BoolProperty(
-        name="Highlight",
-        description="Show in the viewports which parts are chosen in the table",
-    ),
-    "live": bpy.props.BoolProperty(
-        name="Live",
-        description=(
-            "Replace the active object's parts as soon as a setting changes, such as"
-            " their number or the balance. Settings that need new lines of sight are"
-            " left out"
-        ),
-        update=_recut,
-    ),
-}
-
-CLASSES = (WCD_PG_settings, WCD_OT_use_preset)
-
-
-def register() -> None:
-    """Give each scene its settings."""
-    bpy.types.Scene.wcd = bpy.props.PointerProperty(type=WCD_PG_settings)
-
-
-def unregister() -> None:
-    """Undo `register`."""
-    del bpy.types.Scene.wcd

@@ -8,13 +8,14 @@ import bpy
 import numpy as np
 
 from .bridge.mesh.corners import boundary_edges
-from .bridge.mesh.selection import hide_faces, mark_seams, select_edges, select_faces
+from .bridge.mesh.seams import mark_seams, unmark_seams
+from .bridge.mesh.selection import hide_faces, select_edges, select_faces
 from .bridge.mesh.viewing import frame_points, points_of_parts
 from .bridge.parts.present_parts import present_parts
 from .bridge.parts.rows import chosen_numbers, chosen_parts
-from .bridge.refusals import edit_refusal, faces_refusal
+from .bridge.refusals import edit_refusal, faces_refusal, seams_refusal
 from .bridge.views.isolating import end_isolation, isolate
-from .edit_parts import SCOPE, in_scope
+from .editing.edit_parts import in_scope, scope
 from .running.on_objects import OnActive, OnEach
 
 _EXTEND = bpy.props.BoolProperty(
@@ -130,7 +131,7 @@ class WCD_OT_select_boundary(_Show, bpy.types.Operator):
         select_edges(obj, boundary_edges(obj.data, labels, chosen), self.extend)
 
 
-WCD_OT_select_boundary.__annotations__ = {"scope": SCOPE, "extend": _EXTEND}
+WCD_OT_select_boundary.__annotations__ = {"scope": scope("CHOSEN"), "extend": _EXTEND}
 
 
 class WCD_OT_mark_seams(_Show, bpy.types.Operator):
@@ -138,14 +139,35 @@ class WCD_OT_mark_seams(_Show, bpy.types.Operator):
 
     bl_idname = "wcd.mark_seams"
     bl_label = "Mark Seams of Convex Parts"
-    bl_description = "Mark the edges where parts meet as seams, for unwrapping"
+    bl_description = (
+        "Mark the edges where parts meet as seams, for unwrapping, in place of those"
+        " that were marked so before. Your own seams stay"
+    )
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
-        mark_seams(obj, boundary_edges(obj.data, labels, chosen))
+        mark_seams(obj.data, boundary_edges(obj.data, labels, chosen))
 
 
-WCD_OT_mark_seams.__annotations__ = {"scope": SCOPE}
+WCD_OT_mark_seams.__annotations__ = {"scope": scope("ALL")}
+
+
+class WCD_OT_unmark_seams(_Show, bpy.types.Operator):
+    """Take back the seams that were marked between parts."""
+
+    bl_idname = "wcd.unmark_seams"
+    bl_label = "Unmark Seams of Convex Parts"
+    bl_description = (
+        "Take back the seams that Mark Seams marked. Edges that were seams before stay"
+    )
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return seams_refusal(obj)
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        unmark_seams(obj.data)
+
 
 CLASSES: tuple[Any, ...] = (
     WCD_OT_select_parts,
@@ -153,4 +175,5 @@ CLASSES: tuple[Any, ...] = (
     WCD_OT_frame_parts,
     WCD_OT_select_boundary,
     WCD_OT_mark_seams,
+    WCD_OT_unmark_seams,
 )

@@ -4,10 +4,11 @@ import bpy
 
 from . import menus, part_drawing, shown_figures, sight_drawing
 from .chart import WCD_PT_chart
+from .edit_panel import WCD_PT_edit
 from .hulls_panel import WCD_PT_hulls
 from .menus import WCD_MT_parts, WCD_MT_pick
 from .panels import WCD_PT_advanced, WCD_PT_main, WCD_PT_parts
-from .parts_table import WCD_PT_edit, WCD_UL_parts
+from .parts_table import WCD_UL_parts
 from .use_panel import WCD_PT_use, WCD_PT_why
 
 CLASSES = (

@@ -1,12 +1,18 @@
-"""The panel with a bar of psi for each number of parts that was tried."""
+"""The panel with a bar for each number of parts that was tried: its gain in psi.
+
+The bars compare psi before seams are cut, for no more than one number is cut. Psi of
+the parts, in the panel above, is after that. So bars are shares of the largest gain,
+and psi itself is shown once.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import bpy
 
-from .panels import WCD_PT_parts
+from .panels import WCD_PT_parts, paragraph
 from .sidebar import Sidebar, result_of
 
 # Share of the width for the number of parts, and height of a row, in usual rows.
@@ -15,9 +21,9 @@ _HEIGHT = 0.8
 
 
 class WCD_PT_chart(Sidebar, bpy.types.Panel):
-    """Psi by number of parts."""
+    """Gain in psi by number of parts."""
 
-    bl_label = "ψ by Number of Parts"
+    bl_label = "Gain by Number of Parts"
     bl_parent_id = WCD_PT_parts.__name__
 
     @classmethod
@@ -27,27 +33,47 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         return "parts" in result and len(result.get("psi_by_k", ())) > 1
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw a row for each number of parts."""
+        """Draw a row for each number of parts, and why the best is the best."""
         result = result_of(context.active_object)
-        psi_by_k = {int(k): psi for k, psi in result["psi_by_k"].items()}
-        low, high = min(psi_by_k.values()), max(psi_by_k.values())
+        gains = gains_of(result["psi_by_k"])
+        reason = reason_for(result.get("best_k"), gains)
+        if reason:
+            paragraph(self.layout, reason, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
         column.scale_y = _HEIGHT
-        for k, psi in sorted(psi_by_k.items()):
+        for k, gain in gains.items():
             split = column.split(factor=_NUMBER, align=True)
-            self._draw_number(split, k, result)
-            share = (psi - low) / (high - low) if high > low else 1.0
-            split.progress(factor=share, text=f"{psi:.3f}")
+            _draw_number(split, k, result)
+            split.progress(factor=gain, text=f"{gain:.0%}")
 
-    @staticmethod
-    def _draw_number(
-        layout: bpy.types.UILayout, k: int, result: dict[str, Any]
-    ) -> None:
-        """Draw the button that chooses a number of parts; a star marks the best."""
-        icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
-        # With deeper levels, k counts the parts of all levels.
-        shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
-        button = layout.operator(
-            "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
-        )
-        button.parts = k
+
+def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> None:
+    """Draw the button that chooses a number of parts; a star marks the best."""
+    icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
+    # With deeper levels, k counts the parts of all levels.
+    shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
+    button = layout.operator(
+        "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
+    )
+    button.parts = k
+
+
+def gains_of(psi_by_k: Mapping[str, float]) -> dict[int, float]:
+    """Return the length of each bar: 0 for the lowest psi, 1 for the highest."""
+    low, high = min(psi_by_k.values()), max(psi_by_k.values())
+    return {
+        int(k): (psi - low) / (high - low) if high > low else 1.0
+        for k, psi in sorted(psi_by_k.items(), key=lambda item: int(item[0]))
+    }
+
+
+def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:
+    """Return why the best number of parts has not the longest bar, if it has not."""
+    longest = max(gains, key=gains.__getitem__)
+    if best is None or best not in gains or gains[longest] <= gains[best]:
+        return None
+    more = f"{gains[longest] - gains[best]:.0%}"
+    more = "less than 1%" if more == "0%" else f"only {more}"
+    if longest > best:
+        return f"{best} is best: {longest} gain {more} more."
+    return f"{best} is best: {longest} gain {more} more, but split less evenly."

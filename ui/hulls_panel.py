@@ -50,7 +50,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
         layout.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
         box = layout.box().column(align=True)
-        _columns(box.row(align=True), None, "Hull", "Vertices", "Error")
+        _columns(box.row(align=True), None, "Hull", "Verts", "Error")
         names = [hull["name"] for hull in hulls]
         for hull, name in zip(hulls, endings(names), strict=True):
             obj = bpy.data.objects[hull["name"]]

@@ -15,6 +15,7 @@ _ENTRIES = (
     ("wcd.measure", MEASURE),
     ("wcd.measure_selection", SELECTION),
     None,
+    ("wcd.rename_parts", ()),
     ("wcd.separate", "original"),
     ("wcd.explode", ()),
     ("wcd.implode", ()),

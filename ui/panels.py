@@ -7,6 +7,8 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..core.sight.pair_tally import quality_word
+from ..operators.bridge.parts.rows import noted_refusal
 from ..operators.bridge.read.shown_mesh import differs
 from ..operators.bridge.work.libraries import load_while_idle
 from ..operators.running import modal as running
@@ -19,6 +21,8 @@ from .sidebar import Sidebar, result_of, width_of
 # Widths at interface scale 1: of tabs, margins and an icon together; of a letter.
 _MARGINS = 80
 _LETTER = 6
+# Share of the width that Blender gives to the names of settings.
+_LABELS = 0.4
 
 
 def notes_of(result: dict[str, Any]) -> list[str]:
@@ -49,7 +53,8 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
         load_while_idle()
         layout = self.layout
         settings = context.scene.wcd
-        draw(layout, settings, FRONT)
+        _draw_parts(layout, settings)
+        draw(layout, settings, [name for name in FRONT if name != "parts"])
         if shown_figures(context.active_object):
             draw(layout, settings, ("keep_edits",))
         if differs(context.active_object):
@@ -79,9 +84,11 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there is a result."""
+        """Return whether there is a result to show."""
         obj = context.active_object
-        return bool(result_of(obj)) or shown_figures(obj) is not None
+        result = result_of(obj)
+        measured = "measured" in result or notes_of(result)
+        return bool(measured) or shown_figures(obj) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
@@ -89,7 +96,7 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
         obj = context.active_object
         result = result_of(obj)
         for note in notes_of(result):
-            _paragraph(layout, note, context)
+            paragraph(layout, note, context)
         if "measured" in result:
             measured = result["measured"]
             error = measured["standard_error"]
@@ -99,12 +106,16 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
         if figures is None:
             return
         if figures.problem:
-            _paragraph(layout, f"Out of date. {figures.problem}", context)
+            paragraph(layout, f"Out of date. {figures.problem}", context)
             layout.operator("wcd.refresh_parts", text="Refresh", icon="FILE_REFRESH")
         else:
-            line(layout, "ψ", f"{result['psi_before']:.3f} → {result['psi']:.3f}")
+            _draw_quality(layout, result)
         if obj.wcd_parts:
             draw_table(layout, obj, width_of(context))
+            reason = noted_refusal(obj)
+            if reason:
+                paragraph(layout, f"{reason}.", context)
+            layout.operator("wcd.rename_parts", text="Rename All", icon="SORTALPHA")
 
 
 class WCD_PT_advanced(Sidebar, bpy.types.Panel):
@@ -127,19 +138,43 @@ def _progress(row: bpy.types.UILayout, run: Running) -> None:
     split.operator("wcd.cancel", text="Cancel")
 
 
-def _paragraph(
-    layout: bpy.types.UILayout, text: str, context: bpy.types.Context
+def _draw_parts(layout: bpy.types.UILayout, settings: bpy.types.AnyType) -> None:
+    """Draw the number of parts: Auto, or a number and the way back to Auto."""
+    split = layout.split(factor=_LABELS)
+    label = split.row()
+    label.alignment = "RIGHT"
+    label.label(text="Parts")
+    row = split.row(align=True)
+    if not settings.auto_parts:
+        row.prop(settings, "parts", text="")
+    row.prop(settings, "auto_parts", toggle=True)
+
+
+def _draw_quality(layout: bpy.types.UILayout, result: dict[str, Any]) -> None:
+    """Draw the quality of the parts in a word, and psi below it."""
+    before, psi = result["psi_before"], result["psi"]
+    word = quality_word(psi, before, result["parameters"]["alpha"])
+    column = layout.column(align=True)
+    line(column, "Quality", word)
+    line(column, "ψ", f"{before:.3f} → {psi:.3f}")
+
+
+def paragraph(
+    layout: bpy.types.UILayout,
+    text: str,
+    context: bpy.types.Context,
+    icon: str = "ERROR",
 ) -> None:
-    """Draw a warning, broken into lines that fit the sidebar."""
+    """Draw a sentence, by default a warning, broken into lines that fit the sidebar."""
     width = int((width_of(context) - _MARGINS) / _LETTER)
     column = layout.column(align=True)
     column.scale_y = 0.8
     for number, line in enumerate(textwrap.wrap(text, max(width, 10))):
-        column.label(text=line, icon="BLANK1" if number else "ERROR")
+        column.label(text=line, icon="BLANK1" if number else icon)
 
 
 def line(layout: bpy.types.UILayout, name: str, value: str) -> None:
     """Draw a name and a value."""
-    split = layout.split(factor=0.4)
+    split = layout.split(factor=_LABELS)
     split.label(text=name)
     split.label(text=value)

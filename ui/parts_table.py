@@ -1,4 +1,4 @@
-"""The table of parts in the sidebar, and the buttons that act on its rows."""
+"""The table of parts in the sidebar."""
 
 from __future__ import annotations
 
@@ -12,16 +12,21 @@ from ..operators.bridge.parts.figures import PartFigures
 from ..operators.bridge.views.isolating import isolating
 from ..operators.viewport import picking
 from .shown_figures import shown_figures
-from .sidebar import Sidebar, hulls_of, width_of
+from .sidebar import hulls_of, width_of
 
-_ROWS = 6
+# Rows that are seen at once, at least and at most.
+_FEWEST_ROWS = 3
+_MOST_ROWS = 9
 # Width of a color, as a share of a button's.
 _SWATCH = 0.35
-# Widths at interface scale 1: of a column of figures; of a name like
-# "Part 04.R"; of all else.
-_FIGURE = 30
-_NAME = 62
-_REST = 134
+# Widths at interface scale 1: of the columns, with a gap; of a name like "Part 04.R";
+# of the scroll bar; of all else.
+_WIDTHS = {"Faces": 42, "Area": 38, "Rank": 34, "Hull": 34}
+_NAME = 68
+_SCROLL_BAR = 20
+_REST = 122
+# A unit of width in Blender's layouts.
+_UNIT = 20
 # The columns that are left out where there is no room, in this order.
 _GO_FIRST = ("Area", "Faces", "Hull")
 
@@ -51,12 +56,10 @@ class WCD_UL_parts(bpy.types.UIList):
         swatch = line.row()
         swatch.scale_x = _SWATCH
         swatch.prop(row, "color", text="")
-        width = width_of(context)
-        columns = headings(hulls_of(obj), width)
-        split = line.split(factor=_name_share(width, len(columns)))
-        split.prop(row, "name", text="", emboss=False)
+        line.prop(row, "name", text="", emboss=False)
         texts = _figures(figures, place, hulls_of(obj))
-        _numbers(split, *(texts[name] for name in columns))
+        for name in headings(hulls_of(obj), width_of(context), len(obj.wcd_parts)):
+            _cell(line, name, texts[name])
         lock = "LOCKED" if row.locked else "UNLOCKED"
         line.prop(row, "locked", text="", icon=lock, emboss=False)
 
@@ -82,19 +85,18 @@ def places_of(figures: PartFigures | None) -> dict[int, int]:
     return {each.number: place for place, each in enumerate(identities)}
 
 
-def headings(hulls: Sequence[dict[str, Any]], width: float) -> list[str]:
+def headings(
+    hulls: Sequence[dict[str, Any]], width: float, n_rows: int = 0
+) -> list[str]:
     """Return the headings of the columns that fit into a table of this width."""
     names = ["Faces", "Area", "Rank"]
     if any(hull["part"] is not None for hull in hulls):
         names.append("Hull")
-    room = max(int((width - _REST - _NAME) / _FIGURE), 1)
-    dropped = [name for name in _GO_FIRST if name in names][: max(len(names) - room, 0)]
-    return [name for name in names if name not in dropped]
-
-
-def _name_share(width: float, n_figures: int) -> float:
-    """Return the name's share of the width that it has together with the figures."""
-    return 1 - n_figures * _FIGURE / max(width - _REST, n_figures * _FIGURE + _NAME)
+    room = width - _REST - _NAME - (_SCROLL_BAR if n_rows > _MOST_ROWS else 0)
+    for name in _GO_FIRST:
+        if name in names and sum(_WIDTHS[each] for each in names) > room:
+            names.remove(name)
+    return names
 
 
 def _figures(
@@ -119,12 +121,12 @@ def _area(area: float) -> str:
     return next(f"{area:.{n}f}" for n in (2, 1, 0) if area < 10 ** (3 - n) or n == 0)
 
 
-def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
-    """Draw texts side by side, at the right."""
-    columns = layout.row(align=True)
-    columns.alignment = "RIGHT"
-    for text in texts:
-        columns.label(text=text)
+def _cell(line: bpy.types.UILayout, name: str, text: str) -> None:
+    """Draw a text at the right of a column as wide as all of its cells."""
+    cell = line.row()
+    cell.ui_units_x = _WIDTHS[name] / _UNIT
+    cell.alignment = "RIGHT"
+    cell.label(text=text)
 
 
 def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) -> None:
@@ -141,70 +143,21 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
         button.hide = False
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
-    heading.label(text="", icon="BLANK1")
-    columns = headings(hulls_of(obj), width)
-    split = heading.split(factor=_name_share(width, len(columns)))
-    split.label(text="Part")
-    _numbers(split, *columns)
-    heading.label(text="", icon="BLANK1")
+    heading.label(text="Part")
+    n_rows = len(obj.wcd_parts)
+    for name in headings(hulls_of(obj), width, n_rows):
+        _cell(heading, name, name)
+    for _ in range(
+        2 if n_rows > _MOST_ROWS else 1
+    ):  # below are the padlock and a scroll bar
+        heading.label(text="", icon="BLANK1")
     layout.template_list(
-        "WCD_UL_parts", "", obj, "wcd_parts", obj, "wcd_active_part", rows=_ROWS
+        "WCD_UL_parts",
+        "",
+        obj,
+        "wcd_parts",
+        obj,
+        "wcd_active_part",
+        rows=min(max(n_rows, _FEWEST_ROWS), _MOST_ROWS),
+        maxrows=_MOST_ROWS,
     )
-
-
-class WCD_PT_edit(Sidebar, bpy.types.Panel):
-    """The buttons that edit parts."""
-
-    bl_label = "Edit Parts"
-    bl_parent_id = "WCD_PT_parts"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there are rows."""
-        obj = context.active_object
-        return obj is not None and bool(obj.wcd_parts)
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the panel."""
-        layout = self.layout
-        _buttons(
-            layout,
-            ("wcd.select_parts", "Select", {}),
-            ("wcd.isolate_parts", "Isolate", {"hide": True}),
-            ("wcd.isolate_parts", "Show All", {"hide": False}),
-            ("wcd.frame_parts", "Frame", {}),
-        )
-        column = layout.column(align=True)
-        _buttons(
-            column,
-            ("wcd.merge_parts", "Merge", {}),
-            ("wcd.assign_faces", "Assign Faces", {}),
-        )
-        _buttons(
-            column,
-            ("wcd.split_parts", "Split in Two", {"parts": 2}),
-            ("wcd.split_parts", "Split by ψ", {"parts": 0}),
-        )
-        _buttons(
-            column,
-            ("wcd.mirror_parts", "Mirror to -X", {"direction": "TO_NEGATIVE"}),
-            ("wcd.mirror_parts", "Mirror to +X", {"direction": "TO_POSITIVE"}),
-        )
-        column = layout.column(align=True)
-        _buttons(
-            column,
-            ("wcd.smooth_seams", "Smooth Seams", {}),
-            ("wcd.mark_seams", "Mark Seams", {}),
-        )
-        _buttons(column, ("wcd.select_boundary", "Select Boundary", {}))
-
-
-def _buttons(
-    layout: bpy.types.UILayout, *buttons: tuple[str, str, dict[str, Any]]
-) -> None:
-    """Draw buttons side by side."""
-    row = layout.row(align=True)
-    for operator, text, settings in buttons:
-        properties = row.operator(operator, text=text)
-        for name, value in settings.items():
-            setattr(properties, name, value)

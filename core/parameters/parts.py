@@ -41,8 +41,9 @@ class Parameters:
         0,
         ParameterInfo(
             "Parts",
-            "Number of parts; 0 chooses it by psi, a score that counts pairs of points"
-            " that see each other within parts or are hidden between parts",
+            "Number of parts (k). 0 is Auto: as many as the shape suggests by psi, a"
+            " score that counts pairs of points that see each other within parts or are"
+            " hidden between parts. Set a number where you know how many you want",
             low=0,
             high=256,
             usual=24,
@@ -54,9 +55,10 @@ class Parameters:
         0,
         ParameterInfo(
             "Rays",
-            "Most rays from each sample: fewer rays are quicker and less exact. 0 casts"
-            " as many as Lines of Sight needs: about 80, at most 200, in blocks, 30 in"
-            " a cone, or all between all pairs",
+            "Most rays (r) that each sample casts: fewer are quicker and less exact. It"
+            " matters for large meshes and for shapes of many shells, which take"
+            " longest. 0 casts as many as Lines of Sight needs: about 80, at most 200,"
+            " in blocks, 30 in a cone, or all between all pairs",
             low=0,
             high=1000,
             advanced=False,
@@ -65,10 +67,11 @@ class Parameters:
     alpha: float = parameter(
         2.0,
         ParameterInfo(
-            "Balance",
-            "Higher values split the shape into more parts. Weight alpha in psi of"
-            " hidden pairs between parts, relative to visible pairs within parts; the"
-            " paper uses 1",
+            "Detail",
+            "More Detail splits the shape into more parts. It matters where the number"
+            " of parts is Auto: raise it if limbs are missing, lower it if there are"
+            " too many small parts. Weight alpha (α) in psi of hidden pairs between"
+            " parts, relative to visible pairs within parts; the paper uses 1",
             low=0.0,
             high=10.0,
             advanced=False,
@@ -82,7 +85,6 @@ class Parameters:
             "Which pairs of samples are tested for a line of sight, a straight line"
             " between them inside the shape",
             choices=SIGHT,
-            advanced=False,
         ),
     )
     sampling: str = parameter(

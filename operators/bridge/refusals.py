@@ -6,10 +6,12 @@ wrong and what to do about it. They have no full stop: whoever shows them adds o
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 from .mesh.points import is_cloud
-from .stored.names import CARRIER_TAG, HULL_TAG
+from .mesh.seams import has_marked_seams
+from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME
 from .stored.record import has_record, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
 
@@ -141,12 +143,26 @@ def edit_refusal(obj: Candidate) -> str | None:
     return reason
 
 
-def merge_refusal(obj: Candidate) -> str | None:
-    """Return why no parts of an object can be merged."""
+def merge_refusal(obj: Candidate, n_chosen: int) -> str | None:
+    """Return why the chosen parts of an object cannot be merged."""
     reason = edit_refusal(obj)
-    if reason is None and sum(row.chosen for row in obj.wcd_parts) < 2:
+    if reason is None and n_chosen < 2:
         return "Tick two or more parts in the table to merge them"
     return reason
+
+
+def name_refusal(name: str, part: str, taken: Iterable[str]) -> str | None:
+    """Return why a part cannot have a new name beside others that are taken."""
+    if not name:
+        return f"A part needs a name; this one is still {part}"
+    if len(name.encode()) > LONGEST_NAME:
+        return (
+            f"A name has at most {LONGEST_NAME} letters, fewer with accents; this part"
+            f" is still {part}"
+        )
+    if name in taken:
+        return f"Another part is called {name}; this one is still {part}"
+    return None
 
 
 def faces_refusal(obj: Candidate) -> str | None:
@@ -154,6 +170,14 @@ def faces_refusal(obj: Candidate) -> str | None:
     reason = edit_refusal(obj)
     if reason is None and is_cloud(obj):
         return f"{obj.name} has no faces, only points"
+    return reason
+
+
+def seams_refusal(obj: Candidate) -> str | None:
+    """Return why there are no seams of ours to take back."""
+    reason = faces_refusal(obj)
+    if reason is None and not has_marked_seams(obj.data):
+        return "No seams were marked here; press Mark first"
     return reason
 
 

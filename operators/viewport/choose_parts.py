@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..bridge.parts.rows import chosen_numbers
+from ..bridge.parts.rows import chosen_numbers, noted_refusal
 from ..bridge.refusals import edit_refusal
 from ..running.on_objects import OnActive, OnEach
 
@@ -118,11 +118,10 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
         return context.window_manager.invoke_props_dialog(self)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-        row = obj.wcd_parts[obj.wcd_active_part]
-        wanted = self.name.strip()
-        row.name = wanted
-        if row.name != wanted:
-            self.report({"WARNING"}, f"The name is taken or empty: it is {row.name}.")
+        obj.wcd_parts[obj.wcd_active_part].name = self.name
+        reason = noted_refusal(obj)
+        if reason:
+            self.report({"WARNING"}, f"{reason}.")
 
 
 WCD_OT_rename_part.__annotations__ = {

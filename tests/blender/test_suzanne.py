@@ -102,3 +102,11 @@ def test_parts_have_no_specks():
     surface = graph_of(mesh)
     areas = surface.areas_of(surface.pieces(found.labels, 0.0))
     assert areas.min() >= 0.005 * areas.sum()
+
+
+def test_more_detail_finds_more_parts_and_less_finds_fewer():
+    counts = [
+        decompose(suzanne(2), Parameters(alpha=alpha), make_caster=BvhRayCaster).n_parts
+        for alpha in (0.2, 10.0)
+    ]
+    assert counts[0] < reference().n_parts < counts[1]

@@ -43,7 +43,13 @@ def test_a_given_number_of_parts_has_its_psi(seen):
     assert found.notes == ()
 
 
-def test_the_balance_decides_how_far_to_split(seen):
+def test_psi_is_that_of_the_search_but_for_the_seams(seen):
+    found = parts_of(seen(shapes.comb), Parameters(samples=150, smoothness=0.0))
+    assert found.n_parts > 1
+    assert found.psi == found.psi_by_k[found.n_parts]
+
+
+def test_detail_decides_how_far_to_split(seen):
     counts = [
         parts_of(seen(shapes.comb), Parameters(samples=150, alpha=alpha)).n_parts
         for alpha in (0.0, 1.0, 10.0)

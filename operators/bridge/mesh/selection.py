@@ -1,4 +1,4 @@
-"""Select, hide and mark faces and edges, in Object and in Edit Mode.
+"""Select and hide faces and edges, in Object and in Edit Mode.
 
 In Edit Mode the mesh is a BMesh. In Object Mode the mesh keeps flags, which Edit Mode
 starts from.
@@ -28,7 +28,7 @@ def select_faces(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     _select(mesh.vertices, _flags(len(mesh.vertices), vertices), extend)
     _select(mesh.edges, _flags(len(mesh.edges), edges), extend)
     _select(mesh.polygons, chosen, extend)
-    _show(mesh)
+    show_flags(mesh)
 
 
 def selected_faces(obj: bpy.types.Object) -> BoolArray:
@@ -53,21 +53,7 @@ def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     _select(mesh.vertices, _flags(len(mesh.vertices), ends), extend)
     _select(mesh.edges, chosen, extend)
     _select(mesh.polygons, np.zeros(len(mesh.polygons), dtype=bool), extend)
-    _show(mesh)
-
-
-def mark_seams(obj: bpy.types.Object, chosen: BoolArray) -> None:
-    """Mark edges as seams, for unwrapping; other seams stay."""
-    mesh = obj.data
-    if not mesh.is_editmode:
-        seams = read_flags(mesh.edges, "use_seam")
-        write_flags(mesh.edges, "use_seam", seams | chosen)
-    else:
-        edges = bmesh.from_edit_mesh(mesh).edges
-        edges.ensure_lookup_table()
-        for index in np.flatnonzero(chosen).tolist():
-            edges[index].seam = True
-    _show(mesh)
+    show_flags(mesh)
 
 
 def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
@@ -78,7 +64,7 @@ def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
     for face, hide in zip(bm.faces, hidden.tolist(), strict=True):
         if hide:
             face.hide_set(True)
-    _show(obj.data)
+    show_flags(obj.data)
 
 
 def _flags(size: int, rows: IntArray) -> BoolArray:
@@ -107,10 +93,10 @@ def _select_in_edit_mode(
         if select and not element.hide:
             element.select_set(True)
     bm.select_flush_mode()
-    _show(mesh)
+    show_flags(mesh)
 
 
-def _show(mesh: bpy.types.Mesh) -> None:
+def show_flags(mesh: bpy.types.Mesh) -> None:
     """Tell Blender that flags have changed."""
     if mesh.is_editmode:
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
+from ..mesh.seams import unmark_seams
 from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, PART_LAYER
 from ..stored.record import check_records, forget_parts, forget_result
 from ..stored.restore import Restore, read_restore, sharers, write_restore
@@ -17,6 +18,8 @@ from .slots import take_out_of_slots
 def clear(obj: bpy.types.Object) -> None:
     """Remove everything of ours from an object, its mesh and the file."""
     check_records(obj)
+    if obj.type == "MESH":
+        unmark_seams(obj.data)
     erase_parts(obj)
     discard_unused(our_materials())  # also where the user removed their slots
     forget_result(obj)

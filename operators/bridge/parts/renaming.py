@@ -1,13 +1,16 @@
-"""Rename or recolor a part, with its vertex group, its material and its entry."""
+"""Rename or recolor parts, with their vertex groups, materials and entries."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 import bpy
 
+from ....core.errors import DecompositionError
 from ..mesh.points import is_cloud
+from ..refusals import name_refusal
 from ..stored.identity import Identity
 from ..stored.names import HULL_TAG, OVERLAY
 from ..stored.record import change_part, record_of
@@ -19,29 +22,70 @@ from .materials import color_of, discard_unused, own_material, part_slots
 from .palette import Color
 
 
-def rename_part(obj: bpy.types.Object, number: int, name: str) -> str:
-    """Rename a part of an object, unless the name is empty or taken.
+def rename_part(
+    obj: bpy.types.Object, number: int, name: str
+) -> tuple[str, str | None]:
+    """Rename a part of an object, if it can have the name.
 
     Returns
     -------
-    str
+    name : str
         The name of the part afterwards. Blender may add a number to the name asked for.
+    reason : str or None
+        Why it is not the name asked for.
     """
     identities, restore = identities_of(record_of(obj)), read_restore(obj.data)
     part = next((each for each in identities if each.number == number), None)
-    if restore is None or part is None:
-        return name
+    if restore is None or part is None or name == part.name:
+        return name, None
     taken = {each.name for each in identities if each != part}
-    if name == part.name or not name or name in taken:
-        return part.name
+    reason = name_refusal(name, part.name, taken)
+    if reason:
+        return part.name, reason
     group = obj.type == "MESH" and obj.vertex_groups.get(part.name)
     if group and part.name in restore.groups:
         group.name = name
+        if group.name != name:
+            reason = f"Another vertex group is called {name}; this one is {group.name}"
         name = group.name  # with a number if the name is taken
         groups = [name if each == part.name else each for each in restore.groups]
         write_restore(obj.data, replace(restore, groups=groups))
     _change(obj, replace(part, name=name, color=color_of_part(obj, number)))
-    return name
+    return name, reason
+
+
+def rename_parts(obj: bpy.types.Object, names: Mapping[int, str]) -> list[str]:
+    """Rename several parts, which may take each other's names; return what differs.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    names : mapping of int to str
+        From numbers of parts to their new names.
+
+    Returns
+    -------
+    list of str
+        A sentence for each part whose name Blender changed further.
+
+    Raises
+    ------
+    DecompositionError
+        If a part cannot have its name. Then all parts keep their names.
+    """
+    before = {each.number: each.name for each in identities_of(record_of(obj))}
+    after = {**before, **names}
+    for number, name in names.items():
+        others = [other for key, other in after.items() if key != number]
+        reason = name_refusal(name, before[number], others)
+        if reason:
+            raise DecompositionError(f"{reason}. No part was renamed.")
+    # First out of each other's way.
+    for number, name in names.items():
+        if name != before[number] and name in before.values():
+            rename_part(obj, number, f"wcd {number}")
+    found = [rename_part(obj, number, name) for number, name in names.items()]
+    return [reason for _, reason in found if reason]
 
 
 def color_of_part(obj: bpy.types.Object, number: int) -> Color:

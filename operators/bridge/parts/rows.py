@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 
@@ -18,12 +19,36 @@ from .renaming import color_of_part, recolor_part, rename_part
 
 # The choice of a part whose hull has the shape that is set for all.
 AS_SET = "AS_SET"
+# Why the latest name that was typed was not taken: the object, the number of the part
+# and a sentence. It is not in Blender's data, because undo would bring it back.
+_refused: tuple[int, int, str] | None = None
 
 
 def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    name = rename_part(row.id_data, row.number, row.name.strip())
+    global _refused
+    obj = row.id_data
+    name, reason = rename_part(obj, row.number, row.name.strip())
     if name != row.name:
-        row.name = name
+        row.name = name  # this asks for the name that the part has, which is no news
+    _refused = (obj.session_uid, row.number, reason) if reason else None
+
+
+def _tick(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Keep the highlight on a ticked row, as long as there is one."""
+    obj = row.id_data
+    active = active_row(obj)
+    ticked = [place for place, each in enumerate(obj.wcd_parts) if each.chosen]
+    # A click on another row takes ticks away, too; that highlight stays.
+    if ticked and not active.chosen and (row.chosen or row == active):
+        obj.wcd_active_part = ticked[0]
+
+
+def _highlight(obj: bpy.types.Object, context: bpy.types.Context) -> None:
+    """Take all ticks away when a row is highlighted that is not ticked."""
+    active = active_row(obj)
+    for row in obj.wcd_parts if active and not active.chosen else ():
+        if row.chosen:
+            row.chosen = False
 
 
 def _color(row: bpy.types.PropertyGroup) -> tuple[float, float, float]:
@@ -57,8 +82,9 @@ WCD_PG_part.__annotations__ = {
     ),
     "chosen": bpy.props.BoolProperty(
         name="Choose",
-        description="Let the buttons act on this part. If no part is ticked, they act"
-        " on the highlighted one",
+        description="Let the buttons act on this part and all others that are ticked. A"
+        " click on a row that is not ticked takes the ticks away",
+        update=_tick,
     ),
     "locked": bpy.props.BoolProperty(
         name="Lock",
@@ -100,15 +126,15 @@ def write_rows(
 ) -> None:
     """Replace the rows of the table; parts that had a row keep its state."""
     obj.wcd_parts.clear()
-    obj.wcd_active_part = 0
+    active = 0
     for place, identity in enumerate(identities):
         row = obj.wcd_parts.add()
         row.number, row.name = identity.number, identity.name
         before = kept.get(identity.number, Row(False, False, False, AS_SET))
         row.chosen, row.locked = before.chosen, before.locked
         row.hull_shape = before.hull_shape
-        if before.active:
-            obj.wcd_active_part = place
+        active = place if before.active else active
+    obj.wcd_active_part = active  # last, because ticks move it
 
 
 def erase_rows(obj: bpy.types.Object) -> None:
@@ -118,25 +144,30 @@ def erase_rows(obj: bpy.types.Object) -> None:
 
 
 def chosen_numbers(obj: bpy.types.Object) -> set[int]:
-    """Return the numbers of the ticked parts, or of the highlighted one without ticks.
+    """Return the numbers of the parts that buttons act on.
 
-    Faces are not looked at, so it is quick enough for each time a viewport is drawn.
+    They are those of the ticked rows, or of the highlighted row if none is ticked. A
+    click on a row that is not ticked takes all ticks away, and a tick highlights its
+    row, so that the highlighted row is always one of them. Faces are not looked at, so
+    it is quick enough for each time a viewport is drawn.
     """
-    ticked = {row.number for row in obj.wcd_parts if row.chosen}
-    place = obj.wcd_active_part
-    highlighted = obj.wcd_parts[place : place + 1] if place >= 0 else ()
-    return ticked or {row.number for row in highlighted}
+    active = active_row(obj)
+    if active is None:
+        return set()
+    if not active.chosen:
+        return {active.number}
+    return {row.number for row in obj.wcd_parts if row.chosen}
 
 
 def chosen_parts(obj: bpy.types.Object) -> list[int]:
-    """Return the places of the ticked parts, or of the highlighted one without ticks.
+    """Return the places of the parts that buttons act on: see `chosen_numbers`.
 
     Places are among the parts that the object has now, by number. Rows of parts that
     have no faces do not count.
     """
-    ticked = {row.number for row in obj.wcd_parts if row.chosen}
+    numbers = chosen_numbers(obj)
     identities = part_identities(obj)
-    places = [p for p, each in enumerate(identities) if each.number in ticked]
+    places = [p for p, each in enumerate(identities) if each.number in numbers]
     return places or [active_part(obj)]
 
 
@@ -150,11 +181,24 @@ def hull_shapes(obj: bpy.types.Object) -> dict[int, str]:
     }
 
 
+def active_row(obj: bpy.types.Object) -> Any:
+    """Return the highlighted row, None if there are no rows."""
+    last = len(obj.wcd_parts) - 1
+    return obj.wcd_parts[min(max(obj.wcd_active_part, 0), last)] if last >= 0 else None
+
+
+def noted_refusal(obj: bpy.types.Object) -> str | None:
+    """Return why the highlighted part did not get the name that was typed latest."""
+    row = active_row(obj)
+    part = row and (obj.session_uid, row.number)
+    return _refused[2] if _refused is not None and _refused[:2] == part else None
+
+
 def active_part(obj: bpy.types.Object) -> int:
     """Return the place of the highlighted part, or of the first if it has no faces."""
     numbers = [each.number for each in part_identities(obj)]
-    row = min(max(obj.wcd_active_part, 0), len(obj.wcd_parts) - 1)
-    number = obj.wcd_parts[row].number if row >= 0 else None
+    row = active_row(obj)
+    number = None if row is None else row.number
     return numbers.index(number) if number in numbers else 0
 
 
@@ -163,7 +207,7 @@ def register() -> None:
     bpy.utils.register_class(WCD_PG_part)
     bpy.types.Object.wcd_parts = bpy.props.CollectionProperty(type=WCD_PG_part)
     bpy.types.Object.wcd_active_part = bpy.props.IntProperty(
-        name="Part", description="The highlighted part"
+        name="Part", description="The highlighted part", update=_highlight
     )
 
 

@@ -21,7 +21,9 @@ FACE_SET_LAYER = "wcd_face_set"
 COLOR_LAYER = "wcd_color"
 # Attribute of points: the normals that we estimated.
 NORMAL_LAYER = "wcd_normal"
-# All attributes of ours, with their data types.
+# Attribute of edges: 1 where we marked a seam that was not there before.
+SEAM_LAYER = "wcd_seam"
+# All attributes of faces or points of ours, with their data types.
 LAYERS = {
     PART_LAYER: "INT",
     HAND_LAYER: "INT",
@@ -58,3 +60,6 @@ IMAGE_TAG = "wcd_picture"
 CARRIER_TAG = "wcd_parts_of"
 # Custom property of such an object: how the curve was shown before we hid it.
 HIDDEN_TAG = "wcd_hidden"
+
+# Bytes that Blender keeps of the name of a vertex group.
+LONGEST_NAME = 63

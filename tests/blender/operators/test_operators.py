@@ -12,10 +12,8 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import PRESETS
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
-from weak_convex_decomposition.operators.settings import (
-    WCD_OT_use_preset,
-    parameters_from,
-)
+from weak_convex_decomposition.operators.scene_settings import WCD_OT_use_preset
+from weak_convex_decomposition.operators.settings import parameters_from
 
 FAST = {"samples": 300}
 

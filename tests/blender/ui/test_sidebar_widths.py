@@ -1,6 +1,8 @@
 """What the sidebar shows where there is not room for all."""
 
 import pytest
+from weak_convex_decomposition.ui.chart import gains_of, reason_for
+from weak_convex_decomposition.ui.edit_panel import fitting
 from weak_convex_decomposition.ui.hulls_panel import endings
 from weak_convex_decomposition.ui.parts_table import headings
 
@@ -21,6 +23,44 @@ HULLS = [{"part": 0, "error": 0.1}]
 )
 def test_the_table_has_the_figures_that_there_is_room_for(hulls, width, expected):
     assert headings(hulls, width) == expected
+
+
+def test_a_scroll_bar_takes_room_from_the_figures():
+    assert headings([], _USUAL, n_rows=9) == ["Faces", "Rank"]
+    assert headings([], _USUAL, n_rows=10) == ["Rank"]
+
+
+@pytest.mark.parametrize(
+    ("names", "expected"),
+    [
+        (["Jaw"], "Split Jaw"),
+        (["Jaw", "Head"], "Split 2 Parts"),
+        (["The Left Ear of Suzanne"], "Split The Left E…"),
+        ([], "Split"),
+    ],
+)
+def test_names_are_shortened_where_a_button_has_no_room(names, expected):
+    assert fitting("Split", names, room=90) == expected
+
+
+@pytest.mark.parametrize(
+    ("best", "gains", "words"),
+    [
+        (5, {1: 0.0, 5: 0.98, 10: 1.0}, "5 is best: 10 gain only 2% more."),
+        (5, {1: 0.0, 5: 0.999, 7: 1.0}, "7 gain less than 1% more."),
+        (7, {1: 0.0, 5: 1.0, 7: 0.98}, "5 gain only 2% more, but split less"),
+        (5, {1: 0.0, 5: 1.0, 10: 0.9}, None),
+        (None, {1: 0.0, 5: 1.0}, None),
+    ],
+)
+def test_the_chart_says_why_the_longest_bar_is_not_the_best(best, gains, words):
+    reason = reason_for(best, gains)
+    assert reason is None if words is None else words in reason
+
+
+def test_bars_are_shares_of_the_largest_gain():
+    assert gains_of({"10": 1.5, "2": 1.0, "1": 0.5}) == {1: 0.0, 2: 0.5, 10: 1.0}
+    assert gains_of({"1": 1.0, "2": 1.0}) == {1: 1.0, 2: 1.0}
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,11 @@
 
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.parts.part_count import PartCountSearch
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts.part_count import (
+    PartCountSearch,
+    gain_tolerance,
+)
 from weak_convex_decomposition.core.parts.part_memo import Candidate
 from weak_convex_decomposition.core.parts.seams import Seams
 from weak_convex_decomposition.core.steps.memo import Memo
@@ -17,8 +21,9 @@ class KnownParts:
 
     by_psi, negligible = True, 0.003
 
-    def __init__(self, psi_of_clusters):
+    def __init__(self, psi_of_clusters, alpha):
         self.psi_of_clusters = psi_of_clusters
+        self.parameters = Parameters(alpha=alpha)
 
     def psi(self, parts):
         return PSI[parts.max()]
@@ -28,14 +33,14 @@ class KnownParts:
         return Seams(parts)
 
 
-def chosen(even, psi_of_clusters):
+def chosen(even, psi_of_clusters, alpha=2.0):
     """Return the number of parts chosen; those in `even` are symmetric."""
     tried = {
         k: Candidate(np.arange(k), psi, k in even) for k, psi in enumerate(PSI, start=1)
     }
     memo = Memo()
     memo.recall((2, 6), lambda: tried)
-    known = KnownParts(psi_of_clusters)
+    known = KnownParts(psi_of_clusters, alpha)
     return run(PartCountSearch(known, known, 2, 6, memo).best()).best_k
 
 
@@ -58,3 +63,18 @@ def test_also_where_clusters_are_better_for_each_number(even, expected):
 def test_numbers_whose_clusters_are_better_give_way():
     assert chosen((), lambda k: as_parts(k) + 0.01 * (k < 5)) == 5
     assert chosen((6,), lambda k: as_parts(k) + 0.01 * (k > 4)) == 3
+
+
+def test_the_tolerance_is_that_of_the_default_for_all_smaller_alphas():
+    default = gain_tolerance(Parameters().alpha)
+    assert default == 0.035
+    assert [gain_tolerance(alpha) for alpha in (0.0, 0.2, 1.0)] == [default] * 3
+
+
+@pytest.mark.parametrize("alpha", [2.0, 3.0, 5.0])
+def test_with_twice_the_alpha_half_of_the_gain_may_be_missing(alpha):
+    assert gain_tolerance(2 * alpha) == pytest.approx(gain_tolerance(alpha) / 2)
+
+
+def test_more_detail_takes_more_parts():
+    assert [chosen((), as_parts, alpha) for alpha in (0.5, 2.0, 10.0)] == [3, 3, 4]

@@ -5,10 +5,12 @@ import json
 import bpy
 from leftovers import leftovers
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.parts.rows import noted_refusal
 from weak_convex_decomposition.operators.running import modal as running
 
-# Where a row of the table has its box to tick, in shares of the sidebar's width.
+# Where a row of the table has its box and its name, in shares of the sidebar's width.
 _TICK = 0.11
+_NAME = 0.35
 
 
 def names():
@@ -45,7 +47,7 @@ def steps(hands):
     assert n_parts >= 4
 
     call = "wcd.split_parts(parts=2)"
-    yield from edited(hands, call, n_parts + 1, columns=(0.25,))
+    yield from edited(hands, call, n_parts + 1, columns=(0.55,))
 
     for row in (1, 2):
         place = yield from hands.find(f"wcd_parts[{row}].chosen", columns=(_TICK,))
@@ -54,3 +56,23 @@ def steps(hands):
     yield from edited(hands, "wcd.merge_parts", n_parts - 1, columns=(0.25,))
     rows = bpy.context.active_object.wcd_parts
     assert [row.chosen for row in rows[:3]] == [False, True, True]
+
+    # A click on another row takes the ticks away; a name that is taken is refused.
+    _, height = yield from hands.find("wcd_parts[3].chosen", columns=(_TICK,))
+    region = hands.region()
+    place = int(region.x + _NAME * (region.width - 20)), height
+    yield from hands.click(place)
+    yield lambda: bpy.context.active_object.wcd_active_part == 3
+    obj = bpy.context.active_object
+    assert not any(row.chosen for row in obj.wcd_parts)
+    yield 0.5
+    hands._do("click", "--repeat", 2, "--delay", 60, 1)
+    yield 0.3
+    yield from hands.press("ctrl+a")
+    hands._do("type", "Part 01")
+    yield 0.3
+    yield from hands.press("Return")
+    yield lambda: noted_refusal(bpy.context.active_object)
+    hands.picture("refused", hands.area)
+    assert "called Part 01" in noted_refusal(bpy.context.active_object)
+    assert names()[3] == bpy.context.active_object.wcd_parts[3].name != "Part 01"

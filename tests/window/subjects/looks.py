@@ -7,6 +7,13 @@ from leftovers import leftovers
 
 THEMES = {"dark": "Blender_Dark", "light": "Blender_Light"}
 SCALES = (1.0, 1.5)
+# Those that are open in pictures of a name; the screen has no room for all.
+PANELS = {
+    "edit": ("WCD_PT_parts", "WCD_PT_edit"),
+    "chart": ("WCD_PT_parts", "WCD_PT_chart"),
+    "others": ("WCD_PT_use", "WCD_PT_why", "WCD_PT_hulls"),
+    "advanced": ("WCD_PT_advanced",),
+}
 
 
 def use_theme(name):
@@ -42,24 +49,43 @@ def picked(hands, name):
 
 
 def steps(hands):
-    view = bpy.context.preferences.view
+    yield from decomposed_suzanne(hands, "before", "after")
+    with hands.context():
+        bpy.ops.wcd.rename_parts("INVOKE_DEFAULT")
+    yield 0.5
+    hands.picture("names", hands.area)
+    yield from hands.press("Escape")
+    for name, panels in PANELS.items():
+        with hands.context():
+            bpy.ops.wm.read_homefile()  # forgets which panels are open
+        yield 0.5
+        hands.open_panels(*panels)
+        yield from decomposed_suzanne(hands)
+        for theme, file in THEMES.items():
+            with hands.context():
+                use_theme(file)
+            for bpy.context.preferences.view.ui_scale in SCALES:
+                yield 0.5
+                yield from hands.open_sidebar()
+                scale = bpy.context.preferences.view.ui_scale
+                hands.picture(f"{theme}-{scale:.1f}-{name}", hands.area)
+                if name == "edit":
+                    yield from picked(hands, f"picked-{theme}-{scale:.1f}")
+        bpy.context.preferences.view.ui_scale = 1.0
+
+
+def decomposed_suzanne(hands, *pictures):
+    """Decompose the monkey; take pictures of the tab before, and of all after that."""
     yield from hands.fill_screen()
     yield from hands.open_sidebar()
     hands.suzanne(2)
     bpy.context.scene.wcd.samples = 600
     yield 0.5
-    hands.picture("before", hands.region(), height=290)
+    for name in pictures[:1]:
+        hands.picture(name, hands.region(), height=229)
     with hands.context():
         bpy.ops.wcd.decompose(samples=600)
     yield from hands.move(300, 300)
     yield 0.5
-    hands.picture("after", hands.area)
-    for theme, file in THEMES.items():
-        with hands.context():
-            use_theme(file)
-        for scale in SCALES:
-            view.ui_scale = scale
-            yield 0.5
-            yield from hands.open_sidebar()
-            hands.picture(f"{theme}-{scale}", hands.area)
-            yield from picked(hands, f"picked-{theme}-{scale}")
+    for name in pictures[1:]:
+        hands.picture(name, hands.area)

@@ -109,7 +109,7 @@ def steps(hands):
     yield lambda: sight_overlay.current is None
     assert leftovers() == []
     yield 0.5
-    assert drawn(hands.pixels("hidden")) == plain
+    assert is_plain(hands, "hidden", plain)
 
     yield from keep_by_enter(hands)
     assert snapshot(obj) == before

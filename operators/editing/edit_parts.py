@@ -6,34 +6,42 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..core.errors import DecompositionError
-from ..core.steps.progress import Steps
-from .bridge.mesh.selection import selected_faces
-from .bridge.parts.read import part_identities
-from .bridge.parts.rows import active_part, chosen_parts
-from .bridge.refusals import (
+from ...core.errors import DecompositionError
+from ...core.steps.progress import Steps
+from ..bridge.mesh.selection import selected_faces
+from ..bridge.parts.read import part_identities
+from ..bridge.parts.rows import active_part, chosen_numbers, chosen_parts
+from ..bridge.refusals import (
     assign_refusal,
     decomposed_refusal,
     edit_refusal,
     merge_refusal,
 )
-from .bridge.work import edits
-from .bridge.work.run_edit import Edited, edit_object
-from .running.computation import Replacement
-from .settings import properties_for
+from ..bridge.work import edits
+from ..bridge.work.run_edit import Edited, edit_object
+from ..running.computation import Replacement
+from ..settings import properties_for
 
-SCOPE = bpy.props.EnumProperty(
-    name="Seams Of",
-    description="The parts whose seams are meant",
-    items=(
-        ("CHOSEN", "Chosen Parts", "The ticked parts, or the highlighted one"),
-        ("ALL", "All Parts", "All parts of the object"),
-    ),
-)
+
+def scope(default: str) -> Any:
+    """Return the property that says whose seams are meant, "CHOSEN" or "ALL" parts'."""
+    return bpy.props.EnumProperty(
+        name="Seams Of",
+        description="The parts whose seams are meant",
+        items=(
+            (
+                "CHOSEN",
+                "Chosen Parts",
+                "The ticked parts, or the highlighted one",
+            ),
+            ("ALL", "All Parts", "All parts of the object"),
+        ),
+        default=default,
+    )
 
 
 def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
-    """Return the parts that a `SCOPE` means."""
+    """Return the parts that a `scope` means."""
     return (
         chosen_parts(obj)
         if scope == "CHOSEN"
@@ -63,7 +71,7 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return merge_refusal(obj)
+        return merge_refusal(obj, len(chosen_numbers(obj)) if obj else 0)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
@@ -142,7 +150,10 @@ class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
         return edit_object(obj, edits.smoothing(chosen, self.smoothness))
 
 
-WCD_OT_smooth_seams.__annotations__ = {"scope": SCOPE, **properties_for(["smoothness"])}
+WCD_OT_smooth_seams.__annotations__ = {
+    "scope": scope("CHOSEN"),
+    **properties_for(["smoothness"]),
+}
 
 
 class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):

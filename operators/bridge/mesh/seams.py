@@ -1,0 +1,83 @@
+"""Mark edges of a mesh as seams, for unwrapping, and take back what was marked.
+
+The attribute `wcd_seam` notes the edges that were no seams before, so that the user's
+own seams stay. It follows the mesh through edits and undo.
+"""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+import numpy as np
+
+from ....core.errors import DecompositionError
+from ..stored.names import SEAM_LAYER
+from .attributes import BoolArray, read_flags, read_ints, write_flags, write_ints
+from .selection import show_flags
+
+# Blender's own attribute of seams, before and since 5.0.
+_BLENDERS = (".uv_seam", "uv_seam")
+
+
+def has_marked_seams(mesh: bpy.types.Mesh) -> bool:
+    """Return whether there is a note of seams that we marked."""
+    if mesh.is_editmode:
+        return SEAM_LAYER in bmesh.from_edit_mesh(mesh).edges.layers.int
+    attribute = mesh.attributes.get(SEAM_LAYER)
+    return attribute is not None and _is_ours(attribute)
+
+
+def mark_seams(mesh: bpy.types.Mesh, chosen: BoolArray) -> None:
+    """Mark edges (E,) as seams in place of those that were marked before.
+
+    Raises
+    ------
+    DecompositionError
+        If the mesh has another attribute of that name.
+    """
+    attribute = mesh.attributes.get(SEAM_LAYER)
+    if attribute is not None and not _is_ours(attribute):
+        raise DecompositionError(
+            f"The mesh has an attribute {SEAM_LAYER} that this add-on did not write;"
+            " rename or remove it in the mesh's properties."
+        )
+    unmark_seams(mesh)
+    if mesh.is_editmode:
+        edges = bmesh.from_edit_mesh(mesh).edges
+        layer = edges.layers.int.new(SEAM_LAYER)
+        for edge, wanted in zip(edges, chosen.tolist(), strict=True):
+            edge[layer] = wanted and not edge.seam
+            edge.seam = edge.seam or wanted
+    else:
+        seams = read_flags(mesh.edges, "use_seam")
+        attribute = mesh.attributes.new(SEAM_LAYER, "INT", "EDGE")
+        write_ints(attribute.data, "value", (chosen & ~seams).astype(np.int32))
+        write_flags(mesh.edges, "use_seam", seams | chosen)
+    show_flags(mesh)
+
+
+def unmark_seams(mesh: bpy.types.Mesh) -> None:
+    """Take back the seams that we marked, and no others."""
+    if not has_marked_seams(mesh):
+        return
+    if mesh.is_editmode:
+        edges = bmesh.from_edit_mesh(mesh).edges
+        layer = edges.layers.int[SEAM_LAYER]
+        for edge in edges:
+            edge.seam = edge.seam and not edge[layer]
+        edges.layers.int.remove(layer)
+    else:
+        attribute = mesh.attributes[SEAM_LAYER]
+        ours = read_ints(attribute.data, "value") != 0
+        seams = read_flags(mesh.edges, "use_seam") & ~ours
+        mesh.attributes.remove(attribute)
+        write_flags(mesh.edges, "use_seam", seams)
+        for name in () if seams.any() else _BLENDERS:
+            if name in mesh.attributes:
+                mesh.attributes.remove(mesh.attributes[name])
+    show_flags(mesh)
+
+
+def _is_ours(attribute: bpy.types.Attribute) -> bool:
+    """Return whether an attribute of our name can be our note."""
+    return attribute.domain == "EDGE" and attribute.data_type == "INT"

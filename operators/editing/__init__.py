@@ -1,0 +1,1 @@
+"""Operators that change parts by hand, and their names."""

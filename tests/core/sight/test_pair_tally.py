@@ -1,0 +1,36 @@
+"""Psi of counted pairs, and the word for it."""
+
+import numpy as np
+import pytest
+from weak_convex_decomposition.core.sight.pair_tally import PairTally, quality_word
+
+# Two blobs of 10 samples that see nothing of each other: half of all pairs are visible.
+APART = PairTally(np.diag([100.0, 100.0]), np.full((2, 2), 100.0))
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.5, 2.0, 10.0])
+def test_parts_that_split_all_hidden_pairs_and_no_visible_one_are_very_good(alpha):
+    before = APART.merged(0, 1).psi(alpha)
+    assert before == 0.5
+    assert quality_word(APART.psi(alpha), before, alpha) == "Very Good"
+
+
+def test_a_whole_that_hides_half_of_itself_is_poor_and_a_convex_one_very_good():
+    assert quality_word(0.5, 0.5, 2.0) == "Poor"
+    assert quality_word(1.0, 1.0, 2.0) == "Very Good"
+
+
+@pytest.mark.parametrize(
+    ("share", "word"),
+    [
+        *((1.0, "Very Good"), (0.851, "Very Good"), (0.849, "Good"), (0.751, "Good")),
+        *((0.749, "Fair"), (0.601, "Fair"), (0.599, "Poor"), (0.0, "Poor")),
+    ],
+)
+def test_words_begin_at_their_shares_of_the_largest_psi(share, word):
+    before, alpha = 0.553, 2.0
+    assert quality_word(share * (before + alpha * (1 - before)), before, alpha) == word
+
+
+def test_shapes_of_which_nothing_is_seen_have_a_word_too():
+    assert quality_word(0.0, 0.0, 0.0) == "Very Good"
