@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from .cache import ShapeCache as ShapeCache
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
+    from .geometry.cutting.pieces import labels_of_pieces as labels_of_pieces
+    from .geometry.cutting.planes import find_cuts as find_cuts
+    from .geometry.cutting.refined import RefinedMesh as RefinedMesh
+    from .geometry.cutting.refined import refined as refined
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.outline import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
@@ -38,6 +42,10 @@ _HOMES = {
     "ShapeCache": "cache",
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
+    "labels_of_pieces": "geometry.cutting.pieces",
+    "find_cuts": "geometry.cutting.planes",
+    "RefinedMesh": "geometry.cutting.refined",
+    "refined": "geometry.cutting.refined",
     "build_hulls_in_steps": "hulls.build",
     "outline_of": "hulls.outline",
     "mass_of_mesh": "solids.mass",

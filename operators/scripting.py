@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from numpy.typing import ArrayLike
 
 from .. import core
+from ..core.errors import DecompositionError
 from ..core.geometry.array_checks import described
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
@@ -69,6 +70,11 @@ def decompose(
     2
     """
     settings = _settings("decompose", parameters, Parameters, changes)
+    if settings.seams == "CUT":
+        raise DecompositionError(
+            "decompose() returns parts of the faces as they are; to cut faces, use"
+            " bpy.ops.wcd.decompose(seams='CUT') or the command line."
+        )
     cache = core.ShapeCache(choose_ray_caster(caster))
     steps = core.decompose_in_steps(shape_of(shape, faces), settings, cache)
     return _finish(steps, progress)

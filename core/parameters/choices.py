@@ -91,6 +91,20 @@ REFINEMENT = (
     ),
 )
 
+SEAMS = (
+    Choice(
+        "KEEP",
+        "Keep Faces",
+        "Seams follow the edges that are there; no face is cut",
+    ),
+    Choice(
+        "CUT",
+        "Cut Faces",
+        "Large faces are cut where parts meet on them, in Object Mode. Clear brings the"
+        " whole faces back, unless the mesh was edited since",
+    ),
+)
+
 # Pictures that `pictures.draw_picture` draws.
 PICTURES = (
     Choice(

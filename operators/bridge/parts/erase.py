@@ -48,6 +48,20 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     return materials
 
 
+def bare_materials(
+    obj: bpy.types.Object, restore: Restore | None
+) -> tuple[IntArray | None, list[str]]:
+    """Return the material index of each face, and the names of the user's materials.
+
+    Both are as they would be without our slots.
+    """
+    mesh, layers = obj.data, layers_of(obj)
+    if restore is None:
+        return layers.material_indices(), _names_without(mesh, [])
+    indices = _indices_without_ours(mesh, restore, layers)
+    return indices, _names_without(mesh, _our_slots(mesh, restore))
+
+
 def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
     """Remove our vertex groups and make the user's group active again."""
     groups = obj.vertex_groups

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from operator import attrgetter
 
@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition
-from ..mesh.attributes import IntArray
-from ..mesh.corners import corner_faces, corner_vertices
+from ..cuts.new_faces import NewFaces
+from ..mesh.corners import vertices_by_label
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
@@ -43,6 +43,7 @@ def write_parts(
     parameters: Parameters,
     kept: Sequence[Identity] | None = None,
     by_hand: NDArray[np.bool_] | None = None,
+    faces: NewFaces | None = None,
 ) -> None:
     """Show a decomposition on its object, in place of an earlier one.
 
@@ -59,6 +60,8 @@ def write_parts(
         they share most area with; only the others are new.
     by_hand : (P,) bool, optional
         Faces, or points, that the user settled by hand.
+    faces : NewFaces, optional
+        The faces that the object gets; without it, it has them already.
 
     Raises
     ------
@@ -66,15 +69,21 @@ def write_parts(
         If the object cannot be written to, or the user has data under our names.
     """
     check_writable(obj)
-    n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
+    if faces is not None:
+        faces.check(obj)
+        n_elements = len(faces.wholes)
+    else:
+        n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
     if len(decomposition.labels) != n_elements:
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
     also_shown, before = shown(obj), BeforeWriting.of(obj)
-    identities = kept or before.continued_by(obj, decomposition)
+    identities = kept or before.continued_by(obj, decomposition, faces)
     decomposition, identities = by_number(decomposition, identities)
     former = erase_parts(obj)
+    if faces is not None:
+        faces.put_on(obj)
     everyone = sorted(
         (*identities, *before.asleep(identities)), key=attrgetter("number")
     )
@@ -190,7 +199,7 @@ def _write_mesh(
         (places[decomposition.labels] + len(slots)).astype(np.int32)
     )
     labels = decomposition.labels.astype(np.int32)
-    members = _vertices_by_part(obj, labels, len(identities))
+    members = vertices_by_label(obj.data, labels, len(identities))
     for place, vertices in zip(
         places.tolist() if groups else (), members, strict=False
     ):
@@ -234,15 +243,3 @@ def _materials(
         return [points_material(COLOR_LAYER, slots)]
     return own_materials(identities, [sources.get(each.number) for each in identities])
 
-
-def _vertices_by_part(
-    obj: bpy.types.Object, labels: IntArray, n_parts: int
-) -> Iterator[IntArray]:
-    """Yield the vertices, or points, of each part."""
-    if is_cloud(obj):
-        vertices, parts = np.arange(len(labels), dtype=np.int32), labels
-    else:
-        vertices = corner_vertices(obj.data)
-        parts = labels[corner_faces(obj.data)]
-    for part in range(n_parts):
-        yield np.unique(vertices[parts == part])

@@ -22,6 +22,7 @@ from ..parts.write import check_writable
 from ..read.shape import read_shape, reading_notes, scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
+from .cutting import gets_new_faces, shape_to_split
 from .libraries import with_libraries
 from .session_cache import has_seen, session_cache
 
@@ -55,7 +56,11 @@ def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    return parameters.levels == 1 and has_seen(read_shape(obj), parameters)
+    if parameters.levels > 1:
+        return False
+    if gets_new_faces(obj, parameters):
+        return has_seen(shape_to_split(obj, parameters), parameters)
+    return has_seen(read_shape(obj), parameters)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:

@@ -26,9 +26,15 @@ from ..parts.write import check_writable
 from ..read.shape import read_shape, reading_notes
 from ..refusals import edit_refusal
 from .computing import decompose_object
+from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
 from .run_edit import Edited
 from .session_cache import session_cache
+
+_NOT_CUT = (
+    "No more faces were cut, because some parts are locked or settled by hand; unlock"
+    " them, or clear Keep Edits."
+)
 
 
 def decompose_unlocked(
@@ -61,6 +67,8 @@ def decompose_unlocked(
         held = _held(parts, by_hand)
         if held.any() or by_hand.any():
             return _decompose_rest(obj, parameters, parts, by_hand, held)
+    if gets_new_faces(obj, parameters):
+        return decompose_whole_faces(obj, parameters)
     steps = decompose_object(obj, parameters)
 
     def work() -> Steps[Edited]:
@@ -87,6 +95,8 @@ def _decompose_rest(
     members = ~held[parts.labels]
     rest = _parameters_of_rest(parameters, parts, held)
     notes, shape = reading_notes(obj), read_shape(obj)
+    if gets_new_faces(obj, parameters) and parameters.seams == "CUT":
+        notes = (*notes, _NOT_CUT)
     areas = face_areas(obj, len(members))
 
     def work() -> Steps[Edited]:
