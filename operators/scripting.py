@@ -70,11 +70,7 @@ def decompose(
     2
     """
     settings = _settings("decompose", parameters, Parameters, changes)
-    if settings.seams == "CUT":
-        raise DecompositionError(
-            "decompose() returns parts of the faces as they are; to cut faces, use"
-            " bpy.ops.wcd.decompose(seams='CUT') or the command line."
-        )
+    _check_keeps_faces(settings)
     cache = core.ShapeCache(choose_ray_caster(caster))
     steps = core.decompose_in_steps(shape_of(shape, faces), settings, cache)
     return _finish(steps, progress)
@@ -182,6 +178,15 @@ def build_hulls(
     unit = scene_unit_of(mesh)
     steps = core.build_hulls_in_steps(solid, settings, cache, parts, 0, unit)
     return _finish(steps, progress)
+
+
+def _check_keeps_faces(settings: Parameters) -> None:
+    """Raise if faces are to be cut: the result has one label for each face given."""
+    if settings.seams == "CUT":
+        raise DecompositionError(
+            "decompose() returns the parts of the faces as they are; to cut faces, use"
+            " bpy.ops.wcd.decompose(seams='CUT') or the command line."
+        )
 
 
 def _settings(

@@ -17,7 +17,7 @@ _CREASE_WEIGHT = 25.0
 # Least angle of such a crease, in radians.
 _LEAST_CREASE = 0.3
 # A plane stands upright on the surface where the seam does not say how it is tilted.
-_UPRIGHT = 0.3
+_UPRIGHT = 1.0
 # A plane serves a face if the seam is this near to it on average, in longest edges.
 _NEAR = 1.0
 
@@ -59,6 +59,8 @@ def find_cuts(refined: RefinedMesh, labels: NDArray[np.int64]) -> list[Cut]:
 
 def _cuts_of_seam(seams: _Seams, rows: NDArray[np.int64], size: float) -> list[Cut]:
     """Return the planes that cut the faces of one connected seam."""
+    if (seams.face[rows] < 0).all():
+        return []
     point, normal = _fitted(seams, rows)
     middles = (seams.starts + seams.ends) / 2
     along: list[int] = []
@@ -84,7 +86,8 @@ def _fitted(
     center = np.average(points, axis=0, weights=both)
     offsets = points - center
     spread = (offsets * both[:, None]).T @ offsets / both.sum()
-    normals = seams.normals[rows]
+    within = rows[seams.face[rows] >= 0]
+    normals, weights = seams.normals[within], seams.weights[within]
     upright = (normals * weights[:, None]).T @ normals / weights.sum()
     spread = spread + _UPRIGHT * np.trace(spread) * upright
     return center, np.linalg.eigh(spread)[1][:, 0]

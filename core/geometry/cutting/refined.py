@@ -56,7 +56,7 @@ class RefinedMesh:
         """Return the center (Q, 3) and area (Q,) of each polygon."""
         mesh, n_polygons = self.mesh, len(self.faces)
         middles = mesh.vertices[mesh.triangles].mean(axis=1)
-        areas = np.bincount(mesh.polygons, mesh.areas, n_polygons)
+        areas = np.bincount(mesh.polygons, mesh.areas, n_polygons).astype(np.float64)
         # Polygons without area have centers, too.
         weights = mesh.areas + np.finfo(float).tiny
         totals = np.bincount(mesh.polygons, weights, n_polygons)

@@ -10,7 +10,6 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.errors import DecompositionError
 from ....core.geometry.cutting.refined import Cut
 from ..mesh.attributes import read_floats
 from ..stored.names import WHOLE_MESH
@@ -103,12 +102,9 @@ class NewFaces:
         found: NDArray[np.int64] = covered.argmax(axis=1)[self.wholes]
         return found
 
-    def check(self, obj: bpy.types.Object) -> None:
-        """Raise if these are no faces of an object, because it has changed."""
-        if len(whole_mesh_of(obj).polygons) != self.n_wholes:
-            raise DecompositionError(
-                "The mesh was changed while it was decomposed; start again."
-            )
+    def fit(self, obj: bpy.types.Object) -> bool:
+        """Return whether these are faces of an object, which has not changed since."""
+        return len(whole_mesh_of(obj).polygons) == self.n_wholes
 
     def put_on(self, obj: bpy.types.Object) -> None:
         """Give an object without parts these faces."""

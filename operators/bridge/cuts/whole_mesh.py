@@ -51,9 +51,7 @@ def whole_mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
 
 def is_cut(obj: bpy.types.Object) -> bool:
     """Return whether faces of an object are cut."""
-    return obj.type == "MESH" and isinstance(
-        obj.data.get(WHOLE_MESH), bpy.types.Mesh
-    )
+    return obj.type == "MESH" and isinstance(obj.data.get(WHOLE_MESH), bpy.types.Mesh)
 
 
 def edited_since_cut(obj: bpy.types.Object) -> bool:
@@ -163,7 +161,11 @@ def _state_of(obj: bpy.types.Object) -> str:
     ]
     for key in getattr(mesh.shape_keys, "key_blocks", ()):
         add(key.name, read_floats(key.data, "co", 3))
-    noted = {key: str(mesh[key]) for key in mesh.keys() if not key.startswith("wcd")}
+    noted = {
+        key: str(value.to_dict() if hasattr(value, "to_dict") else value)
+        for key, value in mesh.items()
+        if not key.startswith("wcd")
+    }
     digest.update(json.dumps([names, users, weights, noted]).encode())
     return digest.hexdigest()
 

@@ -69,15 +69,7 @@ def write_parts(
         If the object cannot be written to, or the user has data under our names.
     """
     check_writable(obj)
-    if faces is not None:
-        faces.check(obj)
-        n_elements = len(faces.wholes)
-    else:
-        n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
-    if len(decomposition.labels) != n_elements:
-        raise DecompositionError(
-            "The mesh was changed while it was decomposed; start again."
-        )
+    _check_fits(obj, decomposition, faces)
     also_shown, before = shown(obj), BeforeWriting.of(obj)
     identities = kept or before.continued_by(obj, decomposition, faces)
     decomposition, identities = by_number(decomposition, identities)
@@ -96,6 +88,18 @@ def write_parts(
     _note(obj, decomposition, parameters, restore, everyone, identities, before)
     show(obj, *also_shown)
     discard_unused(former)
+
+
+def _check_fits(
+    obj: bpy.types.Object, decomposition: Decomposition, faces: NewFaces | None
+) -> None:
+    """Raise if parts are not those of an object's faces, or of its new faces."""
+    n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
+    fits = faces.fit(obj) if faces else len(decomposition.labels) == n_elements
+    if not fits:
+        raise DecompositionError(
+            "The mesh was changed while it was decomposed; start again."
+        )
 
 
 def _note(
@@ -242,4 +246,3 @@ def _materials(
     if is_cloud(obj):
         return [points_material(COLOR_LAYER, slots)]
     return own_materials(identities, [sources.get(each.number) for each in identities])
-

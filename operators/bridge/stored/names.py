@@ -6,8 +6,8 @@ from __future__ import annotations
 RESULT = "wcd"
 # Custom property of a mesh: how to bring it back, JSON.
 RESTORE = "wcd_restore"
-# Custom properties of a mesh whose faces are cut: the mesh with the whole faces, and what
-# shows that the cut one was edited since.
+# Custom properties of a mesh whose faces are cut: the mesh with the whole faces, and
+# what shows that the cut one was edited since.
 WHOLE_MESH = "wcd_whole_mesh"
 CUT_STATE = "wcd_cut_state"
 # Attribute of faces that are cut: the number of the whole face.

@@ -122,7 +122,7 @@ def _cut(
     after = replace(
         (yield from _measured(refined, places[of_polygons], found, parameters)),
         labels=places[labels],
-        areas=areas[order],
+        areas=areas[order].astype(np.float64),
         face_counts=np.bincount(places[labels]),
         pairs=tuple(
             (int(places[one]), int(places[other]))

@@ -13,6 +13,8 @@ from .checks import attempt, bodies, bone, check_body, only
 
 FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
 NUMBERS = st.integers(0, 5)
+PARTS = st.sampled_from([0, 2, 3, 4, 6])
+SEAMS = st.sampled_from(["KEEP", "KEEP", "CUT"])
 NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
 COLORS = st.tuples(*[st.sampled_from([0.1, 0.4, 0.8])] * 3)
 KINDS = st.sampled_from(["ARRAY", "MIRROR", "SUBSURF", "TRIANGULATE"])
@@ -68,10 +70,10 @@ class RestlessArtist(RuleBasedStateMachine):
         """End a step, to be undone."""
         bpy.ops.ed.undo_push(message="step")
 
-    @rule(n=NUMBERS, parts=st.sampled_from([0, 2, 3, 4, 6]), keep=st.booleans())
-    def decompose(self, n, parts, keep):
+    @rule(n=NUMBERS, parts=PARTS, keep_edits=st.booleans(), seams=SEAMS)
+    def decompose(self, n, **options):
         self.remember(self.body(n))
-        attempt(bpy.ops.wcd.decompose, **FAST, parts=parts, keep_edits=keep)
+        attempt(bpy.ops.wcd.decompose, **FAST, **options)
         self.done()
 
     @rule(n=NUMBERS, name=st.sampled_from(OPERATORS))
@@ -247,3 +249,4 @@ class RestlessArtist(RuleBasedStateMachine):
             assert not any(map(is_ours, obj.data.materials)) or obj.name.count("Part")
             assert "wcd" not in obj
             assert "wcd_restore" not in obj.data
+            assert "wcd_whole_mesh" not in obj.data

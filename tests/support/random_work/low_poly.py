@@ -48,7 +48,7 @@ def _prism(bm, rng):
             outline += [(2.0 * tooth, depth), (2.0 * tooth - 1, depth)]
     bottom = bm.faces.new([bm.verts.new((x, y, 0)) for x, y in outline])
     _pushed(bm, bottom, Vector((0, 0, rng.uniform(0.5, 1.5))))
-    bm.faces.new([vertex for vertex in bm.verts[: len(outline)]][::-1])
+    bm.faces.new(bm.verts[: len(outline)][::-1])
 
 
 def _pushed(bm, face, away):
