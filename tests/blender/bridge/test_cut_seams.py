@@ -13,6 +13,7 @@ from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
     edited_since_cut,
     is_cut,
 )
+from weak_convex_decomposition.operators.headless.command_line import main
 
 FAST = {"samples": 200, "containers": "HOLLOW", "max_parts": 4}
 OUTLINE = [(1, 1), (1, 4), (0, 4), (0, 0), (4, 0), (4, 1)]
@@ -200,6 +201,15 @@ def test_a_stretched_object_is_cut_as_it_is_seen(angle):
     assert is_cut(angle)
     bpy.ops.wcd.clear()
     assert snapshot(angle) == before
+
+
+def test_the_command_line_writes_the_cut_faces(angle, tmp_path):
+    source, output = tmp_path / "l.blend", tmp_path / "l.obj"
+    bpy.ops.wm.save_as_mainfile(filepath=str(source))
+    options = ["--samples", "200", "--parts", "2", "--seams", "cut", "--quiet"]
+    assert main([str(source), "--output", str(output), *options]) == 0
+    lines = output.read_text(encoding="utf-8").splitlines()
+    assert sum(line.startswith("f ") for line in lines) == 11
 
 
 def test_the_function_for_arrays_says_who_cuts(angle):

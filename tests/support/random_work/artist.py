@@ -183,8 +183,7 @@ class RestlessArtist(RuleBasedStateMachine):
     def undo(self, redo):
         """Undo or redo as in Object Mode: all of the file."""
         self.kept = []
-        operator = bpy.ops.ed.redo if redo else bpy.ops.ed.undo
-        attempt(operator)
+        attempt(bpy.ops.ed.redo if redo else bpy.ops.ed.undo)
 
     def remember(self, obj):
         """Keep the mesh as Edit Mode's undo does: nothing else comes back with it."""
@@ -248,5 +247,4 @@ class RestlessArtist(RuleBasedStateMachine):
             assert not [a.name for a in obj.data.attributes if "wcd" in a.name]
             assert not any(map(is_ours, obj.data.materials)) or obj.name.count("Part")
             assert "wcd" not in obj
-            assert "wcd_restore" not in obj.data
-            assert "wcd_whole_mesh" not in obj.data
+            assert not {"wcd_restore", "wcd_whole_mesh"} & {*obj.data.keys()}
