@@ -69,8 +69,7 @@ def decompose(
     >>> decompose(vertices, [(3, 2, 1, 0), (4, 5, 6, 7), *walls], samples=400).n_parts
     2
     """
-    settings = _settings("decompose", parameters, Parameters, changes)
-    _check_keeps_faces(settings)
+    settings = _keeping(_settings("decompose", parameters, Parameters, changes))
     cache = core.ShapeCache(choose_ray_caster(caster))
     steps = core.decompose_in_steps(shape_of(shape, faces), settings, cache)
     return _finish(steps, progress)
@@ -180,13 +179,14 @@ def build_hulls(
     return _finish(steps, progress)
 
 
-def _check_keeps_faces(settings: Parameters) -> None:
+def _keeping(settings: Parameters) -> Parameters:
     """Raise if faces are to be cut: the result has one label for each face given."""
     if settings.seams == "CUT":
         raise DecompositionError(
             "decompose() returns the parts of the faces as they are; to cut faces, use"
             " bpy.ops.wcd.decompose(seams='CUT') or the command line."
         )
+    return settings
 
 
 def _settings(

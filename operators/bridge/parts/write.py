@@ -76,9 +76,8 @@ def write_parts(
     former = erase_parts(obj)
     if faces is not None:
         faces.put_on(obj)
-    everyone = sorted(
-        (*identities, *before.asleep(identities)), key=attrgetter("number")
-    )
+    asleep = before.asleep(identities)
+    everyone = sorted((*identities, *asleep), key=attrgetter("number"))
     restore = _write_mesh(obj, decomposition, identities, everyone, before.materials)
     if by_hand is not None and by_hand.any():
         layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
