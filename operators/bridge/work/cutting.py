@@ -104,7 +104,7 @@ def _cut(
 
     Return the parts of the faces, and how they are cut; None if no face is.
     """
-    yield Progress("Cuts", 0.98)
+    yield Progress("Seams", 1.0)
     n_wholes, near = len(made.wholes()), _NEAR * refined.size
     cuts = core.find_cuts(refined, found.labels)
     made.cut(cuts, near)
