@@ -10,13 +10,14 @@ from typing import Any
 
 def _classes() -> tuple[Any, ...]:
     """Return the classes that Blender is to know."""
-    from . import edit_parts, settings, show_parts, show_sight, use_parts
+    from . import edit_parts, settings, show_parts, use_parts
     from .decompose import WCD_OT_clear, WCD_OT_decompose
     from .hulls import WCD_OT_build_hulls, WCD_OT_make_rigid
     from .measure import WCD_OT_measure, WCD_OT_measure_selection
     from .recut import WCD_OT_choose_part_count, WCD_OT_recut
     from .running.modal import WCD_OT_cancel
     from .show_picture import WCD_OT_show_picture
+    from .viewport import choose_parts, pick_parts, show_sight
 
     return (
         *settings.CLASSES,
@@ -31,6 +32,8 @@ def _classes() -> tuple[Any, ...]:
         WCD_OT_choose_part_count,
         *use_parts.CLASSES,
         *show_sight.CLASSES,
+        *choose_parts.CLASSES,
+        *pick_parts.CLASSES,
         WCD_OT_show_picture,
         *edit_parts.CLASSES,
         *show_parts.CLASSES,
@@ -41,10 +44,11 @@ def register() -> None:
     """Register the operators, the settings, the command and the table's rows."""
     import bpy
 
-    from . import settings, show_sight
+    from . import settings
     from .bridge.parts import rows
     from .bridge.work import in_step, session_cache
     from .headless import command_line
+    from .viewport import picking, show_sight, shown_parts
 
     for cls in _classes():
         bpy.utils.register_class(cls)
@@ -53,6 +57,8 @@ def register() -> None:
     session_cache.register()
     in_step.register()
     show_sight.register()
+    shown_parts.register()
+    picking.register()
     rows.register()
 
 
@@ -60,15 +66,18 @@ def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     import bpy
 
-    from . import recut, settings, show_sight
+    from . import recut, settings
     from .bridge.parts import rows
     from .bridge.work import in_step, session_cache
     from .headless import command_line
     from .running import modal
+    from .viewport import picking, show_sight, shown_parts
 
     recut.stop()
     modal.stop()
     rows.unregister()
+    picking.unregister()
+    shown_parts.unregister()
     show_sight.unregister()
     in_step.unregister()
     session_cache.unregister()

@@ -10,10 +10,11 @@ from ..core.steps.progress import Steps
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls
 from .bridge.parts.erase import clear
-from .bridge.parts.exploding import implode
 from .bridge.parts.images import erase_images
 from .bridge.read.carrier import carrier_for, placed_carrier
 from .bridge.refusals import clear_refusal, decompose_refusal
+from .bridge.views.colors import show_colors_as
+from .bridge.views.node_modifiers import remove_views
 from .bridge.work.computing import summary
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
@@ -46,7 +47,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings; those at the front of the sidebar come first."""
-        draw(self.layout, self, (*FRONT, "keep_edits"))
+        draw(self.layout, self, (*FRONT, "keep_edits", "colors"))
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
@@ -57,7 +58,9 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         return decompose_unlocked(carrier_for(obj), parameters, self.keep_edits)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(placed_carrier(obj))
+        carrier = placed_carrier(obj)
+        value.write(carrier)
+        show_colors_as(carrier, self.colors)
         return summary(value.decomposition)
 
 
@@ -89,7 +92,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         erase_hulls(obj)
-        implode(obj)
+        remove_views(obj)
         erase_images(obj)
         clear(obj)
         if is_cut(obj) and not bring_back(obj):

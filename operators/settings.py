@@ -14,6 +14,7 @@ from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parameter import ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
 from ..core.parameters.presets import PRESETS, Preset, preset
+from .bridge.views.colors import CHOICES, MATERIALS
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -30,7 +31,13 @@ _OF_RUNS = {
             " faces that were assigned. Locked parts are kept in any case"
         ),
         default=True,
-    )
+    ),
+    "colors": bpy.props.EnumProperty(
+        name="Colors",
+        description="How runs show the colors of the parts",
+        items=CHOICES,
+        default=MATERIALS,
+    ),
 }
 RUN = (*ALL, *_OF_RUNS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
@@ -197,6 +204,10 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
     **_OF_RUNS,
+    "highlight": bpy.props.BoolProperty(
+        name="Highlight",
+        description="Show in the viewports which parts are chosen in the table",
+    ),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

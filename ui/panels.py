@@ -111,7 +111,7 @@ class WCD_PT_advanced(Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
-        draw(self.layout, context.scene.wcd, ADVANCED)
+        draw(self.layout, context.scene.wcd, (*ADVANCED, "colors"))
 
 
 def _progress(row: bpy.types.UILayout, run: Running) -> None:

@@ -169,14 +169,6 @@ def assign_refusal(obj: Candidate) -> str | None:
     return reason
 
 
-def isolate_refusal(obj: Candidate) -> str | None:
-    """Return why the faces of parts cannot be hidden."""
-    reason = faces_refusal(obj)
-    if reason is None and obj.mode != "EDIT":
-        return "Faces can be hidden in Edit Mode only; switch the mode"
-    return reason
-
-
 # Hulls.
 
 

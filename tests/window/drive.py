@@ -30,7 +30,7 @@ _PAUSE = 0.05
 
 def load(name):
     """Return the module of a subject."""
-    path = HERE / "subjects" / f"{name}.py"
+    path = next((HERE / "subjects").rglob(f"{name}.py"))
     spec = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

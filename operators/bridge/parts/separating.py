@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
+from ..views.node_modifiers import remove_views
 from .erase import clear
-from .exploding import implode
 from .materials import own_materials
 from .read import find_parts_on, part_materials
 
@@ -43,7 +43,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     ]
     collection = new_collection(obj, f"{obj.name} parts")
     bare = _copy(obj)
-    implode(bare)
+    remove_views(bare)
     clear(bare)
     forget_whole(bare.data)
     pieces: list[bpy.types.Object] = []

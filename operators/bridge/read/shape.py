@@ -12,7 +12,7 @@ from ....core.geometry.point_cloud import PointCloud
 from ..mesh.corners import triangles_of
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
-from ..parts.exploding import exploding
+from ..views.node_modifiers import is_view
 from .carrier import is_waiting
 from .converting import mesh_of
 
@@ -68,7 +68,7 @@ def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
     modifiers = [
         modifier.name
         for modifier in obj.modifiers
-        if modifier.show_viewport and modifier != exploding(obj)
+        if modifier.show_viewport and not is_view(modifier)
     ]
     if modifiers:
         notes.append(

@@ -19,6 +19,8 @@ PART_LAYER = "wcd_part"
 HAND_LAYER = "wcd_hand"
 # Attribute of faces: the material index before ours.
 MATERIAL_LAYER = "wcd_material_index"
+# Attribute of faces whose parts' colors are an overlay: whose parts they are.
+OWNER_LAYER = "wcd_owner"
 # Attribute of faces: the face set before ours, 0 where the mesh had none.
 FACE_SET_LAYER = "wcd_face_set"
 # Attribute of face corners, or of points: the color of the part.
@@ -30,12 +32,18 @@ LAYERS = {
     PART_LAYER: "INT",
     HAND_LAYER: "INT",
     MATERIAL_LAYER: "INT",
+    OWNER_LAYER: "INT",
     FACE_SET_LAYER: "INT",
     COLOR_LAYER: "FLOAT_COLOR",
     NORMAL_LAYER: "FLOAT_VECTOR",
 }
 # Blender's own attribute for the face sets of Sculpt Mode, counted from 1.
 FACE_SETS = ".sculpt_face_set"
+
+# Custom properties of a mesh with colors as an overlay: the materials that its parts
+# had, by number, and the value of `OWNER_LAYER` on its own faces.
+OVERLAY = "wcd_overlay"
+OWNER = "wcd_owner"
 
 # Custom properties of a material of ours: the number and the name of the part.
 MATERIAL_TAG = "wcd_part"
@@ -46,6 +54,8 @@ HULL_TAG = "wcd_hull"
 RIGID_TAG = "wcd_rigid"
 # Custom property of the node group that makes exploded views.
 EXPLODE_TAG = "wcd_explode"
+# Custom property of the node group that isolates parts.
+ISOLATE_TAG = "wcd_isolate"
 # Custom property of our images: the name of the object that they show.
 IMAGE_TAG = "wcd_picture"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 import bpy
 
 from ...bridge.parts.erase import erase_parts
-from ...bridge.parts.exploding import implode
 from ...bridge.parts.materials import discard_unused
 from ...bridge.stored.restore import has_parts
+from ...bridge.views.node_modifiers import remove_views
 
 # A view layer and what Blender evaluates for it.
 Layer = tuple[bpy.types.ViewLayer, bpy.types.Depsgraph]
@@ -105,7 +105,7 @@ def apply_modifiers(objects: Iterable[bpy.types.Object]) -> dict[str, str]:
     """
     chosen = []
     for obj in objects:
-        implode(obj)
+        remove_views(obj)
         keys = getattr(obj.data, "shape_keys", None)
         if obj.type == "MESH" and (keys or _shown_modifiers(obj)):
             if has_parts(obj):
