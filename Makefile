@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-ablation \
-  bench-clouds bench-cuts bench-objects bench-speed contact-sheet clean psb stress venv development
+  bench-clouds bench-cuts bench-objects bench-speed bench-window contact-sheet clean psb stress venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -118,6 +118,11 @@ bench-cuts: development ## Cut the faces of random meshes, and check what must s
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/suzanne.py
+
+bench-window: ## Measure seconds and freezes in a window: BLENDER=command that starts it
+	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
+	@for start in idle at-once; do \
+	  $(BLENDER) --python tests/window/drive.py -- tests/benchmarks/speed/in_window.py $$start; done
 
 bench-objects: venv ## Measure files of many small objects: OBJECTS=1000
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/many_objects.py $(OBJECTS)

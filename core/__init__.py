@@ -68,6 +68,9 @@ _HOMES = {
     "PreparedShape": "sight.prepared",
 }
 
+# The modules that the names come from, to be imported one at a time.
+MODULES = tuple(f"{__name__}.{home}" for home in dict.fromkeys(_HOMES.values()))
+
 
 def __getattr__(name: str) -> Any:
     """Import the module that defines `name`, and return the object of that name.

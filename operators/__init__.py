@@ -68,13 +68,14 @@ def unregister() -> None:
 
     from . import recut, settings
     from .bridge.parts import rows
-    from .bridge.work import in_step, session_cache
+    from .bridge.work import in_step, libraries, session_cache
     from .headless import command_line
     from .running import modal
     from .viewport import picking, show_sight, shown_parts
 
     recut.stop()
     modal.stop()
+    libraries.unregister()
     rows.unregister()
     picking.unregister()
     shown_parts.unregister()

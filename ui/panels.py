@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..operators.bridge.work.libraries import load_while_idle
 from ..operators.running import modal as running
 from ..operators.running.modal import Running
 from ..operators.settings import ADVANCED, FRONT, MEASURE, RUN, draw, hand_over
@@ -44,6 +45,7 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
+        load_while_idle()
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, FRONT)

@@ -33,13 +33,18 @@ def triangles_of(
     faces : (T,) int
     """
     mesh.calc_loop_triangles()
-    return (
+    if (read_ints(mesh.polygons, "loop_total") == 3).all():  # quicker than to ask
+        corners = np.arange(3 * len(mesh.polygons), dtype=np.int32).reshape(-1, 3)
+    else:
+        corners = read_ints(mesh.loop_triangles, "loops", 3)
+    arrays = (
         read_floats(mesh.vertices, "co", 3).astype(np.float64),
-        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)].astype(
-            np.int64
-        ),
+        corner_vertices(mesh).astype(np.int64)[corners],
         read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
     )
+    for array in arrays:
+        array.flags.writeable = False  # a shape need not copy it
+    return arrays
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
@@ -118,7 +123,9 @@ def vertices_by_label(
     else:
         vertices = np.arange(len(labels), dtype=np.int32)
     for label in range(n_labels):
-        yield np.unique(vertices[labels == label])
+        members = np.zeros(len(vertices), dtype=bool)
+        members[vertices[labels == label]] = True
+        yield np.flatnonzero(members).astype(np.int32)
 
 
 def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:

@@ -53,7 +53,9 @@ def read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMes
         If the mesh has no usable faces.
     """
     vertices, triangles, polygons = triangles_of(mesh)
-    return TriangleMesh(vertices * factors, triangles, polygons)
+    vertices = vertices * factors
+    vertices.flags.writeable = False  # as the others: the shape need not copy it
+    return TriangleMesh(vertices, triangles, polygons)
 
 
 def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
