@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     from .geometry.cutting.planes import find_cuts as find_cuts
     from .geometry.cutting.refined import RefinedMesh as RefinedMesh
     from .geometry.cutting.refined import refined as refined
+    from .geometry.transfer import labels_by_area as labels_by_area
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
+    from .hulls.measure.one_shape import refit_in_steps as refit_in_steps
+    from .hulls.outline import faces_of as faces_of
     from .hulls.outline import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
@@ -46,7 +49,10 @@ _HOMES = {
     "find_cuts": "geometry.cutting.planes",
     "RefinedMesh": "geometry.cutting.refined",
     "refined": "geometry.cutting.refined",
+    "labels_by_area": "geometry.transfer",
     "build_hulls_in_steps": "hulls.build",
+    "refit_in_steps": "hulls.measure.one_shape",
+    "faces_of": "hulls.outline",
     "outline_of": "hulls.outline",
     "mass_of_mesh": "solids.mass",
     "mass_of_surface": "solids.mass",

@@ -10,9 +10,8 @@ from typing import Any
 
 def _classes() -> tuple[Any, ...]:
     """Return the classes that Blender is to know."""
-    from . import edit_parts, settings, show_parts, use_parts
+    from . import edit_parts, hulls, settings, show_parts, use_parts
     from .decompose import WCD_OT_clear, WCD_OT_decompose
-    from .hulls import WCD_OT_build_hulls, WCD_OT_make_rigid
     from .measure import WCD_OT_measure, WCD_OT_measure_selection
     from .recut import WCD_OT_choose_part_count, WCD_OT_recut
     from .running.modal import WCD_OT_cancel
@@ -24,8 +23,7 @@ def _classes() -> tuple[Any, ...]:
         WCD_OT_decompose,
         WCD_OT_measure,
         WCD_OT_measure_selection,
-        WCD_OT_build_hulls,
-        WCD_OT_make_rigid,
+        *hulls.CLASSES,
         WCD_OT_clear,
         WCD_OT_cancel,
         WCD_OT_recut,

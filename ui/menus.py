@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..operators.bridge.views.isolating import isolating
-from ..operators.settings import HULLS, MEASURE, RUN, SELECTION, hand_over
+from ..operators.settings import HULL_RUN, MEASURE, RUN, SELECTION, hand_over
 from .sidebar import draw_choices
 
 # Operators in the order of the menu, each with the settings that it takes from the
@@ -20,7 +20,7 @@ _ENTRIES = (
     ("wcd.implode", ()),
     ("wcd.face_sets", ()),
     ("wcd.color_attribute", ()),
-    ("wcd.build_hulls", HULLS),
+    ("wcd.build_hulls", HULL_RUN),
     ("wcd.make_rigid", "kind"),
     None,
     ("wcd.show_sight", SELECTION),

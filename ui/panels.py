@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..operators.bridge.read.shown_mesh import differs
 from ..operators.bridge.work.libraries import load_while_idle
 from ..operators.running import modal as running
 from ..operators.running.modal import Running
@@ -51,6 +52,8 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
         draw(layout, settings, FRONT)
         if shown_figures(context.active_object):
             draw(layout, settings, ("keep_edits",))
+        if differs(context.active_object):
+            draw(layout, settings, ("mesh",))
         row = layout.row(align=True)
         row.use_property_split = False
         row.scale_y = 1.4

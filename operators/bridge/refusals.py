@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, TypeAlias
 
 from .mesh.points import is_cloud
-from .stored.names import HULL_TAG, WHOLE_MESH
+from .stored.names import CARRIER_TAG, HULL_TAG, WHOLE_MESH
 from .stored.record import has_record, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
 
@@ -86,6 +86,8 @@ def clear_refusal(obj: Candidate) -> str | None:
             f"The faces of {obj.name} are cut, and come back in Object Mode only;"
             " switch the mode"
         )
+    if reason is None and CARRIER_TAG in obj and obj.mode != "OBJECT":
+        return _LEAVE_EDIT_MODE
     return reason
 
 

@@ -50,6 +50,8 @@ MATERIAL_TAG = "wcd_part"
 MATERIAL_NAME = "wcd_name"
 # Custom property of hulls, and of the collections made for them: the figures of a hull.
 HULL_TAG = "wcd_hull"
+# Custom property of hulls: the points of the piece that a primitive is around.
+PIECE_TAG = "wcd_piece"
 # Custom property of objects that we made rigid bodies, and of our collection of bodies.
 RIGID_TAG = "wcd_rigid"
 # Custom property of the node group that makes exploded views.
@@ -60,3 +62,5 @@ ISOLATE_TAG = "wcd_isolate"
 IMAGE_TAG = "wcd_picture"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.
 CARRIER_TAG = "wcd_parts_of"
+# Custom property of such an object: how the curve was shown before we hid it.
+HIDDEN_TAG = "wcd_hidden"

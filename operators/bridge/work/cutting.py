@@ -18,7 +18,9 @@ from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
 from ..cuts.whole_mesh import is_cut, whole_mesh_of
 from ..parts.write import check_writable
-from ..read.shape import read_mesh, reading_notes, stretch
+from ..read.evaluated import SeenMesh
+from ..read.reading_notes import reading_notes
+from ..read.shape import read_mesh, stretch
 from .libraries import load_libraries
 from .run_edit import Edited
 from .session_cache import session_cache
@@ -28,14 +30,23 @@ from .session_cache import session_cache
 _NEAR = 0.5
 
 
-def gets_new_faces(obj: bpy.types.Object, parameters: Parameters) -> bool:
+def gets_new_faces(
+    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
+) -> bool:
     """Return whether a run cuts faces of an object, or makes cut ones whole.
 
     Raises
     ------
     DecompositionError
-        If faces are to be cut in Edit Mode.
+        If faces are to be cut in Edit Mode, or those of a mesh as it is seen.
     """
+    if seen is not None and parameters.seams == "CUT":
+        raise DecompositionError(
+            "Only faces of the mesh itself are cut; choose Original for Mesh, or Keep"
+            " Faces for Seams."
+        )
+    if seen is not None:
+        return False
     if obj.type != "MESH" or not obj.data.polygons:
         return False
     if not obj.data.is_editmode:

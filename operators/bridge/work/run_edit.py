@@ -19,8 +19,12 @@ from ..cuts.new_faces import NewFaces
 from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
-from ..read.shape import read_shape, reading_notes
+from ..read.evaluated import SeenMesh
+from ..read.reading_notes import reading_notes
+from ..read.shape import read_shape
 from ..stored.identity import Identity
+from ..stored.record import EVALUATED, ORIGINAL, note_mesh
+from .in_step import let_undo_see_all
 from .libraries import load_libraries
 from .session_cache import session_cache
 
@@ -45,6 +49,8 @@ class Edited:
         Faces that the user settled by hand.
     faces : NewFaces or None
         The faces that the object gets with the parts; None if it has them already.
+    seen : SeenMesh or None
+        The mesh as it is seen, if the parts were found on that.
     """
 
     decomposition: Decomposition
@@ -52,6 +58,7 @@ class Edited:
     parameters: Parameters
     by_hand: NDArray[np.bool_] | None = None
     faces: NewFaces | None = None
+    seen: SeenMesh | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -74,6 +81,13 @@ class Edited:
             self.by_hand,
             self.faces,
         )
+        note_mesh(obj, EVALUATED if self.seen else ORIGINAL)
+        let_undo_see_all(obj)
+
+
+def written(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
+    """Return parts of a mesh as it is seen as parts of the faces that get them."""
+    return found if seen is None else seen.on_own_faces(found)
 
 
 def edit_object(

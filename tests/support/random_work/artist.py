@@ -82,7 +82,7 @@ class RestlessArtist(RuleBasedStateMachine):
     def operate(self, n, name):
         self.remember(self.body(n))
         attempt(getattr(bpy.ops.wcd, name))
-        if name == "clear":  # its undo in Edit Mode brings back layers without a note
+        if name == "clear":  # its undo in Edit Mode brings back all of the file
             self.kept = []
         bpy.context.view_layer.update()
         self.done()
