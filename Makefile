@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-ablation \
-  bench-clouds bench-objects bench-speed bench-window contact-sheet clean psb stress venv development
+  bench-clouds bench-cuts bench-objects bench-speed bench-window contact-sheet clean psb stress venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -112,6 +112,9 @@ bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=di
 
 bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=directory
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
+
+bench-cuts: development ## Cut the faces of random meshes, and check what must stay: CUTS=200
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/cut_faces.py $(CUTS)
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/suzanne.py

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from .cache import ShapeCache as ShapeCache
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
+    from .geometry.cutting.pieces import labels_of_pieces as labels_of_pieces
+    from .geometry.cutting.planes import find_cuts as find_cuts
+    from .geometry.cutting.refined import RefinedMesh as RefinedMesh
+    from .geometry.cutting.refined import refined as refined
     from .geometry.transfer import labels_by_area as labels_by_area
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.measure.one_shape import refit_in_steps as refit_in_steps
@@ -41,6 +45,10 @@ _HOMES = {
     "ShapeCache": "cache",
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
+    "labels_of_pieces": "geometry.cutting.pieces",
+    "find_cuts": "geometry.cutting.planes",
+    "RefinedMesh": "geometry.cutting.refined",
+    "refined": "geometry.cutting.refined",
     "labels_by_area": "geometry.transfer",
     "build_hulls_in_steps": "hulls.build",
     "refit_in_steps": "hulls.measure.one_shape",

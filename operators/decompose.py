@@ -7,6 +7,7 @@ from typing import ClassVar
 import bpy
 
 from ..core.steps.progress import Steps
+from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls
 from .bridge.parts.erase import clear
 from .bridge.parts.images import erase_images
@@ -81,6 +82,14 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip: it says beforehand which cuts would stay."""
+        edited = [o.name for o in cls._chosen(context) if o and edited_since_cut(o)]
+        return ". ".join([cls.bl_description, *map(_cuts_stay, edited)])
+
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return clear_refusal(obj)
@@ -90,7 +99,14 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         remove_views(obj)
         erase_images(obj)
         clear(obj)
+        if is_cut(obj) and not bring_back(obj):
+            self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")
         if CARRIER_TAG in obj:
             clear_carrier(obj)
         else:
             let_undo_see_all(obj)
+
+
+def _cuts_stay(name: str) -> str:
+    """Return what to say of an object whose faces were edited since they were cut."""
+    return f"{name} was edited after its faces were cut, so the cuts stay"

@@ -70,7 +70,7 @@ def decompose(
     >>> decompose(vertices, [(3, 2, 1, 0), (4, 5, 6, 7), *walls], samples=400).n_parts
     2
     """
-    settings = _settings("decompose", parameters, Parameters, changes)
+    settings = _keeping(_settings("decompose", parameters, Parameters, changes))
     cache = core.ShapeCache(choose_ray_caster(caster))
     steps = core.decompose_in_steps(shape_of(shape, faces), settings, cache)
     return _finish(steps, progress)
@@ -178,6 +178,16 @@ def build_hulls(
     unit, kinds = scene_unit_of(mesh), _kinds(part_shapes, parts, settings)
     steps = core.build_hulls_in_steps(solid, settings, cache, parts, 0, unit, kinds)
     return _finish(steps, progress)
+
+
+def _keeping(settings: Parameters) -> Parameters:
+    """Raise if faces are to be cut: the result has one label for each face given."""
+    if settings.seams == "CUT":
+        raise DecompositionError(
+            "decompose() returns the parts of the faces as they are; to cut faces, use"
+            " bpy.ops.wcd.decompose(seams='CUT') or the command line."
+        )
+    return settings
 
 
 def _kinds(

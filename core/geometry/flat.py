@@ -76,8 +76,8 @@ class FlatMesh:
         if self.faces.areas.sum() >= _CONVEX * hull.volume:  # its area, in a plane
             return ()
         return (
-            "The mesh is a single flat face, and faces are never cut; give it more to"
-            " carry parts (Face > Triangulate Faces, then Edge > Subdivide).",
+            "The mesh is a single flat face; choose Cut Faces for Seams, or give it"
+            " more to carry parts (Face > Triangulate Faces, then Edge > Subdivide).",
         )
 
 

@@ -91,6 +91,20 @@ REFINEMENT = (
     ),
 )
 
+SEAMS = (
+    Choice(
+        "KEEP",
+        "Keep Faces",
+        "Seams follow the edges that are there; no face is cut",
+    ),
+    Choice(
+        "CUT",
+        "Cut Faces",
+        "Large faces are cut where parts meet on them, in Object Mode. Clear brings the"
+        " whole faces back, unless the mesh was edited since",
+    ),
+)
+
 # Meshes of an object of Blender that can be read.
 MESHES = (
     Choice("ORIGINAL", "Original", "The mesh itself, as in Edit Mode"),

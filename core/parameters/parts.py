@@ -12,6 +12,7 @@ from .choices import (
     PSI_PAIRS,
     REFINEMENT,
     SAMPLING,
+    SEAMS,
     SIGHT,
 )
 from .parameter import ParameterInfo, parameter, settle
@@ -184,6 +185,15 @@ class Parameters:
             low=0.0,
             high=100.0,
             usual=10.0,
+            affects_sight=False,
+        ),
+    )
+    seams: str = parameter(
+        "KEEP",
+        ParameterInfo(
+            "Seams",
+            "Whether seams may run through faces: for meshes of few, large faces",
+            choices=SEAMS,
             affects_sight=False,
         ),
     )

@@ -5,12 +5,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..clusters.moves import MoveGains
 from ..geometry.face_graph import FaceGraph
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..results import Decomposition
 from ..sight.visibility import Visibility
 from .partition import count_parts
+
+# A face with fewer samples is small: its samples say little.
+_ENOUGH_SAMPLES = 8
+# A face lies in several parts if at least this share of its samples belongs elsewhere.
+_MANY_DRAWN = 0.25
+# Least share of the area of such faces that is worth a note.
+_MUCH_AREA = 0.1
 
 
 def describe(
@@ -80,13 +88,17 @@ def by_size(parts: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
 
 
 def notes_on(
-    found: Decomposition, transfer: Transfer, parameters: Parameters
+    found: Decomposition,
+    visibility: Visibility,
+    transfer: Transfer,
+    parameters: Parameters,
 ) -> tuple[str, ...]:
-    """Say what kept the parts from being as they were asked for.
+    """Say what kept the parts from being as they were asked for, or could be.
 
     Parameters
     ----------
     found : Decomposition
+    visibility : Visibility
     transfer : Transfer
         From samples to the nodes that got labels.
     parameters : Parameters
@@ -98,7 +110,36 @@ def notes_on(
         Sentences to the user.
     """
     on_shells = _notes_on_shells(transfer)
-    return on_shells + _notes_on_count(parameters, max(found.psi_by_k))
+    on_count = _notes_on_count(parameters, max(found.psi_by_k))
+    return on_shells + (on_count or _notes_on_faces(found, visibility, parameters))
+
+
+def _notes_on_faces(
+    found: Decomposition, visibility: Visibility, parameters: Parameters
+) -> tuple[str, ...]:
+    """Return a note if faces of much area lie in several parts.
+
+    A face does if it carries enough samples, and many of them would raise psi in
+    another part than that of the face.
+    """
+    if visibility.shape.solid is None or parameters.seams == "CUT":
+        return ()
+    nodes = visibility.nodes
+    labels = visibility.shape.labels_of_nodes(found.labels)[nodes]
+    gains = MoveGains(visibility.psi_pairs, labels, found.n_parts).of(
+        slice(None), parameters.alpha
+    )
+    drawn = gains.max(axis=1) > gains[np.arange(len(labels)), labels]
+    counts = np.bincount(nodes)
+    share_drawn = np.bincount(nodes, drawn) / np.maximum(counts, 1)
+    spanning = (counts >= _ENOUGH_SAMPLES) & (share_drawn >= _MANY_DRAWN)
+    share = counts[spanning].sum() / len(nodes)
+    if share < _MUCH_AREA:
+        return ()
+    return (
+        f"Faces with {share:.0%} of the area lie in several parts each; choose Cut"
+        " Faces for Seams to cut them there, or subdivide the mesh.",
+    )
 
 
 def _notes_on_shells(transfer: Transfer) -> tuple[str, ...]:

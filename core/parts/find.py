@@ -48,6 +48,5 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
     nodes = yield from within(labels_of_nodes(memo, parameters, seams), 0.9, 1.0)
     labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
-    return replace(
-        found, notes=found.notes + notes_on(found, memo.transfer, parameters)
-    )
+    notes = notes_on(found, visibility, memo.transfer, parameters)
+    return replace(found, notes=found.notes + notes)

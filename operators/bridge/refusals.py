@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
-from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME
+from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME, WHOLE_MESH
 from .stored.record import has_record, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
 
@@ -80,8 +80,14 @@ def recut_refusal(obj: Candidate) -> str | None:
 def clear_refusal(obj: Candidate) -> str | None:
     """Return why nothing can be cleared from an object."""
     reason = refusal(obj, writes_mesh=False)
-    if reason is None and not has_record(obj):
+    cut = reason is None and WHOLE_MESH in obj.data
+    if reason is None and not cut and not has_record(obj):
         return f"{obj.name} has no parts to clear"
+    if cut and obj.data.is_editmode:
+        return (
+            f"The faces of {obj.name} are cut, and come back in Object Mode only;"
+            " switch the mode"
+        )
     if reason is None and CARRIER_TAG in obj and obj.mode != "OBJECT":
         return _LEAVE_EDIT_MODE
     return reason

@@ -32,6 +32,7 @@ CHANGES = {
     "max_parts": 8,
     "refinement": "EMBEDDING",
     "smoothness": 0.0,
+    "seams": "CUT",
     "smallest_part": 0.1,
     "levels": 2,
     "seed": 1,

@@ -75,4 +75,6 @@ def _properties(owner):
 
 
 def _plain(value):
+    if isinstance(value, bpy.types.ID):
+        return value.name
     return value if isinstance(value, int | float | str | bytes) else tuple(value)

@@ -6,7 +6,7 @@ the corners of face 1, and so on.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import bpy
@@ -104,6 +104,28 @@ def boundary_edges(
     corners = np.isin(labels[corner_faces(mesh)], chosen)
     of_chosen[corner_edges(mesh)[corners]] = True
     return (highest >= 0) & (lowest != highest) & of_chosen
+
+
+def vertices_by_label(
+    mesh: bpy.types.Mesh, labels: IntArray, n_labels: int
+) -> Iterator[IntArray]:
+    """Yield the vertices of the faces of each label 0…K − 1.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    labels : (P,) int
+        Label of each face, or of each vertex of a mesh without faces.
+    n_labels : int
+    """
+    if getattr(mesh, "polygons", None):
+        vertices, labels = corner_vertices(mesh), labels[corner_faces(mesh)]
+    else:
+        vertices = np.arange(len(labels), dtype=np.int32)
+    for label in range(n_labels):
+        members = np.zeros(len(vertices), dtype=bool)
+        members[vertices[labels == label]] = True
+        yield np.flatnonzero(members).astype(np.int32)
 
 
 def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:

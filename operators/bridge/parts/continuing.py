@@ -11,6 +11,7 @@ import numpy as np
 
 from .... import core
 from ....core.results import Decomposition
+from ..cuts.new_faces import NewFaces
 from ..mesh.attributes import read_floats
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
@@ -76,15 +77,25 @@ class BeforeWriting:
         )
 
     def continued_by(
-        self, obj: bpy.types.Object, decomposition: Decomposition
+        self,
+        obj: bpy.types.Object,
+        decomposition: Decomposition,
+        faces: NewFaces | None = None,
     ) -> tuple[Identity, ...]:
-        """Return who the parts of a new run are, by the area shared with those here."""
+        """Return who the parts of a new run are, by the area shared with those here.
+
+        `faces` are those that the object is going to get.
+        """
         former: list[Identity | None] = [None] * decomposition.n_parts
         gone: tuple[Identity, ...] = ()
         if self.found is not None:
             gone = self.found.identities
-            areas = face_areas(obj, len(decomposition.labels))
-            places = core.match_parts(self.found.labels, decomposition.labels, areas)
+            labels = self.found.labels
+            if faces is None:
+                areas = face_areas(obj, len(decomposition.labels))
+            else:
+                labels, areas = faces.former_labels(obj, labels), faces.areas
+            places = core.match_parts(labels, decomposition.labels, areas)
             former = [gone[place] if place >= 0 else None for place in places]
         stay = [each for each in former if each is not None]
         newcomers = Newcomers(stay, gone, self.noted if self.in_edit_mode else None)

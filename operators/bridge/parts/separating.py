@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ..cuts.whole_mesh import forget_whole
 from ..views.node_modifiers import remove_views
 from .erase import clear
 from .materials import own_materials
@@ -44,6 +45,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     bare = _copy(obj)
     remove_views(bare)
     clear(bare)
+    forget_whole(bare.data)
     pieces: list[bpy.types.Object] = []
     for part in range(len(identities)):
         piece = _copy(bare)

@@ -54,6 +54,20 @@ def put_in_slots(
     }
 
 
+def bare_materials(
+    obj: bpy.types.Object, restore: Restore | None
+) -> tuple[IntArray | None, list[str]]:
+    """Return the material index of each face, and the names of the user's materials.
+
+    Both are as they would be without our slots.
+    """
+    mesh, layers = obj.data, layers_of(obj)
+    if restore is None:
+        return layers.material_indices(), _names_without(mesh, [])
+    indices = _indices_without_ours(mesh, restore, layers)
+    return indices, _names_without(mesh, _our_slots(mesh, restore))
+
+
 def take_out_of_slots(
     obj: bpy.types.Object, restore: Restore
 ) -> list[bpy.types.Material]:

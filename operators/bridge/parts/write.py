@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from operator import attrgetter
 
@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition
-from ..mesh.attributes import IntArray
-from ..mesh.corners import corner_faces, corner_vertices
+from ..cuts.new_faces import NewFaces
+from ..mesh.corners import vertices_by_label
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
@@ -45,6 +45,7 @@ def write_parts(
     parameters: Parameters,
     kept: Sequence[Identity] | None = None,
     by_hand: NDArray[np.bool_] | None = None,
+    faces: NewFaces | None = None,
 ) -> None:
     """Show a decomposition on its object, in place of an earlier one.
 
@@ -61,6 +62,8 @@ def write_parts(
         they share most area with; only the others are new.
     by_hand : (P,) bool, optional
         Faces, or points, that the user settled by hand.
+    faces : NewFaces, optional
+        The faces that the object gets; without it, it has them already.
 
     Raises
     ------
@@ -68,15 +71,13 @@ def write_parts(
         If the object cannot be written to, or the user has data under our names.
     """
     check_writable(obj)
-    _check_unchanged(obj, decomposition)
-    overlaid, also_shown = is_overlaid(obj), shown(obj)
-    before = BeforeWriting.of(obj)
-    identities = kept or before.continued_by(obj, decomposition)
+    _check_fits(obj, decomposition, faces)
+    overlaid, also_shown, before = is_overlaid(obj), shown(obj), BeforeWriting.of(obj)
+    identities = kept or before.continued_by(obj, decomposition, faces)
     decomposition, identities = by_number(decomposition, identities)
-    former = erase_parts(obj)
-    everyone = sorted(
-        (*identities, *before.asleep(identities)), key=attrgetter("number")
-    )
+    former = _made_bare(obj, faces)
+    asleep = before.asleep(identities)
+    everyone = sorted((*identities, *asleep), key=attrgetter("number"))
     restore = _write_mesh(obj, decomposition, identities, everyone, before.materials)
     if by_hand is not None and by_hand.any():
         layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
@@ -90,13 +91,26 @@ def write_parts(
     discard_unused(former)
 
 
-def _check_unchanged(obj: bpy.types.Object, decomposition: Decomposition) -> None:
-    """Raise if an object has other faces, or points, than were decomposed."""
+def _check_fits(
+    obj: bpy.types.Object, decomposition: Decomposition, faces: NewFaces | None
+) -> None:
+    """Raise if parts are not those of an object's faces, or of its new faces."""
     n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
-    if len(decomposition.labels) != n_elements:
+    fits = faces.fit(obj) if faces else len(decomposition.labels) == n_elements
+    if not fits:
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
+
+
+def _made_bare(
+    obj: bpy.types.Object, faces: NewFaces | None
+) -> list[bpy.types.Material]:
+    """Take the parts off an object and give it new faces; return their materials."""
+    former = erase_parts(obj)
+    if faces is not None:
+        faces.put_on(obj)
+    return former
 
 
 def _note(
@@ -191,7 +205,7 @@ def _write_mesh(
     layers = layers_of(obj)
     layers.set_faces(PART_LAYER, numbers[decomposition.labels])
     labels = decomposition.labels.astype(np.int32)
-    members = _vertices_by_part(obj, labels, len(identities))
+    members = vertices_by_label(obj.data, labels, len(identities))
     for place, vertices in zip(
         places.tolist() if groups else (), members, strict=False
     ):
@@ -228,18 +242,3 @@ def _materials(
     if is_cloud(obj):
         return [points_material(COLOR_LAYER, slots)]
     return own_materials(identities, [sources.get(each.number) for each in identities])
-
-
-def _vertices_by_part(
-    obj: bpy.types.Object, labels: IntArray, n_parts: int
-) -> Iterator[IntArray]:
-    """Yield the vertices, or points, of each part."""
-    if is_cloud(obj):
-        vertices, parts = np.arange(len(labels), dtype=np.int32), labels
-    else:
-        vertices = corner_vertices(obj.data)
-        parts = labels[corner_faces(obj.data)]
-    for part in range(n_parts):
-        members = np.zeros(len(vertices), dtype=bool)
-        members[vertices[parts == part]] = True
-        yield np.flatnonzero(members).astype(np.int32)

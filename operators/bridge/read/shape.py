@@ -39,7 +39,18 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
         return PointCloud(positions_of(obj).astype(np.float64) * factors, normals)
     flush_edits(obj)
     with mesh_of(obj) as mesh:
-        vertices, triangles, polygons = triangles_of(mesh)
+        return read_mesh(mesh, factors)
+
+
+def read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMesh:
+    """Return the triangles of a mesh, its coordinates multiplied by factors (3,).
+
+    Raises
+    ------
+    DecompositionError
+        If the mesh has no usable faces.
+    """
+    vertices, triangles, polygons = triangles_of(mesh)
     vertices = vertices * factors
     vertices.flags.writeable = False  # as the others: the shape need not copy it
     return TriangleMesh(vertices, triangles, polygons)

@@ -6,6 +6,12 @@ from __future__ import annotations
 RESULT = "wcd"
 # Custom property of a mesh: how to bring it back, JSON.
 RESTORE = "wcd_restore"
+# Custom properties of a mesh whose faces are cut: the mesh with the whole faces, and
+# what shows that the cut one was edited since.
+WHOLE_MESH = "wcd_whole_mesh"
+CUT_STATE = "wcd_cut_state"
+# Attribute of faces that are cut: the number of the whole face.
+WHOLE_LAYER = "wcd_whole_face"
 
 # Attribute of faces, or of points: the number of the part, counted from 0.
 PART_LAYER = "wcd_part"

@@ -28,6 +28,7 @@ from ..read.reading_notes import reading_notes
 from ..read.shape import read_shape, scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
+from .cutting import gets_new_faces, shape_to_split
 from .libraries import with_libraries
 from .session_cache import has_seen, session_cache
 
@@ -72,7 +73,11 @@ def is_quick(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    return parameters.levels == 1 and has_seen(_read(obj, seen)[1], parameters)
+    if parameters.levels > 1:
+        return False
+    if gets_new_faces(obj, parameters, seen):
+        return has_seen(shape_to_split(obj, parameters), parameters)
+    return has_seen(_read(obj, seen)[1], parameters)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:

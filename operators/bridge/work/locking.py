@@ -28,9 +28,15 @@ from ..read.reading_notes import reading_notes
 from ..read.shape import read_shape
 from ..refusals import edit_refusal
 from .computing import decompose_object
+from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
 from .run_edit import Edited, written
 from .session_cache import session_cache
+
+_NOT_CUT = (
+    "No more faces were cut, because some parts are locked or settled by hand; unlock"
+    " them, or clear Keep Edits."
+)
 
 
 def decompose_unlocked(
@@ -69,6 +75,8 @@ def decompose_unlocked(
         if held.any() or by_hand.any():
             parts = replace(parts, by_hand=by_hand)
             return _decompose_rest(obj, parameters, parts, held, seen)
+    if gets_new_faces(obj, parameters, seen):
+        return decompose_whole_faces(obj, parameters)
     steps = decompose_object(obj, parameters, seen)
 
     def work() -> Steps[Edited]:
@@ -101,6 +109,8 @@ def _decompose_rest(
     else:
         notes, shape, areas = seen.notes, seen.shape, seen.areas
         before, by_hand = before[seen.origins], by_hand[seen.origins]
+    if parameters.seams == "CUT":
+        notes = (*notes, _NOT_CUT)
     members = ~held[before]
 
     def work() -> Steps[Edited]:
@@ -122,7 +132,7 @@ def _decompose_rest(
         pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
         said = (*notes, *found.notes)
         found = replace(found, ranks=ranks, pairs=pairs, notes=said)
-        return Edited(written(found, seen), None, parameters, parts.by_hand, seen)
+        return Edited(written(found, seen), None, parameters, parts.by_hand, seen=seen)
 
     return work()
 

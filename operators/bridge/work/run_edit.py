@@ -15,6 +15,7 @@ from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition
 from ....core.steps.progress import Steps, within
+from ..cuts.new_faces import NewFaces
 from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
@@ -46,6 +47,8 @@ class Edited:
         Recorded on the object with the parts.
     by_hand : (P,) bool or None
         Faces that the user settled by hand.
+    faces : NewFaces or None
+        The faces that the object gets with the parts; None if it has them already.
     seen : SeenMesh or None
         The mesh as it is seen, if the parts were found on that.
     """
@@ -54,6 +57,7 @@ class Edited:
     identities: tuple[Identity, ...] | None
     parameters: Parameters
     by_hand: NDArray[np.bool_] | None = None
+    faces: NewFaces | None = None
     seen: SeenMesh | None = None
 
     @property
@@ -70,7 +74,12 @@ class Edited:
             The object that they were computed for.
         """
         write_parts(
-            obj, self.decomposition, self.parameters, self.identities, self.by_hand
+            obj,
+            self.decomposition,
+            self.parameters,
+            self.identities,
+            self.by_hand,
+            self.faces,
         )
         note_mesh(obj, EVALUATED if self.seen else ORIGINAL)
         let_undo_see_all(obj)

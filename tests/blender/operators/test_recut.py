@@ -16,6 +16,7 @@ CHANGES = {
     "max_parts": 7,
     "refinement": "EMBEDDING",
     "smoothness": 0.0,
+    "seams": "CUT",
     "smallest_part": 0.1,
     "levels": 2,
 }

@@ -13,6 +13,7 @@ from .checks import attempt, bodies, bone, check_body, check_cleared, only
 FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
 NUMBERS = st.integers(0, 5)
 PARTS = st.sampled_from([0, 2, 3, 4, 6])
+SEAMS = st.sampled_from(["KEEP", "KEEP", "CUT"])
 COLORED = st.sampled_from(["MATERIALS", "OVERLAY"])
 NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
 COLORS = st.tuples(*[st.sampled_from([0.1, 0.4, 0.8])] * 3)
@@ -71,10 +72,9 @@ class RestlessArtist(RuleBasedStateMachine):
         """End a step, to be undone."""
         bpy.ops.ed.undo_push(message="step")
 
-    @rule(n=NUMBERS, parts=PARTS, keep=st.booleans(), colors=COLORED)
-    def decompose(self, n, parts, keep, colors):
+    @rule(n=NUMBERS, parts=PARTS, keep_edits=st.booleans(), seams=SEAMS, colors=COLORED)
+    def decompose(self, n, **options):
         self.remember(self.body(n))
-        options = {"parts": parts, "keep_edits": keep, "colors": colors}
         attempt(bpy.ops.wcd.decompose, **FAST, **options)
         self.done()
 
@@ -185,8 +185,7 @@ class RestlessArtist(RuleBasedStateMachine):
     def undo(self, redo):
         """Undo or redo as in Object Mode: all of the file."""
         self.kept = []
-        operator = bpy.ops.ed.redo if redo else bpy.ops.ed.undo
-        attempt(operator)
+        attempt(bpy.ops.ed.redo if redo else bpy.ops.ed.undo)
 
     def remember(self, obj):
         """Keep the mesh as Edit Mode's undo does: nothing else comes back with it."""

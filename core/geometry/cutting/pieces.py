@@ -1,0 +1,89 @@
+"""Finds which part each piece of a cut face belongs to."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import TriangleMesh
+from .refined import RefinedMesh
+
+
+def labels_of_pieces(
+    refined: RefinedMesh,
+    labels: NDArray[np.int64],
+    cut: TriangleMesh,
+    faces: NDArray[np.int64],
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the part that covers most of each piece of the faces.
+
+    Parameters
+    ----------
+    refined : RefinedMesh
+    labels : (Q,) int
+        Part of each polygon of the refined mesh, in 0…K − 1.
+    cut : TriangleMesh
+        The mesh after its faces were cut, in the same units. Its polygons are pieces.
+    faces : (P,) int
+        The face that each piece is of.
+
+    Returns
+    -------
+    of_pieces : (P,) int
+    of_polygons : (Q,) int
+        Part of the piece that each polygon of the refined mesh lies in.
+    """
+    centers, areas = refined.centers()
+    piece = _pieces_at(centers, refined.faces, cut, faces)
+    votes = np.zeros((len(faces), int(labels.max()) + 1))
+    np.add.at(votes, (piece, labels), areas + np.finfo(float).tiny)
+    found = votes.argmax(axis=1)
+    # A sliver without a center gets the part of the piece that is nearest.
+    middles = np.zeros((len(faces), 3))
+    middles[cut.polygons] = cut.vertices[cut.triangles].mean(axis=1)
+    for sliver in np.flatnonzero(~votes.any(axis=1)).tolist():
+        there = np.flatnonzero(refined.faces == faces[sliver])
+        away = np.linalg.norm(centers[there] - middles[sliver], axis=1)
+        found[sliver] = found[piece[there[away.argmin()]]]
+    return found, found[piece]
+
+
+def _pieces_at(
+    points: NDArray[np.float64],
+    faces_of_points: NDArray[np.int64],
+    cut: TriangleMesh,
+    faces: NDArray[np.int64],
+) -> NDArray[np.int64]:
+    """Return the piece of its face that each point lies in."""
+    owners = faces[cut.polygons]
+    order = np.argsort(owners, kind="stable")
+    begins = np.searchsorted(owners[order], np.arange(int(faces.max()) + 2))
+    single = np.bincount(faces) == 1
+    one_piece = np.zeros(len(single), dtype=np.int64)
+    one_piece[faces] = np.arange(len(faces))
+    found = one_piece[faces_of_points]
+    for face in np.unique(faces_of_points[~single[faces_of_points]]).tolist():
+        rows = order[begins[face] : begins[face + 1]]
+        there = np.flatnonzero(faces_of_points == face)
+        inside = _insideness(points[there], cut.vertices[cut.triangles[rows]])
+        found[there] = cut.polygons[rows[inside.argmax(axis=1)]]
+    return found
+
+
+def _insideness(
+    points: NDArray[np.float64], corners: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the least barycentric coordinate of points in triangles, (M, T).
+
+    It is 0 or more inside; −inf for a triangle without area.
+    """
+    origin, one, other = np.moveaxis(corners, 1, 0)
+    u, v = one - origin, other - origin
+    normal = np.cross(u, v)
+    squared = (normal**2).sum(axis=1)
+    away = points[:, None] - origin
+    with np.errstate(divide="ignore", invalid="ignore"):
+        second = (np.cross(away, v) * normal).sum(axis=2) / squared
+        third = (np.cross(u, away) * normal).sum(axis=2) / squared
+    least = np.minimum(np.minimum(second, third), 1 - second - third)
+    return np.where(squared > 0, least, -np.inf)

@@ -1,0 +1,151 @@
+"""Finds the planes along which large faces are cut where parts meet on them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
+
+from ...steps.progress import run
+from ..connectivity import graph_of, shared_edges, sort_edges
+from .refined import Cut, RefinedMesh
+
+# Weight of a piece of the seam along a concave crease, where the seam surely belongs.
+_CREASE_WEIGHT = 25.0
+# Least angle of such a crease, in radians.
+_LEAST_CREASE = 0.3
+# A plane stands upright on the surface where the seam does not say how it is tilted.
+_UPRIGHT = 1.0
+# A plane serves a face if the seam is this near to it on average, in longest edges.
+_NEAR = 1.0
+
+
+class _Seams(NamedTuple):
+    """The edges (S,) of a refined mesh between polygons of different parts."""
+
+    starts: NDArray[np.float64]
+    ends: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    weights: NDArray[np.float64]
+    face: NDArray[np.int64]  # that the edge runs through, -1 along an original edge
+    seam: NDArray[np.int64]  # number of the connected seam between two parts
+
+
+def find_cuts(refined: RefinedMesh, labels: NDArray[np.int64]) -> list[Cut]:
+    """Return planes that cut the faces of a mesh along the seams of parts.
+
+    One plane is fitted to each connected seam between two parts. Where the seam is far
+    from its plane, each face gets a plane of its own.
+
+    Parameters
+    ----------
+    refined : RefinedMesh
+    labels : (Q,) int
+        Part of each polygon of the refined mesh.
+
+    Returns
+    -------
+    list of Cut
+        The planes with most faces first.
+    """
+    seams = _seams_of(refined, labels)
+    cuts: list[Cut] = []
+    for seam in range(int(seams.seam.max(initial=-1)) + 1):
+        cuts += _cuts_of_seam(seams, np.flatnonzero(seams.seam == seam), refined.size)
+    return sorted(cuts, key=lambda cut: -len(cut.faces))
+
+
+def _cuts_of_seam(seams: _Seams, rows: NDArray[np.int64], size: float) -> list[Cut]:
+    """Return the planes that cut the faces of one connected seam."""
+    if (seams.face[rows] < 0).all():
+        return []
+    point, normal = _fitted(seams, rows)
+    middles = (seams.starts + seams.ends) / 2
+    along: list[int] = []
+    cuts = []
+    for face in np.unique(seams.face[rows][seams.face[rows] >= 0]).tolist():
+        own = rows[seams.face[rows] == face]
+        lengths = np.linalg.norm(seams.ends[own] - seams.starts[own], axis=1)
+        away = np.abs((middles[own] - point) @ normal)
+        if np.average(away, weights=lengths) <= _NEAR * size:
+            along.append(face)
+        else:
+            cuts.append(Cut(*_fitted(seams, own), np.array([face])))
+    return [*([Cut(point, normal, np.array(along))] if along else []), *cuts]
+
+
+def _fitted(
+    seams: _Seams, rows: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return a point and the normal of the plane that is nearest to some edges."""
+    weights = seams.weights[rows]
+    points = np.concatenate([seams.starts[rows], seams.ends[rows]])
+    both = np.tile(weights, 2)
+    center = np.average(points, axis=0, weights=both)
+    offsets = points - center
+    spread = (offsets * both[:, None]).T @ offsets / both.sum()
+    within = rows[seams.face[rows] >= 0]
+    normals, weights = seams.normals[within], seams.weights[within]
+    upright = (normals * weights[:, None]).T @ normals / weights.sum()
+    spread = spread + _UPRIGHT * np.trace(spread) * upright
+    return center, np.linalg.eigh(spread)[1][:, 0]
+
+
+def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
+    """Return the edges between parts, with the connected seam each belongs to."""
+    mesh = refined.mesh
+    edges = run(sort_edges(mesh))
+    neighbors, sides = shared_edges(mesh, edges)
+    one, other = neighbors.T
+    kept = labels[one] != labels[other]
+    one, other, sides = one[kept], other[kept], sides[kept]
+    owners = sides // 3
+    corners = sides % 3
+    first = mesh.triangles[owners, corners]
+    last = mesh.triangles[owners, (corners + 1) % 3]
+    starts, ends = mesh.vertices[first], mesh.vertices[last]
+    polygon_normals = np.zeros((len(refined.faces), 3))
+    np.add.at(polygon_normals, mesh.polygons, mesh.normals * mesh.areas[:, None])
+    lengths = np.linalg.norm(polygon_normals, axis=1, keepdims=True)
+    polygon_normals /= np.where(lengths > 0, lengths, 1.0)
+    normals = polygon_normals[one] + polygon_normals[other]
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals /= np.where(lengths > 0, lengths, 1.0)
+    centers, _ = refined.centers()
+    rises = ((centers[other] - centers[one]) * polygon_normals[one]).sum(axis=1)
+    cosines = (polygon_normals[one] * polygon_normals[other]).sum(axis=1)
+    creases = (rises > 0) & (cosines < np.cos(_LEAST_CREASE))
+    weights = np.linalg.norm(ends - starts, axis=1)
+    weights = np.where(creases, _CREASE_WEIGHT, 1.0) * weights + np.finfo(float).tiny
+    inside = refined.faces[one] == refined.faces[other]
+    return _Seams(
+        starts,
+        ends,
+        normals,
+        weights,
+        np.where(inside, refined.faces[one], -1),
+        _connected(mesh.welded_triangles, owners, corners, labels[one], labels[other]),
+    )
+
+
+def _connected(
+    welded: NDArray[np.int32],
+    owners: NDArray[np.int64],
+    corners: NDArray[np.int64],
+    one: NDArray[np.int64],
+    other: NDArray[np.int64],
+) -> NDArray[np.int64]:
+    """Return the number of the connected seam of each edge; `one`, `other`: parts."""
+    if len(owners) == 0:
+        return np.zeros(0, dtype=np.int64)
+    pair = np.minimum(one, other) * (max(one.max(), other.max()) + 1)
+    pair = pair + np.maximum(one, other)
+    stride = int(welded.max()) + 1
+    ends = np.stack([welded[owners, corners], welded[owners, (corners + 1) % 3]], 1)
+    _, nodes = np.unique(pair[:, None] * stride + ends, return_inverse=True)
+    nodes = nodes.reshape(-1, 2)
+    found = connected_components(graph_of(nodes, int(nodes.max()) + 1), directed=False)
+    seams = found[1][nodes[:, 0]]
+    return np.unique(seams, return_inverse=True)[1].astype(np.int64)

@@ -1,0 +1,1 @@
+"""Objects whose faces are cut along seams, and the whole faces they had before."""

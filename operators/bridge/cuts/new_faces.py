@@ -1,0 +1,123 @@
+"""Faces that parts were found on, and that an object gets together with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.geometry.cutting.refined import Cut
+from ..mesh.attributes import read_floats
+from ..stored.names import WHOLE_MESH
+from .cut_mesh import CutMesh
+from .whole_mesh import (
+    forget_whole,
+    note_whole,
+    replace_mesh,
+    whole_faces,
+    whole_mesh_of,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """How the whole faces of a mesh are cut; cutting again gives the same.
+
+    Attributes
+    ----------
+    cuts : sequence of Cut
+    near : float
+        A plane that is this near to a corner runs through it.
+    factors : (3,) float
+        What coordinates are multiplied by in the space of the planes.
+    parts : (N,) int
+        Part of each piece after all cuts. Pieces of one face and one part are joined.
+    """
+
+    cuts: list[Cut]
+    near: float
+    factors: NDArray[np.float64]
+    parts: NDArray[np.int64]
+
+    @contextmanager
+    def of(self, mesh: bpy.types.Mesh) -> Iterator[CutMesh]:
+        """Give a mesh with its faces cut, in memory."""
+        with CutMesh(mesh, self.factors) as made:
+            made.cut(self.cuts, self.near)
+            made.join(self.parts.tolist())
+            yield made
+
+
+@dataclass(frozen=True, eq=False)
+class NewFaces:
+    """The faces of an object after its whole faces were cut, or without any cut.
+
+    Attributes
+    ----------
+    n_wholes : int
+        Number of whole faces.
+    wholes : (P,) int
+        Whole face that each face is of.
+    areas : (P,) float
+        Area of each face.
+    pieces : Pieces or None
+        How the whole faces are cut; None if they are not.
+    """
+
+    n_wholes: int
+    wholes: NDArray[np.int64]
+    areas: NDArray[np.float64]
+    pieces: Pieces | None
+
+    @classmethod
+    def of(cls, mesh: bpy.types.Mesh, pieces: Pieces | None) -> NewFaces:
+        """Return the faces that a mesh with whole faces gets."""
+        n_wholes = len(mesh.polygons)
+        if pieces is None:
+            areas = read_floats(mesh.polygons, "area").astype(np.float64)
+            return cls(n_wholes, np.arange(n_wholes), areas, None)
+        with pieces.of(mesh) as made:
+            return cls(n_wholes, made.wholes(), made.areas(), pieces)
+
+    def former_labels(
+        self, obj: bpy.types.Object, labels: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        """Return the label that each face has on an object with other faces, (P,).
+
+        It is that of the largest piece of the same whole face.
+
+        Parameters
+        ----------
+        obj : bpy.types.Object
+        labels : (Q,) int
+            Label of each face that the object has now.
+        """
+        wholes, areas = whole_faces(obj), read_floats(obj.data.polygons, "area")
+        covered = np.zeros((self.n_wholes, int(labels.max()) + 1))
+        np.add.at(covered, (wholes, labels), areas)
+        found: NDArray[np.int64] = covered.argmax(axis=1)[self.wholes]
+        return found
+
+    def fit(self, obj: bpy.types.Object) -> bool:
+        """Return whether these are faces of an object, which has not changed since."""
+        return len(whole_mesh_of(obj).polygons) == self.n_wholes
+
+    def put_on(self, obj: bpy.types.Object) -> None:
+        """Give an object without parts these faces."""
+        former, whole = obj.data, whole_mesh_of(obj)
+        if whole == former:
+            forget_whole(former)
+        if self.pieces is None:
+            if whole != former:
+                replace_mesh(obj, whole)
+            return
+        mesh = whole.copy()
+        with self.pieces.of(whole) as made:
+            made.write(mesh)
+        mesh[WHOLE_MESH] = whole
+        replace_mesh(obj, mesh)
+        note_whole(obj, self.wholes)

@@ -1,0 +1,183 @@
+"""The mesh with whole faces, which an object had before its faces were cut.
+
+The cut mesh is a copy, and the mesh before is kept as it was: nothing is written to it.
+A custom property of the cut mesh points to it, so that Blender saves it.
+"""
+
+from __future__ import annotations
+
+import json
+from hashlib import blake2b
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.attributes import IntArray, read_floats, read_ints, read_labels, write_ints
+from ..mesh.corners import corner_vertices
+from ..parts.slots import bare_materials
+from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
+from ..stored.restore import read_restore, sharers
+
+# How Blender names the values of an attribute, and how many numbers each has.
+_VALUES = {
+    "FLOAT": ("value", 1),
+    "INT": ("value", 1),
+    "INT8": ("value", 1),
+    "BOOLEAN": ("value", 1),
+    "FLOAT_VECTOR": ("vector", 3),
+    "FLOAT2": ("vector", 2),
+    "FLOAT_COLOR": ("color", 4),
+    "BYTE_COLOR": ("color", 4),
+    "INT16_2D": ("value", 2),
+    "INT32_2D": ("value", 2),
+    "QUATERNION": ("value", 4),
+    "FLOAT4X4": ("value", 16),
+}
+# Beginnings of the names of attributes that are no edits: ours, and what is selected or
+# hidden.
+_PASSING = ("wcd_", ".select", ".hide", ".uv_select", ".vs.", ".es.", ".pn.")
+
+
+def whole_mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
+    """Return the mesh of an object before its faces were cut.
+
+    It is the object's mesh itself if no faces are cut, or if the user edited the mesh
+    since: then its faces are the user's.
+    """
+    return obj.data if edited_since_cut(obj) else obj.data.get(WHOLE_MESH, obj.data)
+
+
+def is_cut(obj: bpy.types.Object) -> bool:
+    """Return whether faces of an object are cut."""
+    return obj.type == "MESH" and isinstance(obj.data.get(WHOLE_MESH), bpy.types.Mesh)
+
+
+def edited_since_cut(obj: bpy.types.Object) -> bool:
+    """Return whether the user edited a mesh after its faces were cut."""
+    return is_cut(obj) and obj.data.get(CUT_STATE) != _state_of(obj)
+
+
+def whole_faces(obj: bpy.types.Object) -> IntArray:
+    """Return the number of the whole face that each face of an object is of, (P,)."""
+    n_faces = len(obj.data.polygons)
+    if whole_mesh_of(obj) == obj.data:
+        return np.arange(n_faces, dtype=np.int32)
+    return read_labels(obj.data, WHOLE_LAYER, "FACE", n_faces)
+
+
+def note_whole(obj: bpy.types.Object, faces: NDArray[np.int64]) -> None:
+    """Note the whole face of each face, and the state, of an object without parts."""
+    layer = obj.data.attributes.new(WHOLE_LAYER, "INT", "FACE")
+    write_ints(layer.data, "value", faces)
+    obj.data[CUT_STATE] = _state_of(obj)
+
+
+def forget_whole(mesh: bpy.types.Mesh) -> None:
+    """Let the faces of a mesh be the user's: there is no way back."""
+    for key in (WHOLE_MESH, CUT_STATE):
+        if key in mesh:
+            del mesh[key]
+    layer = mesh.attributes.get(WHOLE_LAYER)
+    if layer is not None:
+        mesh.attributes.remove(layer)
+
+
+def bring_back(obj: bpy.types.Object) -> bool:
+    """Give an object without parts its whole faces; return whether that was possible.
+
+    Otherwise the cut faces stay, because the user edited them.
+    """
+    mesh = obj.data
+    whole = whole_mesh_of(obj)
+    if whole == mesh:
+        forget_whole(mesh)
+        return False
+    if whole.users > 1:  # a copy of the object has its faces from there, too
+        whole = whole.copy()
+    replace_mesh(obj, whole)
+    return True
+
+
+def replace_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
+    """Give an object, and those that share its mesh, another mesh of the same name.
+
+    The former one is removed if nothing else uses it.
+    """
+    former = obj.data
+    name, users = former.name, sharers(obj)
+    _copy_key_values(former, mesh)
+    for user in users:
+        index = user.active_shape_key_index
+        user.data = mesh
+        user.active_shape_key_index = index
+    former.name = f"{name} (whole)"
+    mesh.name = name
+    if former.users == 0:
+        bpy.data.meshes.remove(former)
+
+
+def _copy_key_values(former: bpy.types.Mesh, mesh: bpy.types.Mesh) -> None:
+    """Copy the values of shape keys: the user may have moved their sliders."""
+    if former.shape_keys and mesh.shape_keys:
+        for key in mesh.shape_keys.key_blocks:
+            there = former.shape_keys.key_blocks.get(key.name)
+            if there is not None and there.value != key.value:
+                key.value = there.value
+
+
+def _state_of(obj: bpy.types.Object) -> str:
+    """Return a digest of all that the user could have edited on a mesh."""
+    mesh, restore = obj.data, read_restore(obj.data)
+    digest = blake2b(digest_size=16)
+
+    def add(name: str, values: Any) -> None:
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(values).tobytes())
+
+    add("faces", read_ints(mesh.polygons, "loop_total"))
+    add("corners", corner_vertices(mesh))
+    add("edges", read_ints(mesh.edges, "vertices", 2))
+    for attribute in sorted(mesh.attributes, key=lambda each: each.name):
+        if attribute.name.startswith(_PASSING):
+            continue
+        if attribute.name in {"material_index", FACE_SETS}:
+            continue
+        values = _values_of(attribute)
+        if np.any(values):  # Edit Mode drops layers without any value
+            add(f"{attribute.name} {attribute.domain}", values)
+    indices, names = bare_materials(obj, restore)
+    if indices is not None and indices.any():
+        add("materials", indices)
+    groups = [g.name for g in obj.vertex_groups]
+    ours = set(restore.groups) if restore else set()
+    users = [name for name in groups if name not in ours]
+    weights = [
+        (vertex.index, groups[g.group], g.weight)
+        for vertex in mesh.vertices
+        for g in vertex.groups
+        if g.group < len(groups) and groups[g.group] not in ours
+    ]
+    for key in getattr(mesh.shape_keys, "key_blocks", ()):
+        add(key.name, read_floats(key.data, "co", 3))
+    noted = {
+        key: str(value.to_dict() if hasattr(value, "to_dict") else value)
+        for key, value in mesh.items()
+        if not key.startswith("wcd")
+    }
+    digest.update(json.dumps([names, users, weights, noted]).encode())
+    return digest.hexdigest()
+
+
+def _values_of(attribute: bpy.types.Attribute) -> Any:
+    """Return the values of an attribute as an array."""
+    if attribute.data_type not in _VALUES:
+        return np.array([str(each.value) for each in attribute.data])
+    field, width = _VALUES[attribute.data_type]
+    whole = "INT" in attribute.data_type or attribute.data_type == "BOOLEAN"
+    values = np.empty(len(attribute.data) * width, np.int32 if whole else np.float32)
+    if attribute.data_type == "BOOLEAN":
+        values = values.astype(np.bool_)
+    attribute.data.foreach_get(field, values)
+    return values

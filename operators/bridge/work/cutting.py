@@ -1,0 +1,166 @@
+"""Decompose an object from its whole faces, and cut them where parts meet on them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .... import core
+from ....core.errors import DecompositionError
+from ....core.geometry.mesh import TriangleMesh
+from ....core.parameters.parts import Parameters
+from ....core.results import Decomposition
+from ....core.steps.progress import Progress, Steps, within
+from ..cuts.cut_mesh import CutMesh
+from ..cuts.new_faces import NewFaces, Pieces
+from ..cuts.whole_mesh import is_cut, whole_mesh_of
+from ..parts.write import check_writable
+from ..read.evaluated import SeenMesh
+from ..read.reading_notes import reading_notes
+from ..read.shape import read_mesh, stretch
+from .libraries import load_libraries
+from .run_edit import Edited
+from .session_cache import session_cache
+
+# A cut that is this near to a corner runs through it, in longest edges of the refined
+# mesh.
+_NEAR = 0.5
+
+
+def gets_new_faces(
+    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
+) -> bool:
+    """Return whether a run cuts faces of an object, or makes cut ones whole.
+
+    Raises
+    ------
+    DecompositionError
+        If faces are to be cut in Edit Mode, or those of a mesh as it is seen.
+    """
+    if seen is not None and parameters.seams == "CUT":
+        raise DecompositionError(
+            "Only faces of the mesh itself are cut; choose Original for Mesh, or Keep"
+            " Faces for Seams."
+        )
+    if seen is not None:
+        return False
+    if obj.type != "MESH" or not obj.data.polygons:
+        return False
+    if not obj.data.is_editmode:
+        return parameters.seams == "CUT" or is_cut(obj)
+    if parameters.seams == "CUT":
+        raise DecompositionError(
+            "Faces are cut in Object Mode only; switch the mode, or choose Keep Faces"
+            " for Seams."
+        )
+    return False
+
+
+def shape_to_split(obj: bpy.types.Object, parameters: Parameters) -> TriangleMesh:
+    """Return the whole faces of an object, refined if they are to be cut.
+
+    Raises
+    ------
+    DecompositionError
+        If the object has no usable faces.
+    """
+    shape = read_mesh(whole_mesh_of(obj), stretch(obj))
+    return core.refined(shape).mesh if parameters.seams == "CUT" else shape
+
+
+def decompose_whole_faces(
+    obj: bpy.types.Object, parameters: Parameters
+) -> Steps[Edited]:
+    """Return the steps that decompose an object from its whole faces.
+
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read or written to.
+    """
+    check_writable(obj)
+    notes, factors, mesh = reading_notes(obj), stretch(obj), whole_mesh_of(obj)
+    shape, made = read_mesh(mesh, factors), CutMesh(mesh, factors)
+
+    def work() -> Steps[Edited]:
+        yield from load_libraries()
+        cache, refined = session_cache(), None
+        if parameters.seams == "CUT":
+            yield Progress("Surface", 0.0)
+            refined = core.refined(shape)
+        split = refined.mesh if refined else shape
+        steps = core.decompose_in_steps(split, parameters, cache)
+        found = yield from within(steps, 0.0, 0.98)
+        pieces = None
+        with made:
+            if refined:
+                found, pieces = yield from _cut(made, refined, found, parameters)
+            faces = NewFaces(shape.n_polygons, made.wholes(), made.areas(), pieces)
+        found = replace(found, notes=(*notes, *found.notes))
+        return Edited(found, None, parameters, faces=faces)
+
+    return work()
+
+
+def _cut(
+    made: CutMesh,
+    refined: core.RefinedMesh,
+    found: Decomposition,
+    parameters: Parameters,
+) -> Steps[tuple[Decomposition, Pieces | None]]:
+    """Cut faces along the seams of parts that were found on a refined mesh.
+
+    Return the parts of the faces, and how they are cut; None if no face is.
+    """
+    yield Progress("Seams", 1.0)
+    n_wholes, near = len(made.wholes()), _NEAR * refined.size
+    cuts = core.find_cuts(refined, found.labels)
+    made.cut(cuts, near)
+    of_pieces, of_polygons = core.labels_of_pieces(
+        refined, found.labels, made.triangles(), made.wholes()
+    )
+    made.join(of_pieces.tolist())
+    labels, triangles = made.parts(), made.triangles()
+    areas = np.bincount(labels[triangles.polygons], triangles.areas, found.n_parts)
+    # The largest part comes first. A part that got no piece is left out.
+    order = np.argsort(-areas, kind="stable")
+    order = order[np.isin(order, labels)]
+    places = np.full(found.n_parts, -1)
+    places[order] = np.arange(len(order))
+    after = replace(
+        (yield from _measured(refined, places[of_polygons], found, parameters)),
+        labels=places[labels],
+        areas=areas[order].astype(np.float64),
+        face_counts=np.bincount(places[labels]),
+        pairs=tuple(
+            (int(places[one]), int(places[other]))
+            for one, other in found.pairs
+            if min(places[one], places[other]) >= 0
+        ),
+        notes=found.notes,
+    )
+    if parameters.levels > 1:  # each part was measured by samples of its own
+        after = replace(after, ranks=found.ranks[order])
+    if len(labels) == n_wholes:
+        return after, None
+    return after, Pieces(cuts, near, made.factors, of_pieces)
+
+
+def _measured(
+    refined: core.RefinedMesh,
+    labels: NDArray[np.int64],
+    found: Decomposition,
+    parameters: Parameters,
+) -> Steps[Decomposition]:
+    """Return the figures of parts (Q,) after their seams were straightened."""
+    if found.n_parts == 1:
+        return found
+    cache = session_cache()
+    prepared = yield from cache.prepare(refined.mesh)
+    memo = yield from cache.see(prepared, parameters)
+    return core.describe(
+        memo.visibility, labels, parameters, found.psi_by_k, found.best_k
+    )
