@@ -122,8 +122,9 @@ def vertices_by_label(
         vertices, labels = corner_vertices(mesh), labels[corner_faces(mesh)]
     else:
         vertices = np.arange(len(labels), dtype=np.int32)
+    n_vertices = int(vertices.max(initial=-1)) + 1
     for label in range(n_labels):
-        members = np.zeros(len(vertices), dtype=bool)
+        members = np.zeros(n_vertices, dtype=bool)
         members[vertices[labels == label]] = True
         yield np.flatnonzero(members).astype(np.int32)
 
