@@ -15,6 +15,7 @@ from .all_pairs import see_all_pairs, see_uniform_pairs
 from .blocks import see_blocks
 from .cone import see_cones
 from .containers import see_through_containers
+from .likely_pairs import likely_pairs
 from .lines import RayBudget
 from .pair_visibility import Matrix, PairVisibility
 from .prepared import PreparedShape
@@ -62,6 +63,8 @@ class Visibility:
         LoS matrix M (eq. 3), also through containers. The embedding comes from it.
     psi_pairs : PairVisibility
         Pairs that psi is counted from (eq. 5), also through containers.
+    likely_pairs : PairVisibility
+        How likely pairs lie in one part. Parts are found from it.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1), through the inside only.
     nodes : (N,) int
@@ -72,6 +75,7 @@ class Visibility:
     samples: Samples
     affinity: Matrix
     psi_pairs: PairVisibility
+    likely_pairs: PairVisibility
     rank_pairs: PairVisibility
     nodes: NDArray[np.int64]
 
@@ -180,13 +184,16 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
         affinity, psi = yield from within(
             see_through_containers(shape.marcher, sight.samples, affinity, psi),
             0.9,
-            1.0,
+            0.95,
         )
+    guesses = likely_pairs(psi, sight.samples.positions)
+    likely = yield from within(guesses, 0.95, 1.0)
     return Visibility(
         shape,
         sight.samples,
         affinity.visible,
         psi,
+        likely,
         sight.rank_pairs,
         shape.targets.polygons[sight.samples.triangles],
     )
