@@ -69,7 +69,8 @@ class PartCountSearch:
         1. A k is good enough if its psi is nearly the largest of all k.
         2. Take the smallest such k whose psi nearly reaches that of the k clusters of
            k-means. Clusters need not be connected, but parts are. If clusters have a
-           higher psi, some of their pieces should be parts of their own.
+           higher psi, some of their pieces should be parts of their own. If there is
+           no such k, take the smallest that is good enough.
         3. If the parts of a symmetric shape are not symmetric, prefer the next such k
            with symmetric parts, up to 2k.
 
@@ -84,12 +85,14 @@ class PartCountSearch:
         noise = 2 * self._partitioner.negligible
         enough = most - max(noise, _GAIN_TOLERANCE * (most - psi_by_k[1]))
         good = sorted(k for k, psi in psi_by_k.items() if psi >= enough)
-        best_k = yield from within(self._first_like_clusters(tried, good), 0.7, 0.9)
-        if best_k and not tried[best_k].even:
+        like = yield from within(self._first_like_clusters(tried, good), 0.7, 0.9)
+        best_k = like or good[0]
+        if not tried[best_k].even:
             even = [k for k in good if tried[k].even and best_k < k <= 2 * best_k]
             steps = self._first_like_clusters(tried, even)
-            best_k = (yield from within(steps, 0.9, 1.0)) or best_k
-        best_k = best_k or good[0]
+            # If no number is like its clusters, that speaks against none of them.
+            others = [] if like else even
+            best_k = (yield from within(steps, 0.9, 1.0)) or min(others, default=best_k)
         seams = yield from self._seams.cut(tried[best_k].parts)
         return Search(seams, self._psi_of_sight(tried), best_k)
 

@@ -60,10 +60,34 @@ def rank(obj: bpy.types.Object) -> float:
     return json.loads(obj["wcd"])["measured"]["convexity_rank"]
 
 
-def explode(obj: bpy.types.Object, factor: float) -> None:
+def mirror(obj: bpy.types.Object) -> None:
+    """Copy the parts on the side of positive X to the other side."""
+    activate(obj)
+    bpy.ops.wcd.mirror_parts()
+
+
+def rows(obj: bpy.types.Object) -> list[Any]:
+    """Return the rows of the table of parts, with name and color, by number."""
+    return sorted(obj.wcd_parts, key=lambda row: row.number)
+
+
+def explode(obj: bpy.types.Object, distance: float) -> None:
     """Move the parts of an object away from its center."""
     activate(obj)
-    bpy.ops.wcd.explode(factor=factor)
+    bpy.ops.wcd.explode(distance=distance)
+
+
+def implode(obj: bpy.types.Object) -> None:
+    """Take the exploded view back."""
+    activate(obj)
+    bpy.ops.wcd.implode()
+
+
+def hulls(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Put a collision hull around each part of an object, and return the hulls."""
+    activate(obj)
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    return list(_load("operators.bridge.hulls.hull_objects").hulls_of(obj))
 
 
 def picture(obj: bpy.types.Object, kind: str) -> np.ndarray:

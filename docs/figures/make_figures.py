@@ -1,10 +1,10 @@
-"""Draw the figures of docs/paper.md into docs/pictures/.
+"""Draw the figures of the docs into docs/pictures/.
 
     make figures                          all of them
     make figures FIGURES="hands ranks"    some of them
 
-Each figure is a function of `solid_drawings` or `flat_drawings`. The extension of this
-checkout computes what they show.
+Each figure is a function of `solid_drawings`, `flat_drawings` or `story`. The extension
+of this checkout computes what they show.
 """
 
 import sys
@@ -14,9 +14,10 @@ import bpy
 import extension
 import flat_drawings
 import solid_drawings
+import story
 from image import save
 
-FIGURES = solid_drawings.FIGURES | flat_drawings.FIGURES
+FIGURES = solid_drawings.FIGURES | flat_drawings.FIGURES | {"story": story.story}
 PICTURES = Path(__file__).resolve().parents[1] / "pictures"
 
 

@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ..mesh.attributes import read_labels
 from ..mesh.layers import layers_of
-from ..mesh.points import is_cloud, set_points
+from ..mesh.points import count_points, is_cloud, set_points
 from ..stored.identity import Identity
-from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
+from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
+from .palette import UNPAINTED
 from .read import part_identities, part_labels
 
 
@@ -48,6 +50,18 @@ def show_colors(obj: bpy.types.Object) -> None:
         paint_points(obj, _labels(obj), part_identities(obj))
     elif shown(obj)[1]:
         write_colors(obj)
+
+
+def point_colors(obj: bpy.types.Object) -> NDArray[np.float32]:
+    """Return the linear RGBA color of each point of a cloud, (N, 4).
+
+    Points without a part are gray.
+    """
+    parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
+    colors = np.tile(np.array(UNPAINTED, np.float32), (parts.max(initial=-1) + 2, 1))
+    for identity in part_identities(obj):
+        colors[identity.number] = (*identity.color, 1.0)
+    return colors[parts]  # the last row is of part -1
 
 
 def shown(obj: bpy.types.Object) -> tuple[bool, bool]:

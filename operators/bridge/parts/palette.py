@@ -44,6 +44,8 @@ _PALETTE = (
     (0x8F4000, 0xDA834A),
     (0xFF6897, 0xFFB3C5),
 )
+# Linear RGBA of what has no part and no material.
+UNPAINTED = (0.8, 0.8, 0.8, 1.0)
 # Colors as near as this, in each channel, are the same one.
 _SAME = 0.01
 # Share of white that an artist's own color is mixed with for the mirror image; a light

@@ -25,13 +25,13 @@ from ...bridge.mesh.attributes import (
 )
 from ...bridge.mesh.corners import corner_faces, corner_vertices
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
-from ...bridge.parts.read import part_identities
+from ...bridge.parts.face_sets_and_colors import point_colors
+from ...bridge.parts.palette import UNPAINTED
 from ...bridge.stored.names import PART_LAYER
 from ..current_file import mesh_objects
 
 # Name of the property that holds part numbers in the file.
 _NUMBER = "part"
-_UNPAINTED = (0.8, 0.8, 0.8, 1.0)
 
 
 @contextmanager
@@ -57,12 +57,9 @@ def ply_copies() -> Iterator[None]:
 def _copy_of_cloud(obj: bpy.types.Object) -> bpy.types.Object:
     """Return a new object with the points of a cloud, painted by part."""
     parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    colors = np.tile(_UNPAINTED, (parts.max(initial=-1) + 2, 1))  # last: of part -1
-    for identity in part_identities(obj):
-        colors[identity.number] = (*identity.color, 1.0)
     mesh = bpy.data.meshes.new(obj.name)
     mesh.from_pydata(positions_of(obj), [], [])
-    _paint(mesh, colors[parts], parts)
+    _paint(mesh, point_colors(obj), parts)
     return _object_like(obj, mesh)
 
 
@@ -77,7 +74,7 @@ def _copy_of_mesh(obj: bpy.types.Object) -> bpy.types.Object:
     part_of_vertex = np.full(len(origins), -1, dtype=np.int32)
     part_of_vertex[corners] = parts[faces]
     colors = _material_colors(mesh)
-    color_of_vertex = np.tile(np.array(_UNPAINTED, np.float32), (len(origins), 1))
+    color_of_vertex = np.tile(np.array(UNPAINTED, np.float32), (len(origins), 1))
     color_of_vertex[corners] = colors[np.clip(slots, 0, len(colors) - 1)[faces]]
     split = _mesh_on(mesh, positions_of(obj)[origins], corners)
     _paint(split, color_of_vertex, part_of_vertex)
@@ -140,7 +137,7 @@ def _object_like(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Objec
 def _material_colors(mesh: bpy.types.Mesh) -> FloatArray:
     """Return the viewport color of each material slot, (M, 4) with M at least 1."""
     colors = [
-        tuple(material.diffuse_color) if material else _UNPAINTED
+        tuple(material.diffuse_color) if material else UNPAINTED
         for material in mesh.materials
     ]
-    return np.array(colors or [_UNPAINTED], dtype=np.float32)
+    return np.array(colors or [UNPAINTED], dtype=np.float32)

@@ -14,11 +14,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...bridge.mesh.attributes import read_floats, read_ints, read_labels
+from ...bridge.mesh.attributes import read_floats, read_ints
 from ...bridge.mesh.corners import corner_vertices
-from ...bridge.mesh.points import count_points, is_cloud, positions_of
-from ...bridge.parts.palette import part_color
-from ...bridge.stored.names import PART_LAYER
+from ...bridge.mesh.points import is_cloud, positions_of
+from ...bridge.parts.face_sets_and_colors import point_colors
 from .names import legal_names
 from .placed_meshes import matrix_of, written
 
@@ -156,13 +155,8 @@ def _surface(mesh: bpy.types.Mesh) -> list[str]:
 def _points(obj: bpy.types.Object, name: str) -> list[str]:
     """Return the lines of a point cloud in the colors of its parts."""
     content = _places(positions_of(obj))
-    parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    colors = np.array(
-        [part_color(part)[:3] for part in range(parts.max(initial=-1) + 1)]
-    )
-    if len(parts) and parts.min() >= 0:
-        painted = colors[parts]
-        content += _primvar("color3f[] primvars:displayColor", painted, "vertex")
+    colors = point_colors(obj)[:, :3]
+    content += _primvar("color3f[] primvars:displayColor", colors, "vertex")
     return _prim("Points", obj, name, [], content)
 
 

@@ -13,6 +13,7 @@ from mathutils import Color
 from .....core.parameters.bodies import BodyParameters
 from .....core.solids.mass_properties import MassProperties
 from ....bridge.mesh.attributes import read_ints
+from ....bridge.parts.palette import UNPAINTED
 from ..names import legal_names
 from ..obj_files import write_obj
 from ..placed_meshes import FloatArray, TriangleArray, matrix_of, placed
@@ -21,7 +22,6 @@ from .solids import Solid, solid_of
 
 # Names that simulators use themselves.
 _TAKEN = ("world",)
-_UNPAINTED = (0.8, 0.8, 0.8, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,7 +170,7 @@ def _four_vertices(
 def _color_of(material: bpy.types.Material | None) -> tuple[float, ...]:
     """Return the color of a material in the viewport, as screens show it."""
     if material is None:
-        return _UNPAINTED
+        return UNPAINTED
     red, green, blue, opacity = material.diffuse_color
     shown = Color((red, green, blue)).from_scene_linear_to_srgb()
     return (*shown, opacity)

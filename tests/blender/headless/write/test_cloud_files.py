@@ -1,0 +1,41 @@
+"""Point clouds are written in the colors of their parts, those given by hand too."""
+
+import bpy
+import clouds
+import numpy as np
+import pytest
+import shapes
+import trimesh
+from hand_made import activate, mesh_object
+from weak_convex_decomposition.operators.bridge.mesh.points import set_points
+from weak_convex_decomposition.operators.bridge.parts.read import part_labels
+from weak_convex_decomposition.operators.headless.write.model_files import save
+
+COLOR = (0.25, 0.5, 0.75)
+SRGB = (137, 188, 225)  # the same in sRGB, of 255
+
+
+@pytest.fixture
+def recolored():
+    """Return a cloud of two parts; the second has a color given by hand."""
+    points, normals = clouds.drawn(shapes.dumbbell(), 900)
+    obj = mesh_object("points", points, [])
+    set_points(obj, "normal", "FLOAT_VECTOR", normals)
+    activate(obj)
+    bpy.ops.wcd.decompose(samples=200, parts=2)
+    obj.wcd_parts[1].color = COLOR
+    return obj
+
+
+def test_usd_has_colors_given_by_hand(tmp_path, recolored):
+    save(tmp_path / "a.usd", None)
+    lines = (tmp_path / "a.usd").read_text(encoding="utf-8").splitlines()
+    (painted,) = [line for line in lines if "displayColor" in line]
+    assert painted.count("(0.25, 0.5, 0.75)") == (part_labels(recolored) == 1).sum() > 0
+
+
+def test_ply_has_colors_given_by_hand(tmp_path, recolored):
+    save(tmp_path / "a.ply", None)
+    colors = trimesh.load(tmp_path / "a.ply").colors[:, :3].astype(int)
+    given = np.abs(colors - SRGB).max(axis=1) <= 1
+    assert given.tolist() == (part_labels(recolored) == 1).tolist()

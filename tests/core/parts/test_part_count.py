@@ -1,0 +1,60 @@
+"""The number of parts: which of the tried ones is chosen."""
+
+import numpy as np
+import pytest
+from weak_convex_decomposition.core.parts.part_count import PartCountSearch
+from weak_convex_decomposition.core.parts.part_memo import Candidate
+from weak_convex_decomposition.core.parts.seams import Seams
+from weak_convex_decomposition.core.steps.memo import Memo
+from weak_convex_decomposition.core.steps.progress import run
+
+# Psi of 1 to 6 parts: 3 to 6 are good enough.
+PSI = (0.3, 0.9, 1.49, 1.492, 1.495, 1.5)
+
+
+class KnownParts:
+    """Stands for the partitioner and the seam cutter: psi is known, seams stay."""
+
+    by_psi, negligible = True, 0.003
+
+    def __init__(self, psi_of_clusters):
+        self.psi_of_clusters = psi_of_clusters
+
+    def psi(self, parts):
+        return PSI[parts.max()]
+
+    def cut(self, parts):
+        yield from ()
+        return Seams(parts)
+
+
+def chosen(even, psi_of_clusters):
+    """Return the number of parts chosen; those in `even` are symmetric."""
+    tried = {
+        k: Candidate(np.arange(k), psi, k in even) for k, psi in enumerate(PSI, start=1)
+    }
+    memo = Memo()
+    memo.recall((2, 6), lambda: tried)
+    known = KnownParts(psi_of_clusters)
+    return run(PartCountSearch(known, known, 2, 6, memo).best()).best_k
+
+
+def as_parts(k):
+    return PSI[k - 1]
+
+
+@pytest.mark.parametrize(
+    ("even", "expected"), [((), 3), ((3, 5), 3), ((5, 6), 5), ((2,), 3)]
+)
+def test_symmetric_parts_are_preferred(even, expected):
+    assert chosen(even, as_parts) == expected
+
+
+@pytest.mark.parametrize(("even", "expected"), [((), 3), ((3, 5), 3), ((5,), 5)])
+def test_also_where_clusters_are_better_for_each_number(even, expected):
+    assert chosen(even, lambda k: as_parts(k) + 0.01) == expected
+
+
+def test_numbers_whose_clusters_are_better_give_way():
+    assert chosen((), lambda k: as_parts(k) + 0.01 * (k < 5)) == 5
+    assert chosen((6,), lambda k: as_parts(k) + 0.01 * (k > 4)) == 3
