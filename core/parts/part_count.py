@@ -122,10 +122,8 @@ class PartCountSearch:
 
     def _psi_of_sight(self, tried: dict[int, Candidate]) -> dict[int, float]:
         """Return psi of candidates by lines of sight alone (eq. 5)."""
-        by = self._partitioner
-        pairs, alpha = by.visibility.psi_pairs, by.parameters.alpha
-        labels = {k: by.transfer.to_samples(each.parts) for k, each in tried.items()}
-        return {k: pairs.tally(labels[k], k).psi(alpha) for k in labels}
+        seen = self._partitioner.psi_seen
+        return {k: seen(candidate.parts) for k, candidate in tried.items()}
 
     def _first_like_clusters(
         self, tried: dict[int, Candidate], numbers: Sequence[int]

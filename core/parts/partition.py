@@ -62,16 +62,7 @@ class Partitioner:
         self._of_clusters = memo.clusters(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
-        """Return `n_parts` parts and their psi; fewer parts if no more are possible.
-
-        Parameters
-        ----------
-        n_parts : int
-
-        Returns
-        -------
-        Candidate
-        """
+        """Return `n_parts` parts and their psi; fewer parts if no more are possible."""
 
         def make() -> Candidate:
             parts = self.partition(n_parts)
@@ -147,6 +138,12 @@ class Partitioner:
     def psi(self, parts: NDArray[np.int64]) -> float:
         """Return psi (eq. 5) of parts (P,) of the nodes, from likely pairs."""
         return self.tally(parts).psi(self.parameters.alpha)
+
+    def psi_seen(self, parts: NDArray[np.int64]) -> float:
+        """Return psi (eq. 5) of parts (P,) of the nodes, from lines of sight alone."""
+        labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
+        tally = self.visibility.psi_pairs.tally(labels, n_parts)
+        return tally.psi(self.parameters.alpha)
 
     def psi_of_clusters(self, n_clusters: int) -> float:
         """Return psi of the clusters of k-means, which need not be connected."""

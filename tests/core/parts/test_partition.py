@@ -130,9 +130,9 @@ def test_the_search_returns_the_parts_of_largest_psi(seen, make):
     best = max(psi_by_k.values())
     assert psi_by_k[count_parts(parts)] == pytest.approx(best, abs=0.01)
     # Cutting seams costs a little. Psi is counted from lines of sight.
-    labels = partitioner.transfer.to_samples(parts)
-    tally = partitioner.visibility.psi_pairs.tally(labels, count_parts(parts))
-    assert tally.psi(2.0) == pytest.approx(psi_by_k[count_parts(parts)], abs=0.01)
+    assert partitioner.psi_seen(parts) == pytest.approx(
+        psi_by_k[count_parts(parts)], abs=0.01
+    )
 
 
 def shaft():
