@@ -64,7 +64,7 @@ class Visibility:
     psi_pairs : PairVisibility
         Pairs that psi is counted from (eq. 5), also through containers.
     likely_pairs : PairVisibility
-        How likely pairs lie in one part. Parts are found from it.
+        How likely pairs lie in one part, or `psi_pairs`. Parts are found from it.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1), through the inside only.
     nodes : (N,) int
@@ -157,6 +157,15 @@ def _for_size(shape: PreparedShape, parameters: Parameters) -> Parameters:
     return replace(parameters, samples=min(parameters.samples, few))
 
 
+def _is_fine(shape: PreparedShape) -> bool:
+    """Return whether a shape is a mesh of so many triangles that seams run anywhere.
+
+    All samples of a large face are likely in one part, and it would be one of its own.
+    """
+    solid = shape.solid is not None and shape.plane is None
+    return solid and len(shape.targets.triangles) >= _FEW_TRIANGLES
+
+
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
     """Compute the visibility of a shape: the expensive half of a decomposition.
 
@@ -186,8 +195,10 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
             0.9,
             0.95,
         )
-    guesses = likely_pairs(psi, sight.samples.positions)
-    likely = yield from within(guesses, 0.95, 1.0)
+    likely = psi
+    if _is_fine(shape):
+        guesses = likely_pairs(psi, sight.samples.positions)
+        likely = yield from within(guesses, 0.95, 1.0)
     return Visibility(
         shape,
         sight.samples,

@@ -21,7 +21,7 @@ def comb(seen):
 
 
 def test_they_are_probabilities_whose_sums_are_exact(comb):
-    found = comb.likely_pairs.visible
+    found = likely(comb.psi_pairs.visible, comb.samples.positions)
     assert found.dtype == np.float32
     assert found.min() >= 0
     assert found.max() == 1
@@ -33,7 +33,6 @@ def test_they_are_probabilities_whose_sums_are_exact(comb):
 def test_they_do_not_depend_on_the_steps_and_units(comb, monkeypatch):
     visible, positions = comb.psi_pairs.visible, comb.samples.positions
     whole = likely(visible, positions)
-    assert (comb.likely_pairs.visible == whole).all()
     monkeypatch.setattr(module, "_ENTRIES_PER_STEP", 1000)
     assert (likely(visible, positions) == whole).all()
     assert (likely(visible, 8.0 * positions) == whole).all()
@@ -59,9 +58,21 @@ def test_parts_that_anyone_would_name_are_likely_ones(comb):
     # Little is likely from the first tooth to the last; within a tooth, much is.
     x = comb.samples.positions[:, 0]
     first, last = x < x.min() + 0.1 * np.ptp(x), x > x.max() - 0.1 * np.ptp(x)
-    found = comb.likely_pairs.visible
+    found = likely(comb.psi_pairs.visible, comb.samples.positions)
     assert found[np.ix_(first, last)].mean() < 0.15
     assert found[np.ix_(first, first)].mean() > 0.4
+
+
+def fine():
+    """Return a sphere of more than 600 triangles."""
+    return shapes.sphere(3)
+
+
+def test_they_count_in_meshes_whose_seams_run_anywhere(seen, comb):
+    assert comb.likely_pairs is comb.psi_pairs
+    visibility = seen(fine).visibility
+    whole = likely(visibility.psi_pairs.visible, visibility.samples.positions)
+    assert (visibility.likely_pairs.visible == whole).all()
 
 
 def test_where_most_pairs_are_unknown_lines_of_sight_stay():
