@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-ablation \
-  bench-clouds bench-objects bench-speed contact-sheet clean psb stress venv development
+  bench-clouds bench-objects bench-speed bench-window contact-sheet clean psb stress venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -61,12 +61,13 @@ figures: venv ## Draw the figures of docs/ anew: FIGURES="hands ranks" for some 
 
 pictures: ## Take the pictures of the window anew: BLENDER=command
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
-	@for subject in looks sight explode; do \
+	@for subject in looks sight explode pick; do \
 	  $(BLENDER) --python tests/window/drive.py -- $$subject; done
 	@cp build/window/looks-before.png docs/pictures/sidebar.png
 	@cp build/window/looks-after.png docs/pictures/parts.png
 	@cp build/window/sight-clicked.png docs/pictures/sight.png
 	@cp build/window/explode-exploded.png docs/pictures/exploded.png
+	@cp build/window/pick-pie.png docs/pictures/picking.png
 
 lint: development ## Check the format, the rules of the code and the types
 	$(VENV)/bin/ruff format --check .
@@ -114,6 +115,11 @@ bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=dir
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/suzanne.py
+
+bench-window: ## Measure seconds and freezes in a window: BLENDER=command that starts it
+	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
+	@for start in idle at-once; do \
+	  $(BLENDER) --python tests/window/drive.py -- tests/benchmarks/speed/in_window.py $$start; done
 
 bench-objects: venv ## Measure files of many small objects: OBJECTS=1000
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/many_objects.py $(OBJECTS)

@@ -13,7 +13,10 @@ if TYPE_CHECKING:
     from .cache import ShapeCache as ShapeCache
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
+    from .geometry.transfer import labels_by_area as labels_by_area
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
+    from .hulls.measure.one_shape import refit_in_steps as refit_in_steps
+    from .hulls.outline import faces_of as faces_of
     from .hulls.outline import outline_of as outline_of
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
@@ -38,7 +41,10 @@ _HOMES = {
     "ShapeCache": "cache",
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
+    "labels_by_area": "geometry.transfer",
     "build_hulls_in_steps": "hulls.build",
+    "refit_in_steps": "hulls.measure.one_shape",
+    "faces_of": "hulls.outline",
     "outline_of": "hulls.outline",
     "mass_of_mesh": "solids.mass",
     "mass_of_surface": "solids.mass",
@@ -59,6 +65,9 @@ _HOMES = {
     "point_viewer_in_steps": "sight.point_view",
     "PreparedShape": "sight.prepared",
 }
+
+# The modules that the names come from, to be imported one at a time.
+MODULES = tuple(f"{__name__}.{home}" for home in dict.fromkeys(_HOMES.values()))
 
 
 def __getattr__(name: str) -> Any:

@@ -10,27 +10,28 @@ from typing import Any
 
 def _classes() -> tuple[Any, ...]:
     """Return the classes that Blender is to know."""
-    from . import edit_parts, settings, show_parts, show_sight, use_parts
+    from . import edit_parts, hulls, settings, show_parts, use_parts
     from .decompose import WCD_OT_clear, WCD_OT_decompose
-    from .hulls import WCD_OT_build_hulls, WCD_OT_make_rigid
     from .measure import WCD_OT_measure, WCD_OT_measure_selection
     from .recut import WCD_OT_choose_part_count, WCD_OT_recut
     from .running.modal import WCD_OT_cancel
     from .show_picture import WCD_OT_show_picture
+    from .viewport import choose_parts, pick_parts, show_sight
 
     return (
         *settings.CLASSES,
         WCD_OT_decompose,
         WCD_OT_measure,
         WCD_OT_measure_selection,
-        WCD_OT_build_hulls,
-        WCD_OT_make_rigid,
+        *hulls.CLASSES,
         WCD_OT_clear,
         WCD_OT_cancel,
         WCD_OT_recut,
         WCD_OT_choose_part_count,
         *use_parts.CLASSES,
         *show_sight.CLASSES,
+        *choose_parts.CLASSES,
+        *pick_parts.CLASSES,
         WCD_OT_show_picture,
         *edit_parts.CLASSES,
         *show_parts.CLASSES,
@@ -41,10 +42,11 @@ def register() -> None:
     """Register the operators, the settings, the command and the table's rows."""
     import bpy
 
-    from . import settings, show_sight
+    from . import settings
     from .bridge.parts import rows
     from .bridge.work import in_step, session_cache
     from .headless import command_line
+    from .viewport import picking, show_sight, shown_parts
 
     for cls in _classes():
         bpy.utils.register_class(cls)
@@ -53,6 +55,8 @@ def register() -> None:
     session_cache.register()
     in_step.register()
     show_sight.register()
+    shown_parts.register()
+    picking.register()
     rows.register()
 
 
@@ -60,15 +64,19 @@ def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     import bpy
 
-    from . import recut, settings, show_sight
+    from . import recut, settings
     from .bridge.parts import rows
-    from .bridge.work import in_step, session_cache
+    from .bridge.work import in_step, libraries, session_cache
     from .headless import command_line
     from .running import modal
+    from .viewport import picking, show_sight, shown_parts
 
     recut.stop()
     modal.stop()
+    libraries.unregister()
     rows.unregister()
+    picking.unregister()
+    shown_parts.unregister()
     show_sight.unregister()
     in_step.unregister()
     session_cache.unregister()

@@ -9,11 +9,15 @@ import bpy
 from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import erase_hulls
 from .bridge.parts.erase import clear
-from .bridge.parts.exploding import implode
 from .bridge.parts.images import erase_images
-from .bridge.read.carrier import carrier_for, placed_carrier
+from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
+from .bridge.read.evaluated import read_as
 from .bridge.refusals import clear_refusal, decompose_refusal
+from .bridge.stored.names import CARRIER_TAG
+from .bridge.views.colors import show_colors_as
+from .bridge.views.node_modifiers import remove_views
 from .bridge.work.computing import summary
+from .bridge.work.in_step import let_undo_see_all
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running.computation import Computation
@@ -45,18 +49,21 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings; those at the front of the sidebar come first."""
-        draw(self.layout, self, (*FRONT, "keep_edits"))
+        draw(self.layout, self, (*FRONT, "keep_edits", "mesh", "colors"))
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        parameters = parameters_from(self)
-        return decompose_unlocked(carrier_for(obj), parameters, self.keep_edits)
+        parameters, seen = parameters_from(self), read_as(self.mesh, obj)
+        target = carrier_for(obj, seen)
+        return decompose_unlocked(target, parameters, self.keep_edits, seen)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
-        value.write(placed_carrier(obj))
+        carrier = placed_carrier(obj, value.seen)
+        value.write(carrier)
+        show_colors_as(carrier, self.colors)
         return summary(value.decomposition)
 
 
@@ -80,6 +87,10 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         erase_hulls(obj)
-        implode(obj)
+        remove_views(obj)
         erase_images(obj)
         clear(obj)
+        if CARRIER_TAG in obj:
+            clear_carrier(obj)
+        else:
+            let_undo_see_all(obj)

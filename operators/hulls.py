@@ -8,13 +8,28 @@ import bpy
 
 from ..core.results import HullDecomposition
 from ..core.steps.progress import Steps
-from .bridge.hulls.hull_objects import hulls_of, write_hulls
+from .bridge.hulls.hull_objects import erase_hulls, hulls_of, write_hulls
+from .bridge.hulls.looks import look_like
+from .bridge.hulls.one_hull import (
+    forget_hulls,
+    note_mesh_of_hulls,
+    refit,
+    remove_hull,
+    write_refit,
+)
 from .bridge.hulls.rigid_bodies import make_rigid
+from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, rigid_refusal
 from .bridge.work.computing import build_hulls_of, hull_summary
 from .running.computation import Computation
-from .running.on_objects import OnEach
-from .settings import HULLS, draw, hull_parameters_from, parameters_from, properties_for
+from .running.on_objects import OnActive, OnEach
+from .settings import (
+    HULL_RUN,
+    draw,
+    hull_parameters_from,
+    parameters_from,
+    properties_for,
+)
 
 
 class WCD_OT_build_hulls(Computation, bpy.types.Operator):
@@ -34,21 +49,24 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
-        draw(self.layout, self, HULLS)
+        draw(self.layout, self, HULL_RUN)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[HullDecomposition]:
         self._parameters = hull_parameters_from(self)
         parameters = parameters_from(context.scene.wcd)
-        return build_hulls_of(obj, parameters, self._parameters)
+        seen = read_as(self.mesh, obj)
+        return build_hulls_of(obj, parameters, self._parameters, seen)
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
-        write_hulls(obj, value, self._parameters)
+        hulls = write_hulls(obj, value, self._parameters, to_be_edited=True)
+        note_mesh_of_hulls(obj, self.mesh)
+        look_like(hulls, self.look)
         return hull_summary(value)
 
 
-WCD_OT_build_hulls.__annotations__ = properties_for(HULLS)
+WCD_OT_build_hulls.__annotations__ = properties_for(HULL_RUN)
 
 
 class WCD_OT_make_rigid(OnEach, bpy.types.Operator):
@@ -80,3 +98,90 @@ WCD_OT_make_rigid.__annotations__ = {
         ),
     )
 }
+
+
+class _OnHulls(OnEach):
+    """Half an operator on objects with hulls."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return rigid_refusal(obj)
+
+
+class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):
+    """Remove the hulls of objects."""
+
+    bl_idname = "wcd.remove_hulls"
+    bl_label = "Remove Collision Hulls"
+    bl_description = "Remove the hulls that were built; the parts stay"
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        erase_hulls(obj)
+        forget_hulls(obj)
+
+
+class WCD_OT_show_hulls(_OnHulls, bpy.types.Operator):
+    """Show hulls as transparent or opaque solids, or as wires."""
+
+    bl_idname = "wcd.show_hulls"
+    bl_label = "Look of Collision Hulls"
+    bl_description = "Show hulls as transparent or opaque solids, or as wires"
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        look_like(hulls_of(obj), self.look)
+
+
+WCD_OT_show_hulls.__annotations__ = properties_for(("look",))
+
+_NAME = bpy.props.StringProperty(name="Hull", description="Name of the hull")
+
+
+class WCD_OT_remove_hull(OnActive, _OnHulls, bpy.types.Operator):
+    """Remove one hull of the active object."""
+
+    bl_idname = "wcd.remove_hull"
+    bl_label = "Remove This Hull"
+    bl_description = "Remove this hull; the others stay"
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        remove_hull(obj, self.hull)
+
+
+WCD_OT_remove_hull.__annotations__ = {"hull": _NAME}
+
+
+class WCD_OT_refit_hull(OnActive, Computation, bpy.types.Operator):
+    """Give one hull of the active object another shape."""
+
+    bl_idname = "wcd.refit_hull"
+    bl_label = "Shape of This Hull"
+    bl_description = "Fit another shape to what this hull is around; the others stay"
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return rigid_refusal(obj)
+
+    def _begin(
+        self, context: bpy.types.Context, obj: bpy.types.Object
+    ) -> Steps[HullDecomposition]:
+        return refit(obj, self.hull, self.shape)
+
+    def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
+        hull = write_refit(obj, self.hull, value)
+        look_like([hull], bpy.context.scene.wcd.look)
+        return f"{hull.name}, error {value.errors[0]:.3g}"
+
+
+WCD_OT_refit_hull.__annotations__ = {"hull": _NAME, **properties_for(("shape",))}
+
+CLASSES = (
+    WCD_OT_build_hulls,
+    WCD_OT_make_rigid,
+    WCD_OT_remove_hulls,
+    WCD_OT_show_hulls,
+    WCD_OT_remove_hull,
+    WCD_OT_refit_hull,
+)

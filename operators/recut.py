@@ -12,8 +12,9 @@ from ..core.errors import DecompositionError
 from ..core.parameters.parts import Parameters
 from ..core.steps.job import Job
 from ..core.steps.progress import Steps
+from .bridge.read.evaluated import SeenMesh, read_as
 from .bridge.refusals import recut_refusal
-from .bridge.stored.record import noted_parameters
+from .bridge.stored.record import EVALUATED, ORIGINAL, noted_mesh, noted_parameters
 from .bridge.work.computing import is_quick
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
@@ -41,13 +42,24 @@ class _Recut(Replacement):
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        parameters = self._wanted(context)
-        if not is_quick(obj, parameters):
+        parameters, seen = self._wanted(context), _seen(context, obj)
+        if not is_quick(obj, parameters, seen):
             self.report(
                 {"INFO"}, "The shape or its sampling has changed: it is sampled again"
             )
         keep_edits = context.scene.wcd.keep_edits
-        return decompose_unlocked(obj, parameters, keep_edits)
+        return decompose_unlocked(obj, parameters, keep_edits, seen)
+
+
+def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> SeenMesh | None:
+    """Return the mesh as it is seen, if that is read; raise if it has other faces."""
+    seen = read_as(context.scene.wcd.mesh, obj)
+    if seen is not None and not seen.corresponds:
+        raise DecompositionError(
+            f"The faces seen of {obj.name} do not come from those of its mesh; press"
+            " Decompose to have parts on a new object."
+        )
+    return seen
 
 
 class WCD_OT_recut(_Recut, bpy.types.Operator):
@@ -81,12 +93,14 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     def _cut(self, context: bpy.types.Context) -> bool:
         """Replace the parts if they differ; return False if that takes too long."""
         obj, parameters = context.active_object, self._wanted(context)
-        if noted_parameters(obj) == parameters:
+        seen = _seen(context, obj)
+        mesh = EVALUATED if seen else ORIGINAL
+        if (noted_parameters(obj), noted_mesh(obj)) == (parameters, mesh):
             return True
-        if not (bpy.app.background or is_quick(obj, parameters)):
+        if not (bpy.app.background or is_quick(obj, parameters, seen)):
             return False
         keep_edits = context.scene.wcd.keep_edits
-        job = Job(decompose_unlocked(obj, parameters, keep_edits))
+        job = Job(decompose_unlocked(obj, parameters, keep_edits, seen))
         if job.advance(math.inf if bpy.app.background else _MOMENT):
             job.result().write(obj)
         job.cancel()

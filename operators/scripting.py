@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import core
+from ..core.errors import DecompositionError
 from ..core.geometry.array_checks import described
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
@@ -132,6 +134,7 @@ def build_hulls(
     faces: object = None,
     *,
     labels: ArrayLike | None = None,
+    part_shapes: Mapping[int, str] | None = None,
     parameters: HullParameters | None = None,
     progress: ShowProgress | None = None,
     **changes: Any,
@@ -142,16 +145,15 @@ def build_hulls(
     ----------
     mesh : (V, 3) float, TriangleMesh, bpy.types.Object, or with `vertices` and `faces`
     faces : (F, 3) int or lists of vertex rows, counter-clockwise from outside, optional
-    labels : (F,) int, optional
-        Part of each face, from 0; ``pieces="PARTS"`` needs it.
+    labels : (F,) int, the part of each face, from 0; ``pieces="PARTS"`` needs it
+    part_shapes : mapping of int to str, shapes of single parts: ``{0: "SPHERE"}``
     parameters : HullParameters, default ``HullParameters()``
     progress : callable, called as ``progress(stage, fraction)``, optional
     **changes : values of fields of `HullParameters`, such as ``shape="BOX"``
 
     Returns
     -------
-    HullDecomposition
-        Its `shapes` are in the unit of the vertices, the largest first.
+    HullDecomposition with `shapes` in the unit of the vertices, the largest first
 
     Raises
     ------
@@ -173,9 +175,28 @@ def build_hulls(
     solid = mesh_of(mesh, faces)
     parts = labels_of(labels, solid, needed=settings.pieces == "PARTS")
     cache = core.ShapeCache(choose_ray_caster())
-    unit = scene_unit_of(mesh)
-    steps = core.build_hulls_in_steps(solid, settings, cache, parts, 0, unit)
+    unit, kinds = scene_unit_of(mesh), _kinds(part_shapes, parts, settings)
+    steps = core.build_hulls_in_steps(solid, settings, cache, parts, 0, unit, kinds)
     return _finish(steps, progress)
+
+
+def _kinds(
+    part_shapes: Mapping[int, str] | None,
+    labels: NDArray[np.int64] | None,
+    settings: HullParameters,
+) -> dict[int, str]:
+    """Return the shapes of single parts, after checking them."""
+    kinds = dict(part_shapes or {})
+    for kind in kinds.values():
+        replace(settings, shape=kind)  # raises if it is none
+    unknown = sorted(kinds.keys() - set(() if labels is None else labels.tolist()))
+    if kinds and (settings.pieces != "PARTS" or unknown):
+        raise DecompositionError(
+            f"`part_shapes` names part {unknown[0]}, which no face has; see `labels`."
+            if unknown
+            else 'Shapes of single parts need Pieces = PARTS; pass pieces="PARTS".'
+        )
+    return kinds
 
 
 def _settings(

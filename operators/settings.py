@@ -10,10 +10,12 @@ from typing import Any, ClassVar, cast
 import bpy
 import numpy as np
 
+from ..core.parameters.choices import LOOKS, MESHES
 from ..core.parameters.hulls import HullParameters
-from ..core.parameters.parameter import ParameterInfo, info_of
+from ..core.parameters.parameter import Choice, ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
 from ..core.parameters.presets import PRESETS, Preset, preset
+from .bridge.views.colors import CHOICES
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -21,18 +23,17 @@ ADVANCED = tuple(f.name for f in fields(Parameters) if info_of(f).advanced)
 RECUT = tuple(f.name for f in fields(Parameters) if not info_of(f).affects_sight)
 HULLS = tuple(field.name for field in fields(HullParameters))
 _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(kind)}
-# Settings of runs on objects that have parts; the core does not know of them.
-_OF_RUNS = {
-    "keep_edits": bpy.props.BoolProperty(
-        name="Keep Edits",
-        description=(
-            "A new run keeps what was done by hand: merged and split parts, and the"
-            " faces that were assigned. Locked parts are kept in any case"
-        ),
-        default=True,
-    )
+# Settings of runs on objects of Blender; the core does not know of them.
+_OF_RUNS = ("keep_edits", "mesh", "colors")
+_OF_HULLS = ("mesh", "look")
+_COLORS = [Choice(*each) for each in CHOICES]
+_CHOICES = {
+    "colors": ("Colors", "How runs show the colors of the parts", _COLORS),
+    "mesh": ("Mesh", "Mesh of the object that is read", MESHES),
+    "look": ("Display", "How hulls are seen in the viewport", LOOKS),
 }
 RUN = (*ALL, *_OF_RUNS)
+HULL_RUN = (*HULLS, *_OF_HULLS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
 
@@ -40,9 +41,25 @@ SELECTION = ("samples", "seed")
 def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
     """Return settings as Blender properties, for the annotations of a class."""
     return {
-        name: _OF_RUNS[name] if name in _OF_RUNS else _property(_FIELDS[name])
+        name: _property(_FIELDS[name]) if name in _FIELDS else _of_runs(name)
         for name in names
     }
+
+
+def _of_runs(name: str, **more: Any) -> Any:
+    """Return a setting of `_OF_RUNS` or `_OF_HULLS` as a Blender property."""
+    if name == "keep_edits":
+        return bpy.props.BoolProperty(
+            name="Keep Edits",
+            description=(
+                "A new run keeps what was done by hand: merged and split parts, and the"
+                " faces that were assigned. Locked parts are kept in any case"
+            ),
+            default=True,
+        )
+    label, text, choices = _CHOICES[name]
+    items = [(each.identifier, each.label, each.help) for each in choices]
+    return bpy.props.EnumProperty(name=label, description=text, items=items, **more)
 
 
 def _setting(name: str) -> Any:
@@ -54,6 +71,12 @@ def _recut(settings: Any, context: bpy.types.Context) -> None:
     """Replace the parts of the active object if the settings are live."""
     if settings.live and bpy.ops.wcd.recut.poll():
         bpy.ops.wcd.recut()
+
+
+def _show_hulls(settings: Any, context: bpy.types.Context) -> None:
+    """Show the hulls of the selected objects as it is set."""
+    if bpy.ops.wcd.show_hulls.poll():
+        bpy.ops.wcd.show_hulls(look=settings.look)
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -196,7 +219,13 @@ class WCD_PG_settings(bpy.types.PropertyGroup):
 
 WCD_PG_settings.__annotations__ = {
     **{name: _setting(name) for name in (*ALL, *HULLS)},
-    **_OF_RUNS,
+    **{name: _of_runs(name) for name in ("keep_edits", "colors")},
+    "mesh": _of_runs("mesh", update=_recut),
+    "look": _of_runs("look", update=_show_hulls),
+    "highlight": bpy.props.BoolProperty(
+        name="Highlight",
+        description="Show in the viewports which parts are chosen in the table",
+    ),
     "live": bpy.props.BoolProperty(
         name="Live",
         description=(

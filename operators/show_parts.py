@@ -11,8 +11,9 @@ from .bridge.mesh.corners import boundary_edges
 from .bridge.mesh.selection import hide_faces, mark_seams, select_edges, select_faces
 from .bridge.mesh.viewing import frame_points, points_of_parts
 from .bridge.parts.present_parts import present_parts
-from .bridge.parts.rows import chosen_parts
-from .bridge.refusals import edit_refusal, faces_refusal, isolate_refusal
+from .bridge.parts.rows import chosen_numbers, chosen_parts
+from .bridge.refusals import edit_refusal, faces_refusal
+from .bridge.views.isolating import end_isolation, isolate
 from .edit_parts import SCOPE, in_scope
 from .running.on_objects import OnActive, OnEach
 
@@ -60,7 +61,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
     bl_label = "Isolate Convex Parts"
     bl_description = (
         "Hide the faces of all other parts. Parts that are ticked in the table stay, or"
-        " the highlighted one"
+        " the highlighted one. In Object Mode a modifier hides them, in viewports only"
     )
 
     @classmethod
@@ -70,13 +71,14 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
         """Return the tooltip of the button Isolate, or of Show All."""
         return cls.bl_description if properties.hide else "Show all hidden faces again"
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return isolate_refusal(obj)
-
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-        members = _members(obj)
-        hide_faces(obj, ~members if self.hide else np.zeros_like(members))
+        if obj.mode == "EDIT":
+            members = _members(obj)
+            hide_faces(obj, ~members if self.hide else np.zeros_like(members))
+        elif self.hide:
+            isolate(obj, sorted(chosen_numbers(obj)))
+        else:
+            end_isolation(obj)
 
 
 WCD_OT_isolate_parts.__annotations__ = {

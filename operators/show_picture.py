@@ -23,7 +23,7 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
     bl_label = "Show Convex Parts in Image Editor"
     bl_description = (
         "Draw how the parts were found. The image is kept in the file, and shown in"
-        " open Image Editors"
+        " the open Image Editors, or in a new one beside the viewport"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -45,9 +45,8 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
 
     def _commit(self, obj: bpy.types.Object, value: Picture) -> str:
         image = write_image(obj, _chosen_picture(self).label, value.pixels)
-        if _show(image):
-            return f"Image {image.name}"
-        return f"Image {image.name}: open an Image Editor to see it"
+        _show(image)
+        return f"Image {image.name}"
 
 
 WCD_OT_show_picture.__annotations__ = {
@@ -64,17 +63,39 @@ def _chosen_picture(properties: bpy.types.OperatorProperties) -> Choice:
     return next(each for each in PICTURES if each.identifier == properties.picture)
 
 
-def _show(image: bpy.types.Image) -> bool:
-    """Show an image in all open Image Editors; return whether there are any."""
-    editors = [
-        (window, area)
-        for window in bpy.context.window_manager.windows
-        for area in window.screen.areas
-        if area.type == "IMAGE_EDITOR"
-    ]
-    for window, area in editors:
+def _show(image: bpy.types.Image) -> None:
+    """Show an image in all open Image Editors, or in one that is opened for it."""
+    for window, area in _editors("IMAGE_EDITOR") or _new_editors():
         area.spaces.active.image = image
         region = next(each for each in area.regions if each.type == "WINDOW")
         with bpy.context.temp_override(window=window, area=area, region=region):
             bpy.ops.image.view_all(fit_view=True)
-    return bool(editors)
+
+
+def _editors(kind: str) -> list[tuple[bpy.types.Window, bpy.types.Area]]:
+    """Return the areas that show editors of a kind, with their windows."""
+    return [
+        (window, area)
+        for window in bpy.context.window_manager.windows
+        for area in window.screen.areas
+        if area.type == kind
+    ]
+
+
+def _new_editors() -> list[tuple[bpy.types.Window, bpy.types.Area]]:
+    """Open an Image Editor in half of the largest viewport, if there is one.
+
+    An area that fills the screen cannot be split; it becomes the editor then.
+    """
+    viewports = _editors("VIEW_3D")
+    if not viewports:
+        return []
+    window, area = max(viewports, key=lambda each: each[1].width * each[1].height)
+    there = set(window.screen.areas)
+    with bpy.context.temp_override(window=window, area=area):
+        if not window.screen.show_fullscreen:
+            bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
+    for new in set(window.screen.areas) - there:
+        area = new
+    area.type = "IMAGE_EDITOR"
+    return [(window, area)]

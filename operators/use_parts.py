@@ -6,12 +6,14 @@ from typing import ClassVar
 
 import bpy
 
-from .bridge.parts.exploding import explode, exploding, implode
-from .bridge.parts.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.parts.separating import replace, separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
+from .bridge.views.colors import CHOICES, show_colors_as
+from .bridge.views.exploding import explode, exploding, implode
+from .bridge.views.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.work.in_step import bring_in_step
 from .running.on_objects import OnEach
+from .settings import properties_for
 
 
 class _OnParts(OnEach):
@@ -143,10 +145,40 @@ class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
         write_colors(obj)
 
 
+class WCD_OT_show_colors(_OnParts, bpy.types.Operator):
+    """Show the colors of the parts by materials, or as an overlay."""
+
+    bl_idname = "wcd.show_colors"
+    bl_label = "Show Colors of Convex Parts"
+    bl_description = (
+        "Show the colors of the parts by materials, or over the faces in the viewports"
+        " without touching slots and materials"
+    )
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip of the button of a choice."""
+        return next(help for name, _, help in CHOICES if name == properties.colors)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Let runs from now on do the same."""
+        context.scene.wcd.colors = self.colors
+        return self.execute(context)
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        bring_in_step(obj)
+        show_colors_as(obj, self.colors)
+
+
+WCD_OT_show_colors.__annotations__ = properties_for(("colors",))
+
 CLASSES = (
     WCD_OT_separate,
     WCD_OT_explode,
     WCD_OT_implode,
     WCD_OT_face_sets,
     WCD_OT_color_attribute,
+    WCD_OT_show_colors,
 )

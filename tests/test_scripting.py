@@ -87,6 +87,15 @@ def test_hulls_know_their_parts():
     assert isinstance(hulls, wcd.HullDecomposition)
     assert sorted(hulls.parts) == [0, 1]
     assert {shape.kind for shape in hulls.shapes} == {"BOX"}
+    assert {shape.kind for shape in shaped({1: "SPHERE"}).shapes} == {"HULL", "SPHERE"}
+
+
+def shaped(part_shapes, pieces="PARTS"):
+    """Return hulls of two parts, which may have shapes of their own."""
+    labels = [0] * 4 + [1] * 4
+    return wcd.build_hulls(
+        VERTICES, FACES, labels=labels, part_shapes=part_shapes, pieces=pieces
+    )
 
 
 @pytest.mark.parametrize(
@@ -180,6 +189,9 @@ def test_wrong_types_are_told_in_a_sentence(call, sentence):
         (lambda: wcd.build_hulls([(i, i * i, i**3) for i in range(20)]), "need faces"),
         (lambda: wcd.build_hulls(VERTICES, FACES, pieces="PARTS"), "pass `labels`"),
         (lambda: wcd.build_hulls(VERTICES, FACES, labels=[0, 1]), "must be 8 numbers"),
+        (lambda: shaped({7: "BOX"}), "names part 7, which no face has"),
+        (lambda: shaped({0: "BALL"}), "BALL"),
+        (lambda: shaped({0: "BOX"}, pieces="BY_ERROR"), "need Pieces = PARTS"),
         (lambda: wcd.build_hulls(VERTICES, FACES, labels=[-1] * 8), "8 numbers from 0"),
         (
             lambda: wcd.build_hulls(

@@ -2,10 +2,10 @@
 
 import bpy
 
-from . import menus, shown_figures, sight_drawing
+from . import menus, part_drawing, shown_figures, sight_drawing
 from .chart import WCD_PT_chart
 from .hulls_panel import WCD_PT_hulls
-from .menus import WCD_MT_parts
+from .menus import WCD_MT_parts, WCD_MT_pick
 from .panels import WCD_PT_advanced, WCD_PT_main, WCD_PT_parts
 from .parts_table import WCD_PT_edit, WCD_UL_parts
 from .use_panel import WCD_PT_use, WCD_PT_why
@@ -21,6 +21,7 @@ CLASSES = (
     WCD_PT_hulls,
     WCD_PT_advanced,
     WCD_MT_parts,
+    WCD_MT_pick,
 )
 
 
@@ -30,12 +31,14 @@ def register() -> None:
         bpy.utils.register_class(cls)
     menus.register()
     sight_drawing.register()
+    part_drawing.register()
     shown_figures.register()
 
 
 def unregister() -> None:
     """Undo `register`."""
     shown_figures.unregister()
+    part_drawing.unregister()
     sight_drawing.unregister()
     menus.unregister()
     for cls in reversed(CLASSES):

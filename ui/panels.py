@@ -7,6 +7,8 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..operators.bridge.read.shown_mesh import differs
+from ..operators.bridge.work.libraries import load_while_idle
 from ..operators.running import modal as running
 from ..operators.running.modal import Running
 from ..operators.settings import ADVANCED, FRONT, MEASURE, RUN, draw, hand_over
@@ -44,11 +46,14 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
+        load_while_idle()
         layout = self.layout
         settings = context.scene.wcd
         draw(layout, settings, FRONT)
         if shown_figures(context.active_object):
             draw(layout, settings, ("keep_edits",))
+        if differs(context.active_object):
+            draw(layout, settings, ("mesh",))
         row = layout.row(align=True)
         row.use_property_split = False
         row.scale_y = 1.4
@@ -111,7 +116,7 @@ class WCD_PT_advanced(Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
-        draw(self.layout, context.scene.wcd, ADVANCED)
+        draw(self.layout, context.scene.wcd, (*ADVANCED, "colors"))
 
 
 def _progress(row: bpy.types.UILayout, run: Running) -> None:

@@ -9,6 +9,8 @@ from typing import Any
 import bpy
 
 from ..operators.bridge.parts.figures import PartFigures
+from ..operators.bridge.views.isolating import isolating
+from ..operators.viewport import picking
 from .shown_figures import shown_figures
 from .sidebar import Sidebar, hulls_of, width_of
 
@@ -127,6 +129,16 @@ def _numbers(layout: bpy.types.UILayout, *texts: str) -> None:
 
 def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) -> None:
     """Draw the parts of an object, in a sidebar of this width."""
+    row = layout.row(align=True)
+    row.use_property_split = False
+    picked = picking.current is not None
+    row.operator("wcd.pick_parts", text="Pick Parts", icon="EYEDROPPER", depress=picked)
+    row.prop(bpy.context.scene.wcd, "highlight", toggle=True)
+    if isolating(obj) is not None:
+        button = row.operator(
+            "wcd.isolate_parts", text="", icon="HIDE_OFF", depress=True
+        )
+        button.hide = False
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
     heading.label(text="", icon="BLANK1")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..core.geometry.frames import frames
 from ..core.results import View
-from ..operators import sight_overlay
+from ..operators.viewport import sight_overlay
 
 _SEEN = (0.1, 0.85, 0.25, 1.0)
 _HIDDEN = (0.1, 0.3, 1.0, 1.0)

@@ -6,9 +6,11 @@ from typing import ClassVar
 
 import bpy
 
-from ..operators import sight_overlay
-from ..operators.bridge.parts.exploding import exploding, slider
+from ..operators.bridge.parts.kept_materials import is_overlaid
+from ..operators.bridge.views.colors import CHOICES, MATERIALS, OVERLAY
+from ..operators.bridge.views.exploding import exploding, slider
 from ..operators.settings import SELECTION, hand_over
+from ..operators.viewport import sight_overlay
 from .panels import line
 from .sidebar import Sidebar, draw_choices, result_of
 
@@ -36,9 +38,10 @@ class WCD_PT_use(Sidebar, bpy.types.Panel):
             text="Separate into Objects",
             icon="OUTLINER_OB_MESH",
         )
+        _colors(layout, context.active_object)
         row = layout.row(align=True)
         row.operator("wcd.face_sets", text="Face Sets", icon="FACE_MAPS")
-        row.operator("wcd.color_attribute", text="Colors", icon="GROUP_VCOL")
+        row.operator("wcd.color_attribute", text="Color Attribute", icon="GROUP_VCOL")
 
 
 class WCD_PT_why(Sidebar, bpy.types.Panel):
@@ -69,6 +72,15 @@ class WCD_PT_why(Sidebar, bpy.types.Panel):
             text="Show in Image Editor",
             icon="IMAGE_DATA",
         )
+
+
+def _colors(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Draw the choice of how the colors of parts are shown."""
+    row = layout.row(align=True)
+    now = OVERLAY if is_overlaid(obj) else MATERIALS
+    for choice, label, _ in CHOICES:
+        button = row.operator("wcd.show_colors", text=label, depress=choice == now)
+        button.colors = choice
 
 
 def _exploded_view(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:

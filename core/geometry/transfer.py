@@ -21,6 +21,8 @@ _SOFTENING = 0.3
 _BLOCK = 10_000
 # Shells touch where samples of both are this near, in mean distances of samples.
 _TOUCH = 1.5
+# Labels that cover equal areas of a face, but for rounding.
+_EQUAL = 1e-3
 
 
 def carry(
@@ -52,6 +54,42 @@ def carry(
     distances, nearest = (np.concatenate(arrays) for arrays in zip(*found, strict=True))
     yield Progress("Surface", 1.0)
     return Transfer(samples, polygon_of, graph, distances / spacing, nearest)
+
+
+def labels_by_area(
+    labels: NDArray[np.int64], origins: NDArray[np.int64], areas: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the label that covers most of each face, from labels of its fragments.
+
+    Of labels that cover equal areas, the lowest counts.
+
+    Parameters
+    ----------
+    labels : (E,) int
+        Labels of the fragments, from 0.
+    origins : (E,) int
+        The face that each fragment comes from.
+    areas : (E,) float
+        Of the fragments.
+
+    Returns
+    -------
+    faces : (F,) int
+        The faces with fragments, sorted.
+    found : (F,) int
+        Their labels.
+    counts : (F,) int
+        How many labels share each.
+    """
+    stride = int(labels.max()) + 1
+    cells, places = np.unique(origins * stride + labels, return_inverse=True)
+    rows, candidates = np.divmod(cells, stride)
+    covered = np.bincount(places, areas)
+    faces, starts, counts = np.unique(rows, return_index=True, return_counts=True)
+    most = np.repeat(np.maximum.reduceat(covered, starts), counts)
+    best = np.flatnonzero(covered >= (1 - _EQUAL) * most)
+    _, first = np.unique(rows[best], return_index=True)
+    return faces, candidates[best[first]], counts
 
 
 def _spacing(samples: Samples, graph: FaceGraph) -> float:

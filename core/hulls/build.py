@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,19 +17,21 @@ from ..parameters.hulls import HullParameters
 from ..results import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
-from .best_cut import best_cut
 from .convex_hull import THIN, convex_hull, offset
-from .fitting import Fit
+from .cutting import cut_until_close
+from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .measure.uncovered import uncovered
-from .piece import Cell, Piece, piece_of_part, whole
+from .piece import Piece, piece_of_part, whole
 from .solid import Solid, solid_of
 
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.
 _SAME_VOLUME = 1e-9
 # Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
-# best at their turn only. Shapes other than hulls take longer to fit.
-_SURPLUS, _SMALL_SURPLUS = 2.0, 1.5
+# best at their turn only. Shapes other than hulls take longer to fit, and spheres
+# around two neighbors are seldom close.
+_SURPLUS = {"HULL": 2.0, "SPHERE": 1.0}
+_OTHER_SURPLUS = 1.5
 
 
 def build_hulls_in_steps(
@@ -39,6 +41,7 @@ def build_hulls_in_steps(
     labels: NDArray[np.int64] | None = None,
     seed: int = 0,
     scene_unit: float = 1.0,
+    kinds: Mapping[int, str] | None = None,
 ) -> Steps[HullDecomposition]:
     """Put convex collision shapes around a mesh.
 
@@ -47,13 +50,14 @@ def build_hulls_in_steps(
     shape : TriangleMesh
     parameters : HullParameters
     cache : ShapeCache
-        Prepares the mesh and keeps it for the next call.
     labels : (P,) int, optional
         Part of each polygon, from 0; each is one piece with ``pieces="PARTS"``.
     seed : int
         Seed of the random surface samples.
     scene_unit : float
         Length in the scene of 1 in the units of the mesh.
+    kinds : mapping of int to str, optional
+        Kind of shape of single parts; `parameters.shape` is that of the others.
 
     Returns
     -------
@@ -67,20 +71,18 @@ def build_hulls_in_steps(
     if not isinstance(shape, TriangleMesh):
         raise DecompositionError("A cloud has no faces; give it a surface for hulls.")
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
-    size = float(np.ptp(shape.bounds, axis=0).max()) / 2
-    factor = parameters.unit_of_errors(size * scene_unit)
-    fit = Fit(parameters, size, parameters.max_error / factor)
     numbers, parts = _parts_of_triangles(shape, labels)
-    found = yield from _find(prepared, fit, shape.diagonal / size, parts, seed)
-    shapes, errors = found.shapes, found.errors * factor
+    fit, factor = fit_for(shape, parameters, scene_unit, numbers.tolist(), kinds)
+    found = yield from _find(prepared, fit, shape.diagonal / fit.unit, parts, seed)
+    errors = found.errors * factor
     return HullDecomposition(
-        tuple(each.moved(size, shape.center) for each in shapes),
+        tuple(each.moved(fit.unit, shape.center) for each in found.shapes),
         errors,
         numbers[found.rows],
-        _volume_ratio(shapes, found.volume),
+        found.volume_ratio,
         (*prepared.notes, *_notes(found, errors, fit)),
         parameters.error_unit,
-        size * scene_unit,
+        fit.unit * scene_unit,
     )
 
 
@@ -105,6 +107,12 @@ class _Found:
     hulls: Sequence[Hull]
     rows: NDArray[np.int64]
     volume: float
+
+    @property
+    def volume_ratio(self) -> float:
+        """Volume of all shapes over that of the solid; `inf` if it is flat."""
+        total = sum(shape.volume for shape in self.shapes)
+        return total / self.volume if self.volume > 0 else np.inf
 
 
 def _find(
@@ -135,7 +143,7 @@ def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | 
     """
     assert prepared.solid is not None  # None for point clouds only
     hull = convex_hull(prepared.solid.vertices * scale, THIN)
-    shape = fit.shape(hull)
+    shape = fit.of_part(0).shape(hull)
     error = uncovered(shape, hull)
     within = shape.kind == "HULL" and fit.margin <= 0
     same = abs(shape.volume - hull.volume) <= _SAME_VOLUME * hull.volume
@@ -149,13 +157,14 @@ def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | 
 def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_Found]:
     """Cut a solid, or take its parts, and return a shape around each piece."""
     pieces = yield from within(_pieces_of(solid, parts, fit), 0.0, 0.95)
-    errors, rows = [], []
+    errors, rows, shapes = [], [], []
     for turn, piece in enumerate(pieces):
         yield Progress("Measuring", 0.95 + 0.05 * turn / len(pieces))
-        final = piece if piece.fit == fit else replace(piece, fit=fit)
+        has_own = fit.parameters.pieces == "PARTS" or piece.fit == fit
+        final = piece if has_own else replace(piece, fit=fit)
         errors.append(final.stated_error)
         rows.append(solid.main_part(parts, piece.hull))
-    shapes = [fit.shape(piece.hull) for piece in pieces]
+        shapes.append(final.shape)
     order = sorted(range(len(pieces)), key=lambda k: -round(shapes[k].volume, 6))
     return _Found(
         [shapes[k] for k in order],
@@ -170,19 +179,16 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
     """Return the pieces that get a shape each."""
     most = fit.parameters.max_hulls
     if fit.parameters.pieces == "PARTS":
-        start = [piece_of_part(solid, fit, parts == k) for k in np.unique(parts)]
+        start = [
+            piece_of_part(solid, fit.of_part(k), parts == k) for k in np.unique(parts)
+        ]
         return (yield from join_pieces(start, 0.0, most))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    surplus = _SURPLUS if fit.parameters.shape == "HULL" else _SMALL_SURPLUS
-    cells = yield from within(_cut(whole(solid, fit), int(surplus * most)), 0.0, 0.9)
+    surplus = _SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS)
+    steps = cut_until_close(whole(solid, fit), int(surplus * most))
+    cells = yield from within(steps, 0.0, 0.9)
     return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
-
-
-def _volume_ratio(shapes: Sequence[CollisionShape], volume: float) -> float:
-    """Return the volume of all shapes over that of the solid; `inf` if it is flat."""
-    total = sum(shape.volume for shape in shapes)
-    return total / volume if volume > 0 else np.inf
 
 
 def _parts_of_triangles(
@@ -197,28 +203,6 @@ def _parts_of_triangles(
     return np.unique(labels[mesh.polygons], return_inverse=True)
 
 
-def _cut(cell: Cell, most: int) -> Steps[list[Cell]]:
-    """Cut the piece of largest error repeatedly, into `most` pieces at most."""
-    cells, largest = [cell], cell.fit.max_error
-    done: list[Cell] = []
-    while cells and len(cells) + len(done) < most:
-        share = (len(cells) + len(done)) / most
-        far: list[Cell] = []
-        for surely in (False, True):  # estimates are quick, bounds are not
-            for cell in cells if not far else []:
-                yield Progress("Cutting", share)
-                is_close = cell.is_close if surely else cell.error <= largest
-                far += [] if is_close else [cell]
-        if not far:
-            break
-        worst = max(far, key=lambda cell: round(cell.error, 6))
-        cells.remove(worst)
-        sides = yield from within(best_cut(worst), share, share + 1 / most)
-        cells += sides or ()
-        done += () if sides else (worst,)
-    return done + cells
-
-
 def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, ...]:
     """Return notes on errors above the largest, and on hulls that did not shrink."""
     notes, parameters, largest = [], fit.parameters, fit.parameters.max_error
@@ -229,7 +213,8 @@ def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, .
             if fit.has_room
             else f"for Margin = {parameters.margin:g} alone is; reduce it."
         )
-        error = _written_above(float(errors.max()), largest)
+        digits = (f"{errors.max():.{n}g}" for n in range(3, 18))  # that show it
+        error = next(each for each in digits if float(each) > float(f"{largest:g}"))
         notes.append(
             f"The error is {error}, above Largest Error = {largest:g}, {advice}"
         )
@@ -242,9 +227,3 @@ def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, .
                 " value nearer to 0."
             )
     return tuple(notes)
-
-
-def _written_above(error: float, largest: float) -> str:
-    """Return an error with as many digits as show that it is too large."""
-    texts = [f"{error:.{digits}g}" for digits in range(3, 18)]
-    return next((t for t in texts if float(t) > float(f"{largest:g}")), texts[-1])

@@ -61,13 +61,15 @@ def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
     return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 
-def cost_of_joint(joint: Piece, solid_volume: float) -> float:
+def cost_of_joint(joint: Piece, error: float, solid_volume: float) -> float:
     """Return the cost of the hull of two joined pieces.
 
     Parameters
     ----------
     joint : Piece
         The two pieces as one.
+    error : float
+        Its error, estimated or stated.
     solid_volume : float
         Volume of the whole solid.
 
@@ -76,7 +78,7 @@ def cost_of_joint(joint: Piece, solid_volume: float) -> float:
     float
     """
     price = _price(joint.added_volume, solid_volume)
-    return _rounded((joint.error / _LARGE) ** _POWER + price)
+    return _rounded((error / _LARGE) ** _POWER + price)
 
 
 def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:

@@ -33,7 +33,7 @@ def box_around(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    return _smallest_box(hull, _normals(hull))
+    return _smallest_box(hull, _distinct(hull.planes[:, :3]))
 
 
 def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
@@ -190,22 +190,23 @@ def _axes(hull: Hull) -> NDArray[np.float64]:
     return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
 
 
-def _normals(hull: Hull) -> NDArray[np.float64]:
-    """Return the normals of a hull's faces, equal and opposite ones once, (N, 3)."""
-    rounded = np.round(hull.planes[:, :3], 4)
-    rounded *= np.sign(
-        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
-    )[:, None]
-    _, rows = np.unique(rounded, axis=0, return_index=True)
-    return hull.planes[np.sort(rows), :3]
-
-
 def _few_normals(hull: Hull) -> NDArray[np.float64]:
     """Return the normals of the largest faces, and the principal axes, (N, 3)."""
     a, b, c = np.moveaxis(hull.corners, 1, 0)
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     largest = np.argsort(-np.round(areas, 9), kind="stable")[:_FEW_FACES]
-    return np.concatenate([hull.planes[largest, :3], principal_axes(hull.vertices)])
+    axes = principal_axes(hull.vertices)
+    return _distinct(np.concatenate([hull.planes[largest, :3], axes]))
+
+
+def _distinct(normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return normals, (N, 3), the first only of those that are equal or opposite."""
+    rounded = np.round(normals, 4)
+    rounded *= np.sign(
+        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
+    )[:, None]
+    _, rows = np.unique(rounded, axis=0, return_index=True)
+    return normals[np.sort(rows)]
 
 
 def _rectangle_axes(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..parameters.hulls import HullParameters
 from .convex_hull import THIN, offset, simplified
@@ -24,11 +26,21 @@ class Fit:
         are scaled so that it is 1.
     max_error : float
         Largest error, where the longest side is 2.
+    kinds : tuple of str, optional
+        Kind of shape of each part, in their order; empty for that of the parameters.
     """
 
     parameters: HullParameters
     unit: float
     max_error: float
+    kinds: tuple[str, ...] = ()
+
+    def of_part(self, row: int) -> Fit:
+        """Return the fit of shapes around a part, if parts get one each."""
+        if not self.kinds or self.parameters.pieces != "PARTS":
+            return self
+        parameters = replace(self.parameters, shape=self.kinds[row])
+        return replace(self, parameters=parameters, kinds=())
 
     @property
     def margin(self) -> float:
@@ -77,6 +89,32 @@ class Fit:
         if kind == "HULL":
             return _as_shape(offset(hull, self.margin))
         return _grown(roughly_around(hull, kind), self.margin)
+
+
+def fit_for(
+    mesh: TriangleMesh,
+    parameters: HullParameters,
+    scene_unit: float,
+    parts: Iterable[int] = (),
+    kinds: Mapping[int, str] | None = None,
+) -> tuple[Fit, float]:
+    """Return how shapes fit a mesh, and how much an error of 1 is in the chosen unit.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    parameters : HullParameters
+    scene_unit : float
+        Length in the scene of 1 in the units of the mesh.
+    parts : iterable of int, optional
+        Numbers of the parts, in their order.
+    kinds : mapping of int to str, optional
+        Kind of shape of single parts.
+    """
+    size = float(np.ptp(mesh.bounds, axis=0).max()) / 2
+    factor = parameters.unit_of_errors(size * scene_unit)
+    every = tuple((kinds or {}).get(part, parameters.shape) for part in parts)
+    return Fit(parameters, size, parameters.max_error / factor, every), factor
 
 
 def _as_shape(hull: Hull) -> CollisionShape:

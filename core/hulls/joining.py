@@ -14,8 +14,9 @@ from .piece import Piece, join
 # each axis; the longest side is 2.
 _NEAR = 0.03
 
-# Cost, numbers of two pieces, and the joined piece; None while the cost is a bound.
-_Joint = tuple[float, int, int, Piece | None]
+# Cost, numbers of two pieces, the joined piece, and whether the cost is by its stated
+# error. No piece while the cost is a bound.
+_Joint = tuple[float, int, int, Piece | None, bool]
 
 
 def join_pieces(
@@ -80,7 +81,7 @@ def _add(
     for other, neighbor in alive.items():
         if may(neighbor, piece):
             cost = least_cost(neighbor, piece, solid_volume)
-            heapq.heappush(queue, (cost, other, number, None))
+            heapq.heappush(queue, (cost, other, number, None, False))
     alive[number] = piece
 
 
@@ -93,20 +94,29 @@ def _next_joint(
 ) -> Steps[tuple[int, int, Piece] | None]:
     """Return the numbers of the two pieces to join next, and the joined piece.
 
-    A joint comes off the queue twice: first with a lower bound of its cost, then with
-    the exact cost.
+    A joint comes off the queue up to three times: with a lower bound of its cost, with
+    the cost by its estimated error, and, if it is joined because there are too many
+    pieces, with the cost by a bound of its error: estimates miss what is narrow.
     """
     while queue:
-        _, one, other, joint = heapq.heappop(queue)
+        _, one, other, joint, sure = heapq.heappop(queue)
         if one not in alive or other not in alive:
             continue
         if joint is None:
             yield Progress("Joining", 0.0)
             joint = join(alive[one], alive[other])
-            cost = cost_of_joint(joint, solid_volume)
-            heapq.heappush(queue, (cost, one, other, joint))
-        elif len(alive) > max_pieces or (joint.error <= max_error and joint.is_close):
+            error = joint.error
+        elif joint.error <= max_error and joint.is_close:
             return one, other, joint
+        elif len(alive) <= max_pieces:
+            continue
+        elif sure:
+            return one, other, joint
+        else:
+            yield Progress("Joining", 0.0)
+            sure, error = True, joint.stated_error
+        cost = cost_of_joint(joint, error, solid_volume)
+        heapq.heappush(queue, (cost, one, other, joint, sure))
     return None
 
 

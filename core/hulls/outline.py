@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.primitives import CollisionShape, Hull
 from .convex_hull import convex_hull, directions
 
+# Corners of a side of a box, counter-clockwise.
+_AROUND_SIDE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 # Number of vertices around a cylinder when it is shown as a polyhedron.
 _AROUND = 24
 # Number of vertices on a sphere, or on both round ends of a capsule.
@@ -45,6 +49,32 @@ def outline_of(shape: CollisionShape) -> Hull:
         local = np.concatenate([ends[0] + upper, ends[1] + lower])
     points = local @ shape.axes + shape.center
     return convex_hull(points, float(shape.sizes.max()) / 1e3)
+
+
+def faces_of(shape: CollisionShape) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return the vertices and faces of a shape to be shown: six quads for a box.
+
+    Parameters
+    ----------
+    shape : CollisionShape
+
+    Returns
+    -------
+    vertices : (V, 3) float
+    faces : (F, 4) int for a box, (F, 3) int for others
+        Counter-clockwise seen from outside.
+    """
+    outline = outline_of(shape)
+    if shape.kind != "BOX":
+        return outline.vertices, outline.triangles
+    sides = np.sign((outline.vertices - shape.center) @ shape.axes.T).astype(int)
+    places = {tuple(side): row for row, side in enumerate(sides.tolist())}
+    faces = []
+    for axis, sign in product(range(3), (-1, 1)):
+        # Around an axis, counter-clockwise from its end, in the order of the axes.
+        rim = [np.roll((sign, u, v), axis) for u, v in _AROUND_SIDE[::sign]]
+        faces.append([places[tuple(corner.tolist())] for corner in rim])
+    return outline.vertices, np.array(faces)
 
 
 def fine_outline(shape: CollisionShape) -> tuple[NDArray[np.float64], float]:

@@ -38,8 +38,7 @@ class Piece:
     fit : Fit
         Which shape it gets.
     witnesses : (W, 3) float
-        Points outside the solid, far from its surface, which shapes of larger pieces
-        held. Samples may miss them.
+        Points far outside of the solid, which shapes of larger pieces held.
     """
 
     points: NDArray[np.float64]
@@ -67,10 +66,9 @@ class Piece:
     @cached_property
     def added_volume(self) -> float:
         """Volume of the shape outside the solid; sampling may make it negative."""
-        shape, solid = self.rough_shape, self.solid
-        if shape.kind == "HULL":
-            return shape.volume - self.volume
-        return shape.volume - solid.volume_in(shape)
+        shape = self.rough_shape
+        inside = self.volume if shape.kind == "HULL" else self.solid.volume_in(shape)
+        return shape.volume - inside
 
     @property
     def volume_error(self) -> float:
@@ -80,9 +78,13 @@ class Piece:
     @cached_property
     def error(self) -> float:
         """The error of the shape, estimated from samples: cheap, and often too low."""
-        points = self.boundary, self.witnesses
-        shape, least = self.rough_shape, self.volume_error
-        return estimated_error(self.solid, shape, self.hull, *points, least)
+        rest = self.boundary, self.witnesses, self.volume_error
+        return estimated_error(self.solid, self.rough_shape, self.hull, *rest)
+
+    @property
+    def known_error(self) -> float:
+        """The largest error that is known of the shape, without measuring it anew."""
+        return max([self.error, *self.__dict__.get("_measured", ())[:1]])
 
     @cached_property
     def _measured(self) -> tuple[float, NDArray[np.float64]]:
@@ -98,9 +100,8 @@ class Piece:
     @property
     def all_witnesses(self) -> NDArray[np.float64]:
         """Witnesses, with the far point that was found when the piece was measured."""
-        if "_measured" not in self.__dict__:
-            return self.witnesses
-        return np.concatenate([self.witnesses, self._measured[1]])
+        found = self.__dict__.get("_measured", ())[1:]
+        return np.concatenate([self.witnesses, *found])
 
     @cached_property
     def stated_error(self) -> float:
@@ -109,8 +110,7 @@ class Piece:
 
     def _bound(self, limit: float) -> tuple[float, NDArray[np.float64]]:
         """Return what `error_bound` finds."""
-        largest = self.fit.max_error
-        return error_bound(self.solid, self.shape, self.hull, largest, limit)
+        return error_bound(self.solid, self.shape, self.hull, self.fit.max_error, limit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +120,7 @@ class Cell(Piece):
     Attributes
     ----------
     on_surface : (N,) bool
-        Which samples of `boundary` are on the surface, not on a face that a cut made.
+        Which samples of `boundary` are on the surface, not on the face of a cut.
     chords : (C, 3) float
         Centers of the chords in the piece.
     volumes : (C,) float

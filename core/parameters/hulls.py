@@ -8,6 +8,14 @@ from ..errors import DecompositionError
 from .hull_names import NAMINGS, hull_names
 from .parameter import Choice, ParameterInfo, parameter, settle
 
+SHAPES = (
+    Choice("HULL", "Convex Hull", "The smallest convex shape around it"),
+    Choice("BOX", "Box", "A box of small volume, in any orientation"),
+    Choice("CAPSULE", "Capsule", "A cylinder with round ends"),
+    Choice("SPHERE", "Sphere", "The smallest sphere around it"),
+    Choice("CYLINDER", "Cylinder", "A cylinder of small volume"),
+)
+
 # Bounds of a relative error, with a little room for single precision.
 _RELATIVE = (0.001 * (1 - 1e-6), 1 + 1e-6)
 
@@ -37,13 +45,7 @@ class HullParameters:
         ParameterInfo(
             "Shape",
             "Kind of collision shape that is put around each piece",
-            choices=(
-                Choice("HULL", "Convex Hull", "The smallest convex shape around it"),
-                Choice("BOX", "Box", "A box of small volume, in any orientation"),
-                Choice("CAPSULE", "Capsule", "A cylinder with round ends"),
-                Choice("SPHERE", "Sphere", "The smallest sphere around it"),
-                Choice("CYLINDER", "Cylinder", "A cylinder of small volume"),
-            ),
+            choices=SHAPES,
             advanced=False,
         ),
     )

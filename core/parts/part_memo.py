@@ -68,13 +68,14 @@ class CutMemo:
     merged : Memo
         Maps a number of parts, and the largest number tried, to the better candidate.
     plain : Memo
-        Maps a number of parts to the connected parts that k-means' clusters give.
+        Maps a number of parts to the connected parts from k-means' clusters.
     even : Memo
         Maps the number of a side and the digest of parts to symmetric parts.
     searches : Memo
         Maps the first and last number tried to the candidate for each number.
-    seams : Memo
-        Maps a smoothness and the digest of parts to the parts with their seams cut.
+    seams, fine : Memo
+        Map a smoothness and the digest of parts to the parts with their seams cut, and
+        parts of patches to those of the nodes in them.
     """
 
     def __init__(self) -> None:
@@ -84,6 +85,7 @@ class CutMemo:
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
         self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
+        self.fine: Memo[tuple[float, bytes], Labels] = Memo(4)
 
 
 class PartMemo:
@@ -176,7 +178,7 @@ class PartMemo:
 
         Returns
         -------
-        embedding : (N, n) float
+        (N, n) float
             Leading eigenvectors; n < `n_parts` only if there are too few samples.
         """
         n_coordinates = _COORDINATES * -(-n_parts // _COORDINATES)
@@ -238,7 +240,6 @@ class PartMemo:
         Returns
         -------
         Steps of tuple of Side
-            The steps yield `Progress`; `run` returns the sides.
         """
         if self._sides is None:
             graph = (yield from self.transfer_in_steps()).graph

@@ -1,17 +1,23 @@
 """Seconds and memory of a decomposition against the number of triangles.
 
     PYTHONPATH=tests/support python docs/figures/growth.py
+    python docs/figures/growth_plot.py
 
 A lumpy ring of quads, from 4,000 to 4,000,000 triangles, each in a process of its own.
 Seconds are of the processor, after imports, without Blender's reading and writing. The
 longest step is what a window waits for at once. More triangles: `--triangles 10000000`.
+`--rivals .venv-hulls/bin/python` adds CoACD and V-HACD, as `make bench-hulls` installs
+them, up to the first size that takes too long. The second command draws the table that
+tests/benchmarks/results/growth.txt keeps.
 """
 
 import argparse
 import resource
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import bpy  # noqa: F401  # the ray caster needs Blender
 import checkout  # noqa: F401  # makes the package importable
@@ -26,6 +32,10 @@ from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 SIZES = (4_000, 16_000, 64_000, 250_000, 1_000_000, 4_000_000)
 # Stages that have a column; all others are counted together as the parts.
 STAGES = ("Surface", "Ray tree", "Lines of sight")
+# Other tools, as hull_tools.py names them, and the seconds that they may take.
+RIVALS = {"CoACD": "coacd-0.05", "V-HACD": "vhacd"}
+PATIENCE = 600
+HULL_TOOLS = Path(__file__).parents[2] / "tests/benchmarks/hulls/hull_tools.py"
 
 
 def lumpy_ring(n_triangles: int) -> TriangleMesh:
@@ -70,6 +80,27 @@ def measure(n_triangles: int) -> None:
     sys.stdout.write(f"{row}\n")
 
 
+def print_rivals(python: str, sizes: list[int]) -> None:
+    """Print the seconds of other tools on the same shapes."""
+    for name, tool in RIVALS.items():
+        for size in sizes:
+            mesh = lumpy_ring(size)
+            with tempfile.TemporaryDirectory() as folder:
+                given, made = Path(folder, "mesh.npz"), Path(folder, "hulls.npz")
+                np.savez(given, vertices=mesh.vertices, triangles=mesh.triangles)
+                command = [python, str(HULL_TOOLS), tool, str(given), str(made)]
+                try:
+                    subprocess.run(
+                        command, check=True, capture_output=True, timeout=PATIENCE
+                    )
+                except (subprocess.TimeoutExpired, subprocess.CalledProcessError):
+                    break
+                with np.load(made) as arrays:
+                    seconds = float(arrays["seconds"])
+            sys.stdout.write(f"{name:10}{len(mesh.triangles):11,}{seconds:9.2f}\n")
+            sys.stdout.flush()
+
+
 def new_cache() -> ShapeCache:
     """Return an empty cache."""
     return ShapeCache(BvhRayCaster)
@@ -80,6 +111,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--triangles", type=int, nargs="*", default=SIZES)
     parser.add_argument("--one", type=int, help="measure one size in this process")
+    parser.add_argument("--rivals", help="a Python that has CoACD and V-HACD")
     arguments = parser.parse_args()
     if arguments.one:
         measure(arguments.one)
@@ -89,6 +121,8 @@ def main() -> int:
     sys.stdout.flush()
     for size in arguments.triangles:
         subprocess.run([sys.executable, __file__, "--one", str(size)], check=True)
+    if arguments.rivals:
+        print_rivals(arguments.rivals, arguments.triangles)
     return 0
 
 

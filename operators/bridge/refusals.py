@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, TypeAlias
 
 from .mesh.points import is_cloud
-from .stored.names import HULL_TAG
+from .stored.names import CARRIER_TAG, HULL_TAG
 from .stored.record import has_record, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
 
@@ -80,6 +80,8 @@ def clear_refusal(obj: Candidate) -> str | None:
     reason = refusal(obj, writes_mesh=False)
     if reason is None and not has_record(obj):
         return f"{obj.name} has no parts to clear"
+    if reason is None and CARRIER_TAG in obj and obj.mode != "OBJECT":
+        return _LEAVE_EDIT_MODE
     return reason
 
 
@@ -160,14 +162,6 @@ def assign_refusal(obj: Candidate) -> str | None:
     reason = faces_refusal(obj)
     if reason is None and obj.mode != "EDIT":
         return _ENTER_EDIT_MODE
-    return reason
-
-
-def isolate_refusal(obj: Candidate) -> str | None:
-    """Return why the faces of parts cannot be hidden."""
-    reason = faces_refusal(obj)
-    if reason is None and obj.mode != "EDIT":
-        return "Faces can be hidden in Edit Mode only; switch the mode"
     return reason
 
 

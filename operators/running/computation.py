@@ -123,7 +123,8 @@ class Computation(OnObjects):
             self._warn(outcome.notes)
             seconds = time.perf_counter() - self._started
             self.report({"INFO"}, f"{self._title}{figures}, {seconds:.1f} s")
-        return self._conclude(failures, len(outcomes))
+        late = find == self._changeable
+        return self._conclude(failures, len(outcomes), late)
 
     def _changeable(self, target: Target) -> bpy.types.Object:
         """Return the object that was read, or raise if it must not be written to now.

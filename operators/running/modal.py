@@ -20,8 +20,10 @@ from ...core.steps.progress import Steps
 _SLICE = 0.03
 # Seconds between two slices.
 _PAUSE = 0.01
-# Seconds between two updates of the progress, because drawing takes time, too.
-_LOOK = 0.2
+# Seconds between two updates of the progress, least and most, and how many times longer
+# than its drawing: a large scene or a slow display must not slow down the work.
+_LOOKS = (0.2, 2.0)
+_DRAWING = 10.0
 
 
 @dataclass
@@ -39,6 +41,8 @@ class Running:
         Name of the workspace whose status bar shows the progress.
     shown : float
         When the progress was shown last, by `time.perf_counter`.
+    look : float
+        Seconds until it is shown again; not a number while Blender draws it.
     """
 
     title: str
@@ -46,6 +50,7 @@ class Running:
     timer: bpy.types.Timer
     workspace: str
     shown: float = -math.inf
+    look: float = _LOOKS[0]
 
 
 # The one computation that is running, for panels and operators. It is not in Blender's
@@ -72,6 +77,9 @@ def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
 def advance(run: Running) -> bool:
     """Compute for a moment; return whether all is done."""
     over = True  # also if a step raises an error
+    if math.isnan(run.look):
+        drawn = time.perf_counter() - run.shown
+        run.look = min(max(_DRAWING * drawn, _LOOKS[0]), _LOOKS[1])
     try:
         over = run.job.advance(_SLICE)
     finally:
@@ -97,9 +105,9 @@ def stop() -> None:
 def _show(run: Running) -> None:
     """Show the progress, unless it was shown a moment ago."""
     now = time.perf_counter()
-    if now < run.shown + _LOOK:
+    if now < run.shown + run.look:
         return
-    run.shown = now
+    run.shown, run.look = now, math.nan
     progress = run.job.progress
     text = f"{run.title}: {progress.stage}, {progress.fraction:.0%}. Esc cancels"
     show_status(run.workspace, text)

@@ -40,15 +40,18 @@ class OnObjects(Operator):
         """Return the objects to work on, the active one first."""
         return chosen_objects(context, cls._refusal)
 
-    def _conclude(self, failures: Sequence[str], n_objects: int) -> set[str]:
+    def _conclude(
+        self, failures: Sequence[str], n_objects: int, late: bool = False
+    ) -> set[str]:
         """Report the failures among `n_objects`; return the answer of the operator.
 
         Scripts get an error as an exception. So failures are errors only if nothing was
-        done; otherwise they are warnings.
+        done; otherwise they are warnings. So are those that come `late`, while the user
+        does something else: an error opens a popup, which would take the next key.
         """
         none_done = len(failures) == n_objects
         for failure in failures:
-            self.report({"ERROR" if none_done else "WARNING"}, failure)
+            self.report({"ERROR" if none_done and not late else "WARNING"}, failure)
         return {"CANCELLED" if none_done else "FINISHED"}
 
 

@@ -4,6 +4,10 @@ import json
 
 import numpy as np
 from hand_made import face_values, in_mode
+from weak_convex_decomposition.operators.bridge.parts.kept_materials import (
+    is_overlaid,
+    kept_materials,
+)
 from weak_convex_decomposition.operators.bridge.stored.identity import plain_name
 
 # Of the visibility that edits are described by.
@@ -52,7 +56,12 @@ def check_in_step(obj):
     groups = {group.index: group.name for group in obj.vertex_groups}
     weights = {(groups[g.group], v.index) for v in obj.data.vertices for g in v.groups}
     assert {pair for pair in weights if pair[0] in names} == belongs
-    slots = [obj.data.materials[p.material_index] for p in obj.data.polygons]
+    if is_overlaid(obj):
+        kept = kept_materials(obj.data)
+        assert not set(kept.values()) & set(obj.data.materials)
+        slots = [kept[numbers[index]] for index in labels]
+    else:
+        slots = [obj.data.materials[p.material_index] for p in obj.data.polygons]
     assert [slot["wcd_part"] for slot in slots] == [numbers[index] for index in labels]
     assert [slot["wcd_name"] for slot in slots] == [names[index] for index in labels]
     assert all(plain_name(s.name) == plain_name(s["wcd_name"]) for s in slots)

@@ -117,4 +117,5 @@ def finish(pressed):
 
 
 def errors_of(pressed):
-    return [text for kind, text in pressed.reports if kind == "ERROR"]
+    """Return the errors; those of a window come late, as warnings without a popup."""
+    return [text for kind, text in pressed.reports if kind in {"ERROR", "WARNING"}]

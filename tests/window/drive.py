@@ -2,9 +2,10 @@
 
     blender --python tests/window/drive.py -- SUBJECT
 
-A subject is a file in subjects/ with `steps(hands)`, a generator that acts as a user
-does. It yields seconds to wait, or a function to wait for; Blender goes on meanwhile.
-Exit status 0 says that it came to its end and nothing was left behind.
+A subject is a file in subjects/, or the path of another file, with `steps(hands)`, a
+generator that acts as a user does. It yields seconds to wait, or a function to wait
+for; Blender goes on meanwhile. Exit status 0 says that it came to its end and nothing
+was left behind.
 """
 
 import importlib.util
@@ -30,8 +31,9 @@ _PAUSE = 0.05
 
 def load(name):
     """Return the module of a subject."""
-    path = HERE / "subjects" / f"{name}.py"
-    spec = importlib.util.spec_from_file_location(name, path)
+    inside = (HERE / "subjects").rglob(f"{name}.py")
+    path = Path(name) if name.endswith(".py") else next(inside)
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -86,7 +88,7 @@ def main():
     # drags, which says where the cursor is, would be taken to jump.
     preferences.inputs.use_mouse_continuous = False
     package.register()
-    play = Play(load(subject).steps(Hands(subject)))
+    play = Play(load(subject).steps(Hands(Path(subject).stem)))
     bpy.app.timers.register(play, first_interval=1.0, persistent=True)
 
 

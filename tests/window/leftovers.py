@@ -1,15 +1,17 @@
 """What the extension may leave behind in a window: none of it must stay."""
 
 import bpy
-from weak_convex_decomposition.operators import recut, sight_overlay
+from weak_convex_decomposition.operators import recut
 from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.running import modal as running
+from weak_convex_decomposition.operators.viewport import picking, sight_overlay
 
 
 def leftovers():
     """Return the names of what is still there of a computation."""
     found = {
         "computation": running.current is not None,
+        "picking": picking.current is not None,
         "overlay": sight_overlay.current is not None,
         "timer": bpy.app.timers.is_registered(recut._invoke),
     }

@@ -16,7 +16,7 @@ FOLDER = ROOT / "tests" / "window" / "subjects"
 _MOST_SECONDS = 400
 # Subjects that need what another one leaves in build/window/.
 AFTER = {"reopened": "save"}
-SUBJECTS = sorted({path.stem for path in FOLDER.glob("*.py")} - {*AFTER.values()})
+SUBJECTS = sorted({path.stem for path in FOLDER.rglob("*.py")} - {*AFTER.values()})
 
 pytestmark = pytest.mark.skipif(
     not BLENDER, reason="no window: BLENDER names no command that starts Blender"

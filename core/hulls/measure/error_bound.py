@@ -166,12 +166,13 @@ def _distances(
     """Return bounds of the distance of patches outside a solid from targets."""
     centers, radii = _reach(corners)
     low, high = np.zeros(len(centers)), np.full(len(centers), np.inf)
-    inside = solid.inside.holds(centers)
-    # A way from inside to a point outside crosses the surface.
+    inside, unbroken = solid.inside.holds_patches(corners, centers, radii)
+    # A way from inside to a point outside crosses the surface, if through no hole.
+    whole = np.flatnonzero(inside & unbroken)
     most = float(radii.max()) + solid.reach
-    free = solid.tree.query(centers[inside], distance_upper_bound=most)[0]
+    free = solid.tree.query(centers[whole], distance_upper_bound=most)[0]
     free = np.minimum(free, most) - solid.reach
-    high[inside] = np.maximum(radii[inside] - np.maximum(free, 0.0), 0.0)
+    high[whole] = np.maximum(radii[whole] - np.maximum(free, 0.0), 0.0)
     hard = np.flatnonzero(high > level)
     rows = tree.query(centers[hard], eps=_ROUGHLY)[1]
     rough = distances_to(centers[hard], targets[rows]) + radii[hard]

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from ...geometry.primitives import CollisionShape, Hull
 from ...geometry.sampling import points_on
-from ..outline import outline_of
+from ..outline import fine_outline
 from ..solid import Solid
 
 # Weight k of the volume term in CoACD's concavity.
@@ -55,8 +55,9 @@ def estimated_error(
     depth = -shape.heights(boundary[:: -(-n_heights // _MOST_HEIGHTS)]).min()
     outside = shape.heights(hull.vertices).max()
     tree = cKDTree(np.concatenate([boundary, hull.vertices]))
-    corners = outline_of(shape).corners
-    _, spread = points_on(corners, _SHAPE_SAMPLES, np.random.default_rng(0))
+    _, spread = points_on(
+        fine_outline(shape)[0], _SHAPE_SAMPLES, np.random.default_rng(0)
+    )
     if shape.kind != "HULL":  # it reaches into other pieces
         spread = spread[~solid.inside.holds(spread)]
     away = tree.query(spread)[0].max(initial=0.0) - _SLACK * solid.spacing

@@ -12,8 +12,9 @@ from .fragments import fragments_of
 from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
-_AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
-_AXES *= np.sign(np.linalg.det(_AXES))
+# They are part of what is meant by the inside of an open mesh.
+AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
+AXES *= np.sign(np.linalg.det(AXES))
 # Number of cells of the table of triangles along each side.
 _CELLS = 96
 # Lines through a collision shape along the longer side of its bounding box.
@@ -23,6 +24,10 @@ _COARSE = 0.3
 # Factor by which volumes are raised, for what lies between the lines: it raises the
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
+
+# Patches of an open mesh are wholly inside if their centers are, and they are smaller
+# than the first radius, or than the second with all corners inside.
+_NARROW, _WIDE = 0.01, 0.06
 
 
 class InsideTest:
@@ -41,7 +46,7 @@ class InsideTest:
 
     def __init__(self, corners: NDArray[np.float64], n_axes: int) -> None:
         self._n_axes = n_axes
-        corners = fragments_of(corners @ _AXES.T, _COARSE)[0]
+        corners = fragments_of(corners @ AXES.T, _COARSE)[0]
         self._low = corners.min(axis=(0, 1))
         self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
         self._slopes = [_slopes_of(corners, axis) for axis in range(3)]
@@ -58,7 +63,7 @@ class InsideTest:
         -------
         (M,) bool
         """
-        local = points @ _AXES.T
+        local = points @ AXES.T
         votes = np.zeros(len(points), dtype=np.int64)
         for axis in range(self._n_axes):
             sides = [(axis + 1) % 3, (axis + 2) % 3]
@@ -68,6 +73,37 @@ class InsideTest:
             left = np.bincount(line[~below], -turns[~below], len(points))
             votes += (entered > 0) & (left > 0)
         return 2 * votes > self._n_axes
+
+    def holds_patches(
+        self,
+        corners: NDArray[np.float64],
+        centers: NDArray[np.float64],
+        radii: NDArray[np.float64],
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return which patches have centers inside, and no way out but the surface.
+
+        Parameters
+        ----------
+        corners : (M, 3, 3) float
+        centers : (M, 3) float
+        radii : (M,) float
+            Largest distance of a corner from the center.
+
+        Returns
+        -------
+        inside : (M,) bool
+            Whether the center is inside.
+        whole : (M,) bool
+            Of those, whether nothing but the surface leads outside.
+        """
+        inside = self.holds(centers)
+        if self._n_axes == 1:  # nothing but the surface is between inside and outside
+            return inside, np.ones(len(centers), dtype=bool)
+        whole = radii < _NARROW
+        rows = np.flatnonzero(inside & ~whole & (radii < _WIDE))
+        held = self.holds(corners[rows].reshape(-1, 3)).reshape(-1, 3)
+        whole[rows] = held.all(axis=1)
+        return inside, whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
         """Return the volume of a collision shape that is outside.
@@ -92,7 +128,7 @@ class InsideTest:
             spots = np.stack(np.meshgrid(across, up), axis=-1).reshape(-1, 2)
             origins = np.zeros((len(spots), 3))
             origins[:, sides] = spots
-            enter, leave = chord_in(shape, origins @ _AXES, _AXES[axis])
+            enter, leave = chord_in(shape, origins @ AXES, AXES[axis])
             met = np.flatnonzero(leave > enter)
             enter, leave = enter[met], leave[met]
             inside = self._length_inside(axis, spots[met], enter, leave)
@@ -186,6 +222,6 @@ def _slopes_of(corners: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
 
 def _turned(shape: CollisionShape) -> CollisionShape:
     """Return a collision shape in the coordinates of the lines."""
-    hull = replace(shape.hull, vertices=shape.hull.vertices @ _AXES.T)
-    center, axes = _AXES @ shape.center, shape.axes @ _AXES.T
+    hull = replace(shape.hull, vertices=shape.hull.vertices @ AXES.T)
+    center, axes = AXES @ shape.center, shape.axes @ AXES.T
     return replace(shape, hull=hull, center=center, axes=axes)

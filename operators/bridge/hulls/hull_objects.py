@@ -22,6 +22,8 @@ from ..parts.separating import new_collection
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.record import write_hull_record
+from .looks import keep_piece
+from .placed import pose_of
 from .rigid_bodies import soften
 
 
@@ -40,6 +42,7 @@ def write_hulls(
     found: HullDecomposition,
     parameters: HullParameters,
     meshes: Sequence[bpy.types.Mesh] | None = None,
+    to_be_edited: bool = False,
 ) -> list[bpy.types.Object]:
     """Make objects of the hulls of an object, in place of earlier ones; return them.
 
@@ -50,6 +53,8 @@ def write_hulls(
     parameters : HullParameters
     meshes : sequence of Mesh, optional
         Those of equal hulls around an object of the same scale, to be shared.
+    to_be_edited : bool
+        Whether hulls keep the piece that they are around, for other shapes.
 
     Raises
     ------
@@ -68,11 +73,13 @@ def write_hulls(
     for row, name in enumerate(names):
         material = materials[rows[row]]
         shape = found.shapes[row]
-        mesh = meshes[row] if meshes else _hull_mesh(name, shape, scale, material)
+        mesh = meshes[row] if meshes else hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
-        figures = _figures(found, row)
+        figures = figures_of_hull(found, row)
         noted.append({"name": hull.name, **figures})
-        hull[HULL_TAG] = json.dumps(figures | _pose(shape, scale))
+        tag_hull(hull, figures, shape, scale)
+        if to_be_edited and shape.kind != "HULL":
+            keep_piece(hull, shape.hull.vertices / scale)
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
@@ -80,18 +87,40 @@ def write_hulls(
     return hulls
 
 
-def erase_hulls(obj: bpy.types.Object) -> None:
-    """Remove an object's hulls, and their collection if nothing else is in it."""
-    hulls = hulls_of(obj)
+def tag_hull(
+    hull: bpy.types.Object,
+    figures: dict[str, Any],
+    shape: CollisionShape,
+    scale: np.ndarray,
+) -> None:
+    """Note on a hull its figures and its pose."""
+    hull[HULL_TAG] = json.dumps(figures | pose_of(shape, scale))
+
+
+def erase_hulls(
+    obj: bpy.types.Object, chosen: Sequence[bpy.types.Object] | None = None
+) -> None:
+    """Remove an object's hulls, and their collection if nothing else is in it.
+
+    Parameters
+    ----------
+    obj : Object
+    chosen : sequence of Object, optional
+        The hulls to remove; the others stay.
+    """
+    hulls = hulls_of(obj) if chosen is None else chosen
     if hulls and obj.mode != "OBJECT":
         raise DecompositionError(
             "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
             " Object Mode first."
         )
-    soften(obj, hulls)
+    if len(hulls) == len(hulls_of(obj)):
+        soften(obj, hulls)
     collections = {c for hull in hulls for c in hull.users_collection if HULL_TAG in c}
     meshes = [hull.data for hull in hulls]
-    materials = {m for mesh in meshes for m in mesh.materials if is_ours(m)}
+    worn = {m for mesh in meshes for m in mesh.materials}
+    worn |= {slot.material for hull in hulls for slot in hull.material_slots}
+    materials = set(filter(is_ours, worn))
     for hull in hulls:
         bpy.data.objects.remove(hull)
     for mesh in meshes:
@@ -130,15 +159,13 @@ def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> Non
         )
 
 
-def _hull_mesh(
+def hull_mesh(
     name: str, shape: CollisionShape, scale: np.ndarray, material: bpy.types.Material
 ) -> bpy.types.Mesh:
     """Return the mesh of a shape."""
-    outline = core.outline_of(shape)
+    vertices, faces = core.faces_of(shape)
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(
-        (outline.vertices / scale).tolist(), [], outline.triangles.tolist()
-    )
+    mesh.from_pydata((vertices / scale).tolist(), [], faces.tolist())
     mesh.materials.append(material)
     return mesh
 
@@ -154,7 +181,7 @@ def _hull_object(
     return hull
 
 
-def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
+def figures_of_hull(found: HullDecomposition, row: int) -> dict[str, Any]:
     """Return the figures of a hull, to be noted."""
     shape = found.shapes[row]
     return {
@@ -164,19 +191,4 @@ def _figures(found: HullDecomposition, row: int) -> dict[str, Any]:
         "volume": float(shape.volume),
         "part": int(found.parts[row]) if found.has_parts else None,
         "vertices": len(core.outline_of(shape).vertices),
-    }
-
-
-def _pose(shape: CollisionShape, scale: np.ndarray) -> dict[str, Any]:
-    """Return center, axes and sizes of a primitive; axes as rows, in object space.
-
-    Object space is not scaled yet: where the scale differs by axis, the axes have other
-    lengths than 1 there. Sizes are multiples of them.
-    """
-    if shape.kind == "HULL":
-        return {}
-    return {
-        "center": (shape.center / scale).tolist(),
-        "axes": (shape.axes / scale).tolist(),
-        "sizes": shape.sizes.tolist(),
     }

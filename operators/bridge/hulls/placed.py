@@ -1,7 +1,13 @@
-"""Where a collision shape of an object is in the scene, and how large it is there."""
+"""Where a collision shape of an object is, and how large it is there.
+
+The pose of a primitive is noted on its hull in the space of the object. Reports,
+simulators and others bring it to the space that they need by a matrix.
+"""
 
 from __future__ import annotations
 
+import json
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bpy
@@ -11,6 +17,90 @@ from numpy.typing import NDArray
 
 from ....core.geometry.primitives import CollisionShape
 from ..read.shape import stretch
+from ..stored.names import HULL_TAG
+
+# Axes that differ by less, in length or from a right angle, are those of a solid.
+_SAME = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A primitive.
+
+    Attributes
+    ----------
+    kind : str
+        'BOX', 'SPHERE', 'CYLINDER' or 'CAPSULE'.
+    center : (3,) float
+    rotation : (3, 3) float
+        Its columns are the axes of the solid; cylinders and capsules lie along the
+        last one.
+    sizes : (3,) float
+        Box: half of each side. Others: radius, radius, half of the height; that of a
+        capsule excludes its round ends.
+    """
+
+    kind: str
+    center: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    sizes: NDArray[np.float64]
+
+
+def pose_of(shape: CollisionShape, scale: NDArray[np.float64]) -> dict[str, Any]:
+    """Return kind, center, axes and sizes of a primitive, in object space.
+
+    Axes are rows. Object space is not scaled yet: where the `scale`, (3,), differs by
+    axis, the axes have other lengths than 1 there. Sizes are multiples of them.
+    """
+    if shape.kind == "HULL":
+        return {"kind": shape.kind}
+    return {
+        "kind": shape.kind,
+        "center": (shape.center / scale).tolist(),
+        "axes": (shape.axes / scale).tolist(),
+        "sizes": shape.sizes.tolist(),
+    }
+
+
+def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Solid | None:
+    """Return the primitive of a pose, moved by a matrix; None if that distorts it."""
+    kind, sizes = pose["kind"], np.array(pose["sizes"], dtype=np.float64)
+    axes = matrix[:3, :3] @ np.array(pose["axes"], dtype=np.float64).T
+    lengths = np.linalg.norm(axes, axis=0)
+    if not lengths.all():
+        return None
+    rotation = axes / lengths
+    if np.abs(rotation.T @ rotation - np.eye(3)).max() > _SAME:
+        return None
+    if kind != "BOX" and np.ptp(lengths) > _SAME * lengths.max():
+        return None
+    if np.linalg.det(rotation) < 0:  # solids are their own mirror images
+        rotation[:, 0] *= -1
+    center = matrix[:3, :3] @ np.array(pose["center"]) + matrix[:3, 3]
+    return Solid(kind, center, rotation, sizes * lengths)
+
+
+def solid_of(hull: bpy.types.Object, matrix: NDArray[np.float64]) -> Solid | None:
+    """Return the primitive that a hull stands for, moved by a matrix.
+
+    Parameters
+    ----------
+    hull : Object
+        Its figures have the kind of the shape and its pose.
+    matrix : (4, 4) float
+        From the space of the hull's mesh to where the solid is wanted.
+
+    Returns
+    -------
+    Solid or None
+        None for a convex hull, and for a primitive that the matrix distorts: a scale
+        that differs by axis turns spheres into ellipsoids. Its mesh has that shape.
+    """
+    figures = json.loads(hull.get(HULL_TAG, "{}"))
+    solid = _moved(figures, matrix) if "axes" in figures else None
+    if solid and solid.kind == "CAPSULE" and solid.sizes[2] <= _SAME * solid.sizes[0]:
+        return replace(solid, kind="SPHERE")  # MuJoCo refuses a capsule without length
+    return solid
 
 
 def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
@@ -28,37 +118,45 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
         `position` is the center. `rotation` is a unit quaternion (w, x, y, z); it
         turns the axes of the scene into those of the shape. `size` has `extents` along
         the axes, or `radius` and `length`; the length of a capsule excludes its ends.
-        A hull is not turned: its extents are those of its bounding box.
+        A hull is not turned: its extents are those of its bounding box. So it is with
+        the mesh of a primitive that a parent shears.
     """
-    to_scene = np.array(obj.matrix_world, dtype=np.float64)
-    turn = to_scene[:3, :3] / stretch(obj)  # it keeps angles, and may mirror
-    scale = float(np.cbrt(abs(np.linalg.det(turn))))
-    volume = float(shape.volume) * scale**3
-    if shape.kind == "HULL":
-        vertices = shape.hull.vertices @ turn.T + to_scene[:3, 3]
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
+    to_scene, scale = np.array(obj.matrix_world, dtype=np.float64), stretch(obj)
+    turn = to_scene[:3, :3] / scale  # it keeps angles, and may mirror
+    volume = float(shape.volume) * abs(float(np.linalg.det(turn)))
+    solid = _moved(pose_of(shape, scale), to_scene) if shape.kind != "HULL" else None
+    if solid is not None:
         return {
-            "position": ((low + high) / 2).tolist(),
-            "rotation": [1.0, 0.0, 0.0, 0.0],
-            "size": {"extents": (high - low).tolist()},
+            "position": solid.center.tolist(),
+            "rotation": quaternion_of(solid.rotation).tolist(),
+            "size": _size(solid),
             "volume": volume,
         }
-    axes = turn @ shape.axes.T / scale  # columns
-    if np.linalg.det(axes) < 0:  # shapes are symmetric: one axis may point back
-        axes[:, 0] *= -1
+    vertices = shape.hull.vertices @ turn.T + to_scene[:3, 3]
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
     return {
-        "position": (turn @ shape.center + to_scene[:3, 3]).tolist(),
-        "rotation": list(Matrix(axes.tolist()).to_quaternion().normalized()),
-        "size": _size(shape.kind, shape.sizes * scale),
+        "position": ((low + high) / 2).tolist(),
+        "rotation": [1.0, 0.0, 0.0, 0.0],
+        "size": {"extents": (high - low).tolist()},
         "volume": volume,
     }
 
 
-def _size(kind: str, sizes: NDArray[np.float64]) -> dict[str, Any]:
+def _size(solid: Solid) -> dict[str, Any]:
     """Return the size of a primitive by name."""
-    radius, length = float(sizes[0]), float(2 * sizes[2])
-    if kind == "BOX":
-        return {"extents": (2 * sizes).tolist()}
-    if kind == "SPHERE":
+    radius, length = float(solid.sizes[0]), float(2 * solid.sizes[2])
+    if solid.kind == "BOX":
+        return {"extents": (2 * solid.sizes).tolist()}
+    if solid.kind == "SPHERE":
         return {"radius": radius}
     return {"radius": radius, "length": length}
+
+
+def quaternion_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a rotation matrix (3, 3) as a unit quaternion w, x, y, z."""
+    return np.array(Matrix(rotation.tolist()).to_quaternion().normalized())
+
+
+def angles_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a rotation matrix (3, 3) as URDF's roll, pitch and yaw, in radians."""
+    return np.array(Matrix(rotation.tolist()).to_euler("XYZ"))

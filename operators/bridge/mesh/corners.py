@@ -18,10 +18,7 @@ from .attributes import BoolArray, IntArray, read_floats, read_ints
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
     """Return the vertex of each corner, (C,)."""
-    corners = mesh.attributes.get(".corner_vert")
-    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
-        return read_ints(mesh.loops, "vertex_index")
-    return read_ints(corners.data, "value")  # a hundred times faster
+    return _of_corners(mesh, ".corner_vert", "vertex_index")
 
 
 def triangles_of(
@@ -36,24 +33,53 @@ def triangles_of(
     faces : (T,) int
     """
     mesh.calc_loop_triangles()
-    return (
+    if (read_ints(mesh.polygons, "loop_total") == 3).all():  # quicker than to ask
+        corners = np.arange(3 * len(mesh.polygons), dtype=np.int32).reshape(-1, 3)
+    else:
+        corners = read_ints(mesh.loop_triangles, "loops", 3)
+    arrays = (
         read_floats(mesh.vertices, "co", 3).astype(np.float64),
-        corner_vertices(mesh)[read_ints(mesh.loop_triangles, "loops", 3)].astype(
-            np.int64
-        ),
+        corner_vertices(mesh).astype(np.int64)[corners],
         read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
     )
+    for array in arrays:
+        array.flags.writeable = False  # a shape need not copy it
+    return arrays
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
     """Return the edge from each corner to the next one of its face, (C,)."""
-    return read_ints(mesh.loops, "edge_index")
+    return _of_corners(mesh, ".corner_edge", "edge_index")
 
 
 def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
     """Return the face of each corner, (C,)."""
     sizes = read_ints(mesh.polygons, "loop_total")
     return np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
+
+
+def edge_sides(
+    mesh: bpy.types.Mesh, labels: NDArray[np.integer[Any]]
+) -> tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]]:
+    """Return the lowest and the highest label of the faces at each edge.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    labels : (P,) int
+        Label of each face, 0 or more.
+
+    Returns
+    -------
+    lowest, highest : (E,) int
+        `highest` is -1 for edges without faces.
+    """
+    edges, of_corners = corner_edges(mesh), labels[corner_faces(mesh)]
+    lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max, dtype=labels.dtype)
+    highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
+    np.minimum.at(lowest, edges, of_corners)
+    np.maximum.at(highest, edges, of_corners)
+    return lowest, highest
 
 
 def boundary_edges(
@@ -73,12 +99,16 @@ def boundary_edges(
     -------
     (E,) bool
     """
-    edges, of_corners = corner_edges(mesh), labels[corner_faces(mesh)]
-    lowest = np.full(len(mesh.edges), np.iinfo(labels.dtype).max)
-    highest = np.full(len(mesh.edges), -1, dtype=labels.dtype)
-    np.minimum.at(lowest, edges, of_corners)
-    np.maximum.at(highest, edges, of_corners)
-    between = (highest >= 0) & (lowest != highest)
+    lowest, highest = edge_sides(mesh, labels)
     of_chosen = np.zeros(len(mesh.edges), dtype=bool)
-    of_chosen[edges[np.isin(of_corners, chosen)]] = True
-    return between & of_chosen
+    corners = np.isin(labels[corner_faces(mesh)], chosen)
+    of_chosen[corner_edges(mesh)[corners]] = True
+    return (highest >= 0) & (lowest != highest) & of_chosen
+
+
+def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:
+    """Return an attribute of the corners, or the property with the same numbers."""
+    corners = mesh.attributes.get(attribute)
+    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_ints(mesh.loops, name)
+    return read_ints(corners.data, "value")  # a hundred times faster

@@ -18,6 +18,7 @@ from ..stored.record import record_of
 from ..stored.restore import sharers
 from ..stored.versions import identities_of, past_with
 from .identities import Newcomers, identities_of_run
+from .kept_materials import kept_materials
 from .materials import part_slots
 from .read import FoundParts, find_parts_on, part_materials
 from .rows import Row, kept_rows
@@ -60,6 +61,7 @@ class BeforeWriting:
         if not is_cloud(obj):
             slots = part_slots(obj.data)
             materials = {n: obj.data.materials[i] for n, (i, *_) in slots.items()}
+            materials |= kept_materials(obj.data)
             if found is not None:
                 numbers = [each.number for each in found.identities]
                 own = part_materials(obj, found)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 
-from ..mesh.attributes import IntArray
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
-from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, MATERIAL_LAYER, PART_LAYER
+from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, PART_LAYER
 from ..stored.record import check_records, forget_parts, forget_result
 from ..stored.restore import Restore, read_restore, sharers, write_restore
-from .materials import discard_unused, is_ours, name_of, our_materials, part_slots
+from .kept_materials import drop_kept
+from .materials import discard_unused, name_of, our_materials, part_slots
 from .rows import erase_rows
+from .slots import take_out_of_slots
 
 
 def clear(obj: bpy.types.Object) -> None:
@@ -23,7 +23,7 @@ def clear(obj: bpy.types.Object) -> None:
 
 
 def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
-    """Remove the parts from a mesh; return the materials taken out of its slots.
+    """Remove the parts from a mesh; return the materials that showed them.
 
     Changes that the user made since stay: faces with another material keep it, and
     renamed groups and materials are not removed.
@@ -34,9 +34,7 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
         return []
     _erase_groups(obj, restore)
     layers = layers_of(obj)
-    indices = _indices_without_ours(mesh, restore, layers)
-    materials = _erase_slots(obj, restore)
-    layers.set_material_indices(indices)
+    materials = [*take_out_of_slots(obj, restore), *drop_kept(mesh)]
     _restore_face_sets(layers)
     for name in LAYERS:
         layers.remove(name)
@@ -82,113 +80,3 @@ def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
         layers.set_faces(FACE_SETS, before)
     else:
         layers.remove(FACE_SETS)
-
-
-def _indices_without_ours(
-    mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
-) -> IntArray | None:
-    """Return the material index of each face after our slots are removed."""
-    if not getattr(mesh, "polygons", None):  # points
-        return None
-    now = layers.material_indices()
-    if now is None:
-        now = np.zeros(len(mesh.polygons), dtype=np.int32)
-    ours = _our_slots(mesh, restore)
-    before = layers.faces(MATERIAL_LAYER)
-    if before is None:
-        before = np.full_like(now, restore.material_index or 0)
-    indices = np.where(
-        np.isin(now, ours),
-        _moved(before, restore.slots, _names_without(mesh, ours)),
-        now - np.searchsorted(ours, now),
-    ).astype(np.int32)
-    if not restore.had_material_index and not indices.any():
-        return None
-    return indices
-
-
-def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
-    """Return the indices of the slots that hold our materials."""
-    return [
-        index
-        for index, material in enumerate(mesh.materials)
-        if is_ours(material) and material.name not in restore.slots
-    ]
-
-
-def _names_without(mesh: bpy.types.Mesh, ours: list[int]) -> list[str]:
-    """Return the names of the materials in the user's slots, '' for none."""
-    return [
-        material.name if material else ""
-        for index, material in enumerate(mesh.materials)
-        if index not in ours
-    ]
-
-
-def _moved(indices: IntArray, slots: list[str], remaining: list[str]) -> IntArray:
-    """Return indices of former slots as indices of the slots that will remain.
-
-    The user may have moved, removed or renamed materials since.
-    """
-    moved = indices.copy()
-    place = 0  # Blender gives the faces of a removed slot to the slot before
-    for former, name in enumerate(slots):
-        there = remaining[former] if former < len(remaining) else None
-        renamed = name not in remaining and there is not None and there not in slots
-        if there == name or renamed:
-            place = former
-        elif name in remaining:
-            place = remaining.index(name)
-        moved[indices == former] = place
-    return moved
-
-
-def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Material]:
-    """Remove the slots that hold our materials; return the materials."""
-    mesh = obj.data
-    ours = _our_slots(mesh, restore)
-    if not ours:
-        return []
-    active = obj.active_material_index
-    # Removing a slot of the mesh does not move the objects' own materials.
-    linked = [
-        (sharer, [_object_link(slot) for slot in sharer.material_slots])
-        for sharer in sharers(obj)
-    ]
-    materials = [mesh.materials[i] for i in ours]
-    if len(ours) == len(mesh.materials):
-        mesh.materials.clear()  # `pop` would leave the objects an empty slot
-    else:
-        for index in reversed(ours):
-            mesh.materials.pop(index=index)
-    for sharer, links in linked:
-        kept = [link for i, link in enumerate(links) if i not in ours]
-        for slot, link in zip(sharer.material_slots, kept, strict=False):
-            _set_object_link(slot, link)
-    if mesh.materials:
-        active = (
-            restore.active_slot
-            if active in ours
-            else active - sum(i < active for i in ours)
-        )
-        obj.active_material_index = min(active, len(mesh.materials) - 1)
-    return materials
-
-
-def _object_link(
-    slot: bpy.types.MaterialSlot,
-) -> tuple[bool, bpy.types.Material | None]:
-    """Return whether a slot's material is the object's own, and that material."""
-    own = slot.link == "OBJECT"
-    return own, slot.material if own else None
-
-
-def _set_object_link(
-    slot: bpy.types.MaterialSlot, link: tuple[bool, bpy.types.Material | None]
-) -> None:
-    """Give a slot what `_object_link` returned."""
-    own, material = link
-    if (slot.link == "OBJECT") != own:
-        slot.link = "OBJECT" if own else "DATA"
-    if own and slot.material != material:
-        slot.material = material

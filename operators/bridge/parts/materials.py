@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ..stored.identity import Identity, part_name, plain_name
-from ..stored.names import MATERIAL_NAME, MATERIAL_TAG
+from ..stored.names import MATERIAL_NAME, MATERIAL_TAG, OVERLAY
 from .palette import Color
 
 # The number in the tag of the material that shows the parts of all point clouds.
@@ -51,6 +51,8 @@ def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
     A part has more than one after a join with another object that has its number.
     """
     slots: dict[int, list[int]] = {}
+    if OVERLAY in mesh:  # those in slots came with another object
+        return slots
     for index, material in enumerate(mesh.materials):
         if is_ours(material) and material[MATERIAL_TAG] != _OF_POINTS:
             slots.setdefault(material[MATERIAL_TAG], []).append(index)
@@ -84,16 +86,14 @@ def own_materials(
 
 
 def own_material(
-    mesh: bpy.types.Mesh, slot: int, identity: Identity
+    material: bpy.types.Material, identity: Identity
 ) -> bpy.types.Material:
-    """Give a slot of a mesh a material of its own with the name and color of a part.
+    """Give a material the name and color of a part, and return it.
 
-    A material that something else uses stays as it is, and is copied.
+    A material that something else uses, too, stays as it is, and is copied.
     """
-    material = mesh.materials[slot]
     if material.users > 1 or material.library is not None:
         material = material.copy()
-        mesh.materials[slot] = material
     _tag(material, identity)
     recolor(material, identity.color)
     return material

@@ -19,11 +19,12 @@ from ..mesh.corners import corner_faces, corner_vertices
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..stored.identity import Identity
-from ..stored.names import PART_LAYER
+from ..stored.names import OWNER, OWNER_LAYER, PART_LAYER
 from ..stored.record import record_of
 from ..stored.restore import read_restore
 from ..stored.versions import identities_of, n_faces_of
 from .identities import Newcomers
+from .kept_materials import is_overlaid, kept_materials
 from .materials import color_of, name_of, part_slots
 
 
@@ -60,7 +61,7 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
     values = _numbers(obj)
     if values is None:
         return None
-    noted = _noted(obj)
+    noted = noted_identities(obj)
     # Blender gives any number to faces that the user adds.
     known = {*noted, *part_slots(obj.data)}
     keys = np.clip(values, 0, max(known, default=None)).astype(np.int64)
@@ -106,7 +107,10 @@ def _identified(
 
 
 def part_materials(obj: bpy.types.Object, found: FoundParts) -> list[Material | None]:
-    """Return the material in the slot of each part, None where there is none."""
+    """Return the material of each part, in its slot or kept, None without one."""
+    if is_overlaid(obj):
+        kept = kept_materials(obj.data)
+        return [None if turn else kept.get(n) for n, turn in found.origins]
     slots = part_slots(obj.data)
     return [
         obj.data.materials[slots[number][turn]]
@@ -140,8 +144,8 @@ def _numbers(obj: bpy.types.Object) -> IntArray | None:
     return numbers if fits else None
 
 
-def _noted(obj: bpy.types.Object) -> dict[int, Identity]:
-    """Return the identities in the record, by the numbers on the faces.
+def noted_identities(obj: bpy.types.Object) -> dict[int, Identity]:
+    """Return the identities in the record of an object, by the numbers on its faces.
 
     A color that the user gave to the material counts.
     """
@@ -164,6 +168,11 @@ def _turns(
     """
     if is_cloud(obj):
         return None
+    owners = layers_of(obj).faces(OWNER_LAYER)
+    if owners is not None and len(owners) == len(numbers):
+        turns = _turns_by_owner(owners, obj.data.get(OWNER, 0))
+        if turns is not None:
+            return turns
     slots = part_slots(obj.data)
     if any(len(places) > 1 for places in slots.values()):
         return _turns_by_material(obj, numbers, slots)
@@ -174,6 +183,16 @@ def _turns(
     if (runs != runs[0]).any() or _touch(obj, n_noted):
         return None
     return np.repeat(np.arange(n_copies), n_noted)
+
+
+def _turns_by_owner(owners: IntArray, own: int) -> NDArray[np.int64] | None:
+    """Return 0 for faces of the object itself, and for each other owner a number."""
+    others, turns = np.unique(owners[owners != own], return_inverse=True)
+    if not len(others):
+        return None
+    found = np.zeros(len(owners), dtype=np.int64)
+    found[owners != own] = turns + 1
+    return found
 
 
 def _turns_by_material(

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import bpy
 
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
-from ..stored.names import HULL_TAG
+from ..stored.names import HULL_TAG, OVERLAY
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
 from ..stored.versions import identities_of
-from .face_sets_and_colors import show_colors
+from ..views.face_sets_and_colors import show_colors
+from .kept_materials import is_overlaid
 from .materials import color_of, discard_unused, own_material, part_slots
 from .palette import Color
 
@@ -64,11 +66,11 @@ def recolor_part(obj: bpy.types.Object, number: int, color: Color) -> None:
 
 def _change(obj: bpy.types.Object, identity: Identity) -> None:
     """Note a new name or color, and give it to the material in the part's slot."""
-    slots = [] if is_cloud(obj) else part_slots(obj.data).get(identity.number, [])
     change = {"name": identity.name, "color": list(identity.color)}
-    if slots:
-        before = obj.data.materials[slots[0]]
-        material = own_material(obj.data, slots[0], identity)
+    holder, place = _home(obj, identity.number)
+    if holder is not None:
+        before = holder[place]
+        holder[place] = material = own_material(before, identity)
         _give_hulls(obj, before, material)
         change["material"] = material.name
     for sharer in sharers(obj):
@@ -76,6 +78,15 @@ def _change(obj: bpy.types.Object, identity: Identity) -> None:
         for row in sharer.wcd_parts:
             if row.number == identity.number and row.name != identity.name:
                 row.name = identity.name
+
+
+def _home(obj: bpy.types.Object, number: int) -> tuple[Any, int | str]:
+    """Return what holds the material of a part, and its place there; None for none."""
+    if is_overlaid(obj):
+        kept, key = obj.data[OVERLAY], str(number)
+        return (kept if key in kept else None), key
+    slots = [] if is_cloud(obj) else part_slots(obj.data).get(number, [])
+    return (obj.data.materials, slots[0]) if slots else (None, 0)
 
 
 def _give_hulls(

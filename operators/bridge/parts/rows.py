@@ -11,9 +11,13 @@ from dataclasses import dataclass
 
 import bpy
 
+from ....core.parameters.hulls import SHAPES
 from ..stored.identity import Identity
 from .read import part_identities
 from .renaming import color_of_part, recolor_part, rename_part
+
+# The choice of a part whose hull has the shape that is set for all.
+AS_SET = "AS_SET"
 
 
 def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -61,6 +65,14 @@ WCD_PG_part.__annotations__ = {
         description="Keep this part when the object is decomposed again. Locked parts"
         " count towards the number of Parts",
     ),
+    "hull_shape": bpy.props.EnumProperty(
+        name="Hull Shape",
+        description="Shape of this part's hull, if each part gets one",
+        items=(
+            (AS_SET, "As Set", "The shape that is set for all"),
+            *((each.identifier, each.label, each.help) for each in SHAPES),
+        ),
+    ),
 }
 
 
@@ -71,13 +83,14 @@ class Row:
     chosen: bool
     locked: bool
     active: bool
+    hull_shape: str
 
 
 def kept_rows(obj: bpy.types.Object) -> dict[int, Row]:
     """Return the state of an object's rows, by the numbers of the parts."""
     active = obj.wcd_active_part
     return {
-        row.number: Row(row.chosen, row.locked, place == active)
+        row.number: Row(row.chosen, row.locked, place == active, row.hull_shape)
         for place, row in enumerate(obj.wcd_parts)
     }
 
@@ -91,8 +104,9 @@ def write_rows(
     for place, identity in enumerate(identities):
         row = obj.wcd_parts.add()
         row.number, row.name = identity.number, identity.name
-        before = kept.get(identity.number, Row(False, False, False))
+        before = kept.get(identity.number, Row(False, False, False, AS_SET))
         row.chosen, row.locked = before.chosen, before.locked
+        row.hull_shape = before.hull_shape
         if before.active:
             obj.wcd_active_part = place
 
@@ -101,6 +115,17 @@ def erase_rows(obj: bpy.types.Object) -> None:
     """Remove the table from an object."""
     for name in ("wcd_parts", "wcd_active_part"):
         obj.property_unset(name)
+
+
+def chosen_numbers(obj: bpy.types.Object) -> set[int]:
+    """Return the numbers of the ticked parts, or of the highlighted one without ticks.
+
+    Faces are not looked at, so it is quick enough for each time a viewport is drawn.
+    """
+    ticked = {row.number for row in obj.wcd_parts if row.chosen}
+    place = obj.wcd_active_part
+    highlighted = obj.wcd_parts[place : place + 1] if place >= 0 else ()
+    return ticked or {row.number for row in highlighted}
 
 
 def chosen_parts(obj: bpy.types.Object) -> list[int]:
@@ -113,6 +138,16 @@ def chosen_parts(obj: bpy.types.Object) -> list[int]:
     identities = part_identities(obj)
     places = [p for p, each in enumerate(identities) if each.number in ticked]
     return places or [active_part(obj)]
+
+
+def hull_shapes(obj: bpy.types.Object) -> dict[int, str]:
+    """Return the shapes that the user chose for hulls of single parts, by place."""
+    chosen = {row.number: row.hull_shape for row in obj.wcd_parts}
+    return {
+        place: chosen[each.number]
+        for place, each in enumerate(part_identities(obj))
+        if chosen.get(each.number, AS_SET) != AS_SET
+    }
 
 
 def active_part(obj: bpy.types.Object) -> int:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ..views.node_modifiers import remove_views
 from .erase import clear
-from .exploding import implode
 from .materials import own_materials
 from .read import find_parts_on, part_materials
 
@@ -42,7 +42,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     ]
     collection = new_collection(obj, f"{obj.name} parts")
     bare = _copy(obj)
-    implode(bare)
+    remove_views(bare)
     clear(bare)
     pieces: list[bpy.types.Object] = []
     for part in range(len(identities)):

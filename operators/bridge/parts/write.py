@@ -23,18 +23,20 @@ from ..stored.names import (
     COLOR_LAYER,
     HAND_LAYER,
     LAYERS,
-    MATERIAL_LAYER,
     NORMAL_LAYER,
     PART_LAYER,
 )
 from ..stored.record import check_records, write_result
 from ..stored.restore import Restore, sharers, write_restore
+from ..views.colors import show_as_overlay
+from ..views.face_sets_and_colors import paint_points, show, shown
 from .continuing import BeforeWriting, by_number
 from .erase import erase_parts
-from .face_sets_and_colors import paint_points, show, shown
 from .figures import fingerprints
+from .kept_materials import is_overlaid
 from .materials import discard_unused, own_materials, points_material
 from .rows import write_rows
+from .slots import put_in_slots
 
 
 def write_parts(
@@ -66,12 +68,9 @@ def write_parts(
         If the object cannot be written to, or the user has data under our names.
     """
     check_writable(obj)
-    n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
-    if len(decomposition.labels) != n_elements:
-        raise DecompositionError(
-            "The mesh was changed while it was decomposed; start again."
-        )
-    also_shown, before = shown(obj), BeforeWriting.of(obj)
+    _check_unchanged(obj, decomposition)
+    overlaid, also_shown = is_overlaid(obj), shown(obj)
+    before = BeforeWriting.of(obj)
     identities = kept or before.continued_by(obj, decomposition)
     decomposition, identities = by_number(decomposition, identities)
     former = erase_parts(obj)
@@ -86,7 +85,18 @@ def write_parts(
     write_restore(obj.data, restore)
     _note(obj, decomposition, parameters, restore, everyone, identities, before)
     show(obj, *also_shown)
+    if overlaid:
+        show_as_overlay(obj)
     discard_unused(former)
+
+
+def _check_unchanged(obj: bpy.types.Object, decomposition: Decomposition) -> None:
+    """Raise if an object has other faces, or points, than were decomposed."""
+    n_elements = count_points(obj) if is_cloud(obj) else len(obj.data.polygons)
+    if len(decomposition.labels) != n_elements:
+        raise DecompositionError(
+            "The mesh was changed while it was decomposed; start again."
+        )
 
 
 def _note(
@@ -167,28 +177,19 @@ def _write_mesh(
 ) -> Restore:
     """Write parts to a mesh without parts; return how to bring it back."""
     mesh = obj.data
-    before = layers_of(obj).material_indices()
-    uniform = before is None or bool((before == before[0]).all())
-    slots = [material.name if material else "" for material in mesh.materials]
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
     users = [group.name for group in obj.vertex_groups]
-    active_slot = obj.active_material_index
     groups = []
     if obj.type == "MESH":  # point cloud objects have no groups
         groups = _add_groups(obj, everyone, active_group)
         everyone = _named(everyone, groups)
-    for material in _materials(obj, everyone, sources, slots):
-        mesh.materials.append(material)
-    obj.active_material_index = active_slot
-    layers = layers_of(obj)
+    slots = [material.name if material else "" for material in mesh.materials]
+    materials = _materials(obj, everyone, sources, slots)
     numbers = np.array([identity.number for identity in identities], dtype=np.int32)
     places = np.searchsorted([each.number for each in everyone], numbers)
-    if before is not None and not uniform:
-        layers.set_faces(MATERIAL_LAYER, before)
+    before = put_in_slots(obj, materials, places[decomposition.labels])
+    layers = layers_of(obj)
     layers.set_faces(PART_LAYER, numbers[decomposition.labels])
-    layers.set_material_indices(
-        (places[decomposition.labels] + len(slots)).astype(np.int32)
-    )
     labels = decomposition.labels.astype(np.int32)
     members = _vertices_by_part(obj, labels, len(identities))
     for place, vertices in zip(
@@ -197,13 +198,7 @@ def _write_mesh(
         layers.fill_group(obj.vertex_groups[groups[place]], vertices)
     layers.finish()
     return Restore(
-        groups=groups,
-        active_group=active_group,
-        slots=slots,
-        active_slot=active_slot,
-        material_index=int(before[0]) if uniform and before is not None else None,
-        had_material_index=before is not None,
-        user_groups=users,
+        groups=groups, active_group=active_group, user_groups=users, **before
     )
 
 
@@ -245,4 +240,6 @@ def _vertices_by_part(
         vertices = corner_vertices(obj.data)
         parts = labels[corner_faces(obj.data)]
     for part in range(n_parts):
-        yield np.unique(vertices[parts == part])
+        members = np.zeros(len(vertices), dtype=bool)
+        members[vertices[parts == part]] = True
+        yield np.flatnonzero(members).astype(np.int32)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
@@ -9,6 +11,9 @@ from numpy.typing import NDArray
 
 from ....core.geometry.mesh import TriangleMesh
 from ..mesh.attributes import write_floats, write_ints
+
+# Triangle and distance of a ray that hits nothing.
+_MISS = (-1, np.inf)
 
 
 class BvhRayCaster:
@@ -58,13 +63,13 @@ class BvhRayCaster:
             zip(*directions.T.tolist(), strict=True),
             reach.tolist(),
         )
-        hits = np.array(
-            [(triangle, distance) for _, _, triangle, distance in answers],
-            dtype=np.float64,  # a miss is None, which becomes NaN
-        ).reshape(-1, 2)
-        missed = np.isnan(hits[:, 0])
-        triangles = np.where(missed, -1, hits[:, 0]).astype(np.int64)
-        return triangles, np.where(missed, np.inf, hits[:, 1])
+        hits = [
+            _MISS if triangle is None else (triangle, distance)
+            for _, _, triangle, distance in answers
+        ]
+        numbers = np.fromiter(chain.from_iterable(hits), np.float64, 2 * len(hits))
+        triangles, distances = numbers.reshape(-1, 2).T
+        return triangles.astype(np.int64), distances
 
 
 def _tree_of(mesh: TriangleMesh) -> BVHTree:

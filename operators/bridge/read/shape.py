@@ -12,8 +12,6 @@ from ....core.geometry.point_cloud import PointCloud
 from ..mesh.corners import triangles_of
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
-from ..parts.exploding import exploding
-from .carrier import is_waiting
 from .converting import mesh_of
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
@@ -42,38 +40,9 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     flush_edits(obj)
     with mesh_of(obj) as mesh:
         vertices, triangles, polygons = triangles_of(mesh)
-    return TriangleMesh(vertices * factors, triangles, polygons)
-
-
-def reading_notes(obj: bpy.types.Object) -> tuple[str, ...]:
-    """Return sentences to the user about what was read of an object."""
-    if is_waiting(obj):
-        curve = obj.parent.name
-        return (
-            f'Parts are on faces: they are on the new mesh object "{curve} parts",'
-            f" and {curve} is as it was.",
-        )
-    notes = []
-    modifiers = [
-        modifier.name
-        for modifier in obj.modifiers
-        if modifier.show_viewport and modifier != exploding(obj)
-    ]
-    if modifiers:
-        notes.append(
-            "The mesh was read without its modifiers"
-            f" ({', '.join(modifiers)}); apply them first to include them."
-        )
-    keys = getattr(obj.data, "shape_keys", None)  # point clouds have none
-    if keys and any(key.value for key in keys.key_blocks):
-        notes.append("The mesh was read in its Basis shape, without shape keys.")
-    if obj.data.users > 1:  # objects are counted only then: files have thousands
-        sharers = sum(other.data == obj.data for other in bpy.data.objects)
-        if sharers > 1:
-            notes.append(
-                f"{sharers} objects share this mesh: the parts show on all of them."
-            )
-    return tuple(notes)
+    vertices = vertices * factors
+    vertices.flags.writeable = False  # as the others: the shape need not copy it
+    return TriangleMesh(vertices, triangles, polygons)
 
 
 def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:

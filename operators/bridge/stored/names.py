@@ -13,6 +13,8 @@ PART_LAYER = "wcd_part"
 HAND_LAYER = "wcd_hand"
 # Attribute of faces: the material index before ours.
 MATERIAL_LAYER = "wcd_material_index"
+# Attribute of faces whose parts' colors are an overlay: whose parts they are.
+OWNER_LAYER = "wcd_owner"
 # Attribute of faces: the face set before ours, 0 where the mesh had none.
 FACE_SET_LAYER = "wcd_face_set"
 # Attribute of face corners, or of points: the color of the part.
@@ -24,6 +26,7 @@ LAYERS = {
     PART_LAYER: "INT",
     HAND_LAYER: "INT",
     MATERIAL_LAYER: "INT",
+    OWNER_LAYER: "INT",
     FACE_SET_LAYER: "INT",
     COLOR_LAYER: "FLOAT_COLOR",
     NORMAL_LAYER: "FLOAT_VECTOR",
@@ -31,16 +34,27 @@ LAYERS = {
 # Blender's own attribute for the face sets of Sculpt Mode, counted from 1.
 FACE_SETS = ".sculpt_face_set"
 
+# Custom properties of a mesh with colors as an overlay: the materials that its parts
+# had, by number, and the value of `OWNER_LAYER` on its own faces.
+OVERLAY = "wcd_overlay"
+OWNER = "wcd_owner"
+
 # Custom properties of a material of ours: the number and the name of the part.
 MATERIAL_TAG = "wcd_part"
 MATERIAL_NAME = "wcd_name"
 # Custom property of hulls, and of the collections made for them: the figures of a hull.
 HULL_TAG = "wcd_hull"
+# Custom property of hulls: the points of the piece that a primitive is around.
+PIECE_TAG = "wcd_piece"
 # Custom property of objects that we made rigid bodies, and of our collection of bodies.
 RIGID_TAG = "wcd_rigid"
 # Custom property of the node group that makes exploded views.
 EXPLODE_TAG = "wcd_explode"
+# Custom property of the node group that isolates parts.
+ISOLATE_TAG = "wcd_isolate"
 # Custom property of our images: the name of the object that they show.
 IMAGE_TAG = "wcd_picture"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.
 CARRIER_TAG = "wcd_parts_of"
+# Custom property of such an object: how the curve was shown before we hid it.
+HIDDEN_TAG = "wcd_hidden"

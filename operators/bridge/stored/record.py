@@ -16,8 +16,11 @@ from ....core.results import Decomposition, HullDecomposition, Measurement
 from .identity import Identity
 from .names import RESULT
 from .notes import parse_json, read_note, version, write_note
-from .restore import has_parts, read_restore
+from .restore import has_parts, read_restore, sharers
 from .versions import MEASURED_ON, PAST, change_entries
+
+# The meshes of an object that parts can be found on: its own, or as it is seen.
+ORIGINAL, EVALUATED = "ORIGINAL", "EVALUATED"
 
 _MEASURED = "measured"
 _SELECTION = "selection"
@@ -63,6 +66,17 @@ def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
     # Other versions of the extension have other parameters.
     known = {each.name for each in fields(Parameters)}
     return Parameters(**{name: noted[name] for name in known & noted.keys()})
+
+
+def noted_mesh(obj: bpy.types.Object) -> str:
+    """Return which mesh of an object its parts were found on."""
+    return str(record_of(obj).get("mesh", ORIGINAL))
+
+
+def note_mesh(obj: bpy.types.Object, mesh: str) -> None:
+    """Note which mesh of an object its parts were found on."""
+    for sharer in sharers(obj):
+        write_record(sharer, {**record_of(sharer), "mesh": mesh})
 
 
 def check_records(obj: bpy.types.Object) -> bool:

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, fields
 
 import bpy
 
-from .names import MATERIAL_NAME, MATERIAL_TAG, PART_LAYER, RESTORE
+from .names import MATERIAL_NAME, MATERIAL_TAG, OWNER_LAYER, PART_LAYER, RESTORE
 from .notes import not_ours, read_note, write_note
 
 
@@ -49,7 +49,8 @@ def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
     """Return what was noted on a mesh, None if we have not written to it.
 
     Blender drops the note where an object with parts is joined to one without, and
-    where it makes a new mesh. Then the materials of the parts say what is ours.
+    where it makes a new mesh. Then the materials of the parts say what is ours, or the
+    mark on faces whose parts' colors are an overlay.
     """
     noted = read_note(mesh, RESTORE)
     if not noted:
@@ -67,7 +68,7 @@ def _guessed(mesh: bpy.types.Mesh) -> Restore | None:
         return None
     ours = [m for m in mesh.materials if m and isinstance(m.get(MATERIAL_TAG), int)]
     users = [m.name if m else "" for m in mesh.materials if m not in ours]
-    if not ours:
+    if not ours and OWNER_LAYER not in mesh.attributes:
         return None
     return Restore(
         groups=[m[MATERIAL_NAME] for m in ours if MATERIAL_NAME in m],

@@ -18,6 +18,7 @@ _KEPT = 64
 # What a record says of parts.
 _OF_PARTS = (
     "parameters",
+    "mesh",
     "seed",
     "k",
     "psi",

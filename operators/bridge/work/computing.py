@@ -6,11 +6,14 @@ returns the computation as `Steps`, which give the result when they are run.
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import bpy
 import numpy as np
 
 from .... import core
 from ....core.errors import DecompositionError
+from ....core.geometry.shape import Shape
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition, HullDecomposition, Measurement, Picture
@@ -18,18 +21,23 @@ from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
 from ..parts.read import part_identities, part_labels
+from ..parts.rows import hull_shapes
 from ..parts.write import check_writable
-from ..read.shape import read_shape, reading_notes, scene_unit
+from ..read.evaluated import SeenMesh
+from ..read.reading_notes import reading_notes
+from ..read.shape import read_shape, scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
 from .libraries import with_libraries
 from .session_cache import has_seen, session_cache
 
+Notes: TypeAlias = tuple[str, ...]
+
 
 def decompose_object(
-    obj: bpy.types.Object, parameters: Parameters
+    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
 ) -> Steps[Decomposition]:
-    """Return the steps that decompose an object.
+    """Return the steps that decompose an object, or its mesh as it is `seen`.
 
     Raises
     ------
@@ -37,7 +45,7 @@ def decompose_object(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    notes, shape = reading_notes(obj), read_shape(obj)
+    notes, shape = _read(obj, seen)
 
     def work() -> Steps[Decomposition]:
         cache = session_cache()
@@ -46,7 +54,16 @@ def decompose_object(
     return with_libraries(notes, work())
 
 
-def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
+def _read(obj: bpy.types.Object, seen: SeenMesh | None) -> tuple[Notes, Shape]:
+    """Return the shape of an object, or as it is seen, and what to say of that."""
+    if seen is not None:
+        return seen.notes, seen.shape
+    return reading_notes(obj), read_shape(obj)
+
+
+def is_quick(
+    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
+) -> bool:
     """Return whether decomposing an object needs no new lines of sight.
 
     Raises
@@ -55,7 +72,7 @@ def is_quick(obj: bpy.types.Object, parameters: Parameters) -> bool:
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    return parameters.levels == 1 and has_seen(read_shape(obj), parameters)
+    return parameters.levels == 1 and has_seen(_read(obj, seen)[1], parameters)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -146,7 +163,10 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
 
 
 def build_hulls_of(
-    obj: bpy.types.Object, parameters: Parameters, hull_parameters: HullParameters
+    obj: bpy.types.Object,
+    parameters: Parameters,
+    hull_parameters: HullParameters,
+    seen: SeenMesh | None = None,
 ) -> Steps[HullDecomposition]:
     """Return the steps that build hulls around an object or its parts.
 
@@ -159,6 +179,8 @@ def build_hulls_of(
     parameters : Parameters
         Used to decompose the object.
     hull_parameters : HullParameters
+    seen : SeenMesh, optional
+        The mesh as it is seen, to be used in place of the object's own.
 
     Raises
     ------
@@ -169,8 +191,11 @@ def build_hulls_of(
     if reason:
         raise DecompositionError(f"{reason}.")
     check_records(obj)
-    notes, shape, labels = reading_notes(obj), read_shape(obj), part_labels(obj)
+    (notes, shape), labels = _read(obj, seen), part_labels(obj)
+    if seen is not None and labels is not None:
+        labels = labels[seen.origins] if seen.corresponds else None
     unit = scene_unit(obj)
+    kinds = hull_shapes(obj) if labels is not None else {}
 
     def work() -> Steps[HullDecomposition]:
         cache, known, start = session_cache(), labels, 0.0
@@ -179,7 +204,7 @@ def build_hulls_of(
             parts = core.decompose_in_steps(shape, parameters, cache)
             known = (yield from within(parts, 0.0, start)).labels
         steps = core.build_hulls_in_steps(
-            shape, hull_parameters, cache, known, parameters.seed, unit
+            shape, hull_parameters, cache, known, parameters.seed, unit, kinds
         )
         return (yield from within(steps, start, 1.0))
 

@@ -63,6 +63,16 @@ def bring_back_record(obj: bpy.types.Object) -> None:
         write_record(sharer, {**figures.record, PAST: others})
 
 
+def let_undo_see_all(obj: bpy.types.Object) -> None:
+    """Let the undo step of an operator that changes an object in Edit Mode hold it all.
+
+    Such steps hold faces and their layers, and the whole file only if a data-block came
+    or went. Groups, slots and notes come back with the file alone.
+    """
+    if obj.mode == "EDIT":
+        bpy.data.materials.remove(bpy.data.materials.new("undo"))
+
+
 @bpy.app.handlers.persistent
 def _after_undo(*_: object) -> None:
     """Look after the objects in Edit Mode. Blender passes arguments to handlers."""

@@ -23,16 +23,21 @@ from ..parts.continuing import face_areas
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.read import part_labels
 from ..parts.write import check_writable
-from ..read.shape import read_shape, reading_notes
+from ..read.evaluated import SeenMesh
+from ..read.reading_notes import reading_notes
+from ..read.shape import read_shape
 from ..refusals import edit_refusal
 from .computing import decompose_object
 from .libraries import load_libraries
-from .run_edit import Edited
+from .run_edit import Edited, written
 from .session_cache import session_cache
 
 
 def decompose_unlocked(
-    obj: bpy.types.Object, parameters: Parameters, keep_edits: bool = True
+    obj: bpy.types.Object,
+    parameters: Parameters,
+    keep_edits: bool = True,
+    seen: SeenMesh | None = None,
 ) -> Steps[Edited]:
     """Return the steps that decompose an object, except for what the user settled.
 
@@ -43,6 +48,8 @@ def decompose_unlocked(
         Numbers of parts include the parts that stay.
     keep_edits : bool
         Whether what the user settled by hand stays; locked parts always do.
+    seen : SeenMesh, optional
+        The mesh as it is seen, to be used in place of the object's own.
 
     Returns
     -------
@@ -60,11 +67,13 @@ def decompose_unlocked(
         by_hand = parts.by_hand & keep_edits
         held = _held(parts, by_hand)
         if held.any() or by_hand.any():
-            return _decompose_rest(obj, parameters, parts, by_hand, held)
-    steps = decompose_object(obj, parameters)
+            parts = replace(parts, by_hand=by_hand)
+            return _decompose_rest(obj, parameters, parts, held, seen)
+    steps = decompose_object(obj, parameters, seen)
 
     def work() -> Steps[Edited]:
-        return Edited((yield from steps), None, parameters)
+        found = yield from steps
+        return Edited(written(found, seen), None, parameters, seen=seen)
 
     return work()
 
@@ -80,14 +89,19 @@ def _decompose_rest(
     obj: bpy.types.Object,
     parameters: Parameters,
     parts: PresentParts,
-    by_hand: NDArray[np.bool_],
     held: NDArray[np.bool_],
+    seen: SeenMesh | None,
 ) -> Steps[Edited]:
     """Return the steps that decompose the other faces, from their own samples."""
-    members = ~held[parts.labels]
     rest = _parameters_of_rest(parameters, parts, held)
-    notes, shape = reading_notes(obj), read_shape(obj)
-    areas = face_areas(obj, len(members))
+    before, by_hand = parts.labels, parts.by_hand
+    if seen is None:
+        notes, shape = reading_notes(obj), read_shape(obj)
+        areas = face_areas(obj, len(before))
+    else:
+        notes, shape, areas = seen.notes, seen.shape, seen.areas
+        before, by_hand = before[seen.origins], by_hand[seen.origins]
+    members = ~held[before]
 
     def work() -> Steps[Edited]:
         yield from load_libraries()
@@ -95,9 +109,9 @@ def _decompose_rest(
         some = members if held.any() else None
         running = core.decompose_in_steps(shape, rest, cache, some)
         run = yield from within(running, 0.0, 0.6)
-        after = parts.labels.copy()
+        after = before.copy()
         after[members] = len(held) + run.labels
-        labels = core.settled(parts.labels, after, areas, by_hand | ~members)
+        labels = core.settled(before, after, areas, by_hand | ~members)
         prepared = yield from within(cache.prepare(shape), 0.6, 0.7)
         memo = yield from within(cache.see(prepared, parameters), 0.7, 0.9)
         searched = parts if held.any() else run
@@ -108,7 +122,7 @@ def _decompose_rest(
         pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
         said = (*notes, *found.notes)
         found = replace(found, ranks=ranks, pairs=pairs, notes=said)
-        return Edited(found, None, parameters, by_hand)
+        return Edited(written(found, seen), None, parameters, parts.by_hand, seen)
 
     return work()
 

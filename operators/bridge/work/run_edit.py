@@ -18,8 +18,12 @@ from ....core.steps.progress import Steps, within
 from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
-from ..read.shape import read_shape, reading_notes
+from ..read.evaluated import SeenMesh
+from ..read.reading_notes import reading_notes
+from ..read.shape import read_shape
 from ..stored.identity import Identity
+from ..stored.record import EVALUATED, ORIGINAL, note_mesh
+from .in_step import let_undo_see_all
 from .libraries import load_libraries
 from .session_cache import session_cache
 
@@ -42,12 +46,15 @@ class Edited:
         Recorded on the object with the parts.
     by_hand : (P,) bool or None
         Faces that the user settled by hand.
+    seen : SeenMesh or None
+        The mesh as it is seen, if the parts were found on that.
     """
 
     decomposition: Decomposition
     identities: tuple[Identity, ...] | None
     parameters: Parameters
     by_hand: NDArray[np.bool_] | None = None
+    seen: SeenMesh | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -65,6 +72,13 @@ class Edited:
         write_parts(
             obj, self.decomposition, self.parameters, self.identities, self.by_hand
         )
+        note_mesh(obj, EVALUATED if self.seen else ORIGINAL)
+        let_undo_see_all(obj)
+
+
+def written(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
+    """Return parts of a mesh as it is seen as parts of the faces that get them."""
+    return found if seen is None else seen.on_own_faces(found)
 
 
 def edit_object(

@@ -8,9 +8,10 @@ from contextlib import contextmanager
 import bpy
 
 from ...bridge.parts.erase import erase_parts
-from ...bridge.parts.exploding import implode
 from ...bridge.parts.materials import discard_unused
+from ...bridge.read.shown_mesh import new_mesh_of, shown_modifiers
 from ...bridge.stored.restore import has_parts
+from ...bridge.views.node_modifiers import remove_views
 
 # A view layer and what Blender evaluates for it.
 Layer = tuple[bpy.types.ViewLayer, bpy.types.Depsgraph]
@@ -27,16 +28,9 @@ class EvaluatedMeshes:
     ) -> bpy.types.Mesh:
         """Return a mesh of the file that equals that of an evaluated object.
 
-        Parameters
-        ----------
-        evaluated : Object
-            An evaluated object, or the object of an instance.
-        depsgraph : Depsgraph, optional
-            With it, layers that Blender does not need to draw are kept, too. It must
-            not be given for the object of an instance.
+        For the parameters, see `new_mesh_of`.
         """
-        layers = {"preserve_all_data_layers": True, "depsgraph": depsgraph}
-        mesh = bpy.data.meshes.new_from_object(evaluated, **layers if depsgraph else {})
+        mesh = new_mesh_of(evaluated, depsgraph)
         kind = (evaluated.data.name, len(mesh.polygons))
         alike = self._known.setdefault(kind, [])
         for known in alike:
@@ -105,9 +99,9 @@ def apply_modifiers(objects: Iterable[bpy.types.Object]) -> dict[str, str]:
     """
     chosen = []
     for obj in objects:
-        implode(obj)
+        remove_views(obj)
         keys = getattr(obj.data, "shape_keys", None)
-        if obj.type == "MESH" and (keys or _shown_modifiers(obj)):
+        if obj.type == "MESH" and (keys or shown_modifiers(obj)):
             if has_parts(obj):
                 discard_unused(erase_parts(obj))
             chosen.append(obj)
@@ -124,7 +118,7 @@ def apply_modifiers(objects: Iterable[bpy.types.Object]) -> dict[str, str]:
 
 def give_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> str:
     """Give an object its evaluated mesh and remove its modifiers; return a note."""
-    former, has_modifiers = obj.data, bool(_shown_modifiers(obj))
+    former, has_modifiers = obj.data, bool(shown_modifiers(obj))
     applied = ["modifiers"] if has_modifiers else []
     applied += ["shape keys"] if former.shape_keys else []
     n_before, n_after = len(former.polygons), len(mesh.polygons)
@@ -140,8 +134,3 @@ def give_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> str:
     if n_after == 0:
         outcome = f"{n_before:,} faces became none"
     return f"Its {' and '.join(applied)} were applied: {outcome}."
-
-
-def _shown_modifiers(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
-    """Return the modifiers of an object that have an effect in the viewport."""
-    return [modifier for modifier in obj.modifiers if modifier.show_viewport]

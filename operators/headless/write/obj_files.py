@@ -6,7 +6,7 @@ turns "A b" and "A_b" into one name.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,7 +16,6 @@ import numpy as np
 from .names import legal_names
 from .placed_meshes import (
     FloatArray,
-    TriangleArray,
     matrix_of,
     placed,
     turned_up,
@@ -29,22 +28,23 @@ _ROUNDING = 2e-6
 
 def write_obj(
     path: Path,
-    meshes: Sequence[tuple[str, FloatArray, TriangleArray]],
+    meshes: Sequence[tuple[str, FloatArray, Iterable[Sequence[int]]]],
 ) -> None:
     """Write meshes, each an object of its own.
 
     Parameters
     ----------
     path : Path
-    meshes : sequence of (str, (V, 3) float, (T, 3) int)
-        Name, vertices and triangles; names are made legal and distinct.
+    meshes : sequence of (str, (V, 3) float, faces)
+        Name, vertices and the vertices of each face, from 0; names are made legal and
+        distinct.
     """
     lines, first = [], 1
     names = legal_names([name for name, _, _ in meshes], "obj")
-    for name, (_, vertices, triangles) in zip(names, meshes, strict=True):
+    for name, (_, vertices, faces) in zip(names, meshes, strict=True):
         lines.append(f"o {name}")
         lines += [f"v {written(vertex)}" for vertex in vertices]
-        lines += [f"f {a} {b} {c}" for a, b, c in (triangles + first).tolist()]
+        lines += ["f " + " ".join(str(v + first) for v in face) for face in faces]
         first += len(vertices)
     path.write_text("\n".join([*lines, ""]), encoding="utf-8", newline="\n")
 
@@ -53,8 +53,11 @@ def write_hulls_obj(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> N
     """Write hulls in world space, each an object, with `up` ('Y' or 'Z') up."""
     meshes = []
     for hull in hulls:
-        vertices, triangles, _ = placed(hull, matrix_of(hull))
-        meshes.append((hull.name, turned_up(vertices, up), triangles))
+        matrix = matrix_of(hull)
+        vertices, _, _ = placed(hull, matrix)
+        turn = -1 if np.linalg.det(matrix[:3, :3]) < 0 else 1
+        faces = [list(face.vertices)[::turn] for face in hull.data.polygons]
+        meshes.append((hull.name, turned_up(vertices, up), faces))
     write_obj(path, meshes)
 
 

@@ -25,9 +25,9 @@ from ...bridge.mesh.attributes import (
 )
 from ...bridge.mesh.corners import corner_faces, corner_vertices
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
-from ...bridge.parts.face_sets_and_colors import point_colors
 from ...bridge.parts.palette import UNPAINTED
 from ...bridge.stored.names import PART_LAYER
+from ...bridge.views.face_sets_and_colors import point_colors
 from ..current_file import mesh_objects
 
 # Name of the property that holds part numbers in the file.

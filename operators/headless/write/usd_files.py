@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...bridge.mesh.attributes import read_floats, read_ints
 from ...bridge.mesh.corners import corner_vertices
 from ...bridge.mesh.points import is_cloud, positions_of
-from ...bridge.parts.face_sets_and_colors import point_colors
+from ...bridge.views.face_sets_and_colors import point_colors
 from .names import legal_names
 from .placed_meshes import matrix_of, written
 

@@ -17,24 +17,27 @@ from convexity_check import heights_above_shape
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from scipy.spatial import cKDTree
+from weak_convex_decomposition.core.hulls.measure.inside import AXES
 from weak_convex_decomposition.core.hulls.outline import outline_of
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 from weak_convex_decomposition.operators.headless.read.load import load
 
 SHAPES = ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE")
 ENDINGS = {".obj", ".off", ".ply", ".stl"}
-ON_SHAPE, ON_MESH, IN_BOX = 20_000, 200_000, 20_000
+ON_SHAPE, ON_MESH, IN_BOX, INSIDE_TESTS = 20_000, 200_000, 20_000, 10_000
 # Errors below this, relative to half of the longest side, are rounding.
 LEAST = 0.002
-RAYS = [
-    Vector(ray).normalized()
-    for ray in ((0.31, 0.17, 1), (1, 0.23, -0.41), (-0.37, 1, 0.19))
-]
+# The lines that say what is inside: in an open mesh, others say otherwise.
+LINES = [Vector(axis) for axis in AXES]
 
 
 def mesh_files(folder):
-    """Return the meshes below a folder; of the Princeton benchmark, model 3 of each."""
-    files = sorted(p for p in Path(folder).rglob("*") if p.suffix in ENDINGS)
+    """Return the meshes below a folder, small ones first.
+
+    Of the Princeton benchmark, model 3 of each category is taken.
+    """
+    files = [p for p in Path(folder).rglob("*") if p.suffix in ENDINGS]
+    files.sort(key=lambda p: (p.stat().st_size, p))
     return [p for p in files if not p.stem.isdigit() or int(p.stem) % 20 == 3]
 
 
@@ -60,19 +63,25 @@ class Ruler:
         self.points, self.rows = spread(self.corners, ON_MESH, 1)
 
     def is_inside(self, point):
-        """Return whether most rays leave more surfaces than they enter."""
+        """Return whether most lines have entered more surfaces than they have left.
+
+        Counted from both ends of the line: where a mesh is open, they may differ.
+        """
         votes = 0
-        for ray in RAYS:
-            for way in (ray, -ray):
-                place, count = Vector(point), 0
-                while True:
-                    hit, normal, _, _ = self.tree.ray_cast(place, way)
-                    if hit is None:
-                        break
-                    count += 1 if normal.dot(way) > 0 else -1
-                    place = hit + 1e-5 * way
-                votes += count > 0
-        return votes > len(RAYS)
+        for line in LINES:
+            deep = [self.surfaces_left(point, way) > 0 for way in (line, -line)]
+            votes += all(deep)
+        return 2 * votes > len(LINES)
+
+    def surfaces_left(self, point, way):
+        """Return how many more surfaces a ray leaves than it enters."""
+        place, count = Vector(point), 0
+        while True:
+            hit, normal, _, _ = self.tree.ray_cast(place, way)
+            if hit is None:
+                return count
+            count += 1 if normal.dot(way) > 0 else -1
+            place = hit + 1e-5 * way
 
     def error(self, shape):
         """Return the error of a shape: both distances, and the volume term."""
@@ -92,18 +101,18 @@ class Ruler:
             if away[row] < LEAST or not self.is_inside(places[row]):
                 far = away[row]
                 break
-        return max(far, -heights.min(), self.volume_term(shape, outline))
+        error = max(far, -heights.min(), LEAST)
+        if volume_term(shape.volume) <= error:  # that of what is outside is less
+            return error
+        return max(error, volume_term(self.volume_outside(shape, outline)))
 
-    def volume_term(self, shape, outline):
-        """Return R_v of CoACD for the volume of the shape outside the mesh."""
+    def volume_outside(self, shape, outline):
+        """Return the volume of the shape outside the mesh."""
         low, high = outline.vertices.min(axis=0), outline.vertices.max(axis=0)
         points = low + (high - low) * np.random.default_rng(3).random((IN_BOX, 3))
         points = points[heights_above_shape(shape, points) <= 0]
-        if 0.3 * np.cbrt(3 * shape.volume / 4 / np.pi) < LEAST or len(points) == 0:
-            return 0.0
-        some = points[:10_000]
-        outside = np.mean([not self.is_inside(point) for point in some])
-        return 0.3 * np.cbrt(3 * outside * shape.volume / 4 / np.pi)
+        some = points[:INSIDE_TESTS]
+        return shape.volume * np.mean([not self.is_inside(point) for point in some])
 
     def uncovered(self, shapes):
         """Return the largest distance of the mesh from all shapes, where it is bare."""
@@ -115,6 +124,11 @@ class Ruler:
         return max(
             (min(t.find_nearest(p)[3] for t in trees) for p in bare), default=0.0
         )
+
+
+def volume_term(volume):
+    """Return R_v of CoACD for a volume."""
+    return 0.3 * np.cbrt(3 * volume / 4 / np.pi)
 
 
 def tree_of(corners):

@@ -5,7 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from hand_made import activate, face_values
+from hand_made import activate, face_values, in_mode
 from hands import check_fingers, hand_curve
 from mathutils import Matrix
 from weak_convex_decomposition.operators.bridge.read.converting import converted
@@ -42,7 +42,39 @@ def test_the_outline_of_a_hand_has_a_palm_and_five_fingers():
     bpy.context.view_layer.update()
     assert carrier.matrix_world == hand.matrix_world
     check_fingers(carrier, face_values(carrier.data, "wcd_part"))
-    assert "Hand is as it was" in json.loads(carrier["wcd"])["notes"][0]
+    assert "Hand is hidden" in json.loads(carrier["wcd"])["notes"][0]
+
+
+@pytest.mark.parametrize("in_renders", [True, False])
+def test_the_curve_is_hidden_until_clear(in_renders):
+    hand = hand_curve()
+    hand.hide_render = not in_renders
+    before = blocks()
+    for _ in range(2):
+        activate(hand)
+        bpy.ops.wcd.decompose(**FAST)
+        assert (hand.hide_get(), hand.hide_render) == (True, True)
+        hand.hide_set(False)
+    carrier = bpy.context.active_object
+    in_mode(carrier, "EDIT")
+    assert not bpy.ops.wcd.clear.poll()
+    in_mode(carrier, "OBJECT")
+    hand.hide_set(True)
+    bpy.ops.wcd.clear()
+    assert blocks() == before
+    assert (hand.hide_get(), hand.hide_render) == (False, not in_renders)
+    assert (bpy.context.active_object, hand.select_get()) == (hand, True)
+
+
+def test_a_mesh_that_carries_other_objects_stays():
+    hand = hand_curve()
+    bpy.ops.wcd.decompose(**FAST)
+    carrier = bpy.context.active_object
+    child = bpy.data.objects.new("ring", None)
+    child.parent = carrier
+    bpy.ops.wcd.clear()
+    assert child.parent == carrier
+    assert not hand.hide_get()
 
 
 def test_running_again_replaces_the_mesh():

@@ -3,9 +3,11 @@ import numpy as np
 import pytest
 from hand_made import activate, mesh_object
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.read.reading_notes import (
+    reading_notes,
+)
 from weak_convex_decomposition.operators.bridge.read.shape import (
     read_shape,
-    reading_notes,
 )
 
 HEXAGON = [(np.cos(a), np.sin(a), 0.0) for a in np.linspace(0, 2 * np.pi, 7)[:-1]]

@@ -142,8 +142,6 @@ def test_what_cannot_be_done_is_said_in_a_sentence(monkey):
         bpy.ops.wcd.merge_parts()
     with say(poll, match="Faces are selected in Edit Mode"):
         bpy.ops.wcd.assign_faces()
-    with say(poll, match="hidden in Edit Mode"):
-        bpy.ops.wcd.isolate_parts()
     in_mode(monkey, "EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
     with say(poll, match="No face is selected"):

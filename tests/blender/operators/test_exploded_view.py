@@ -12,7 +12,7 @@ from hand_made import (
     in_mode,
 )
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.exploding import (
+from weak_convex_decomposition.operators.bridge.views.exploding import (
     exploding,
     slider,
 )

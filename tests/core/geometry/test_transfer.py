@@ -5,6 +5,7 @@ import shapes
 from computed import graph_of
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
 from weak_convex_decomposition.core.geometry.transfer import carry as transfer_in_steps
+from weak_convex_decomposition.core.geometry.transfer import labels_by_area
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -85,3 +86,13 @@ def test_a_shell_without_samples_hangs_on_the_nearest_one():
     assert n_connected(transfer.graph) == 2
     one, other = transfer.graph.links.T
     assert ((one >= 6) & (one < 12) & (other >= 12)).any()
+
+
+def test_a_face_gets_the_label_that_covers_most_of_it():
+    labels = np.array([2, 0, 2, 1, 3, 1])
+    origins = np.array([5, 5, 5, 0, 0, 7])
+    areas = np.array([1.0, 1.5, 1.0, 2.0, 2.0 + 1e-6, 0.0])
+    faces, found, counts = labels_by_area(labels, origins, areas)
+    assert faces.tolist() == [0, 5, 7]
+    assert found.tolist() == [1, 2, 1]  # of equal areas the lowest label
+    assert counts.tolist() == [2, 2, 1]

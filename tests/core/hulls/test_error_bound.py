@@ -8,6 +8,7 @@ from computed import build_hulls
 from convexity_check import heights_above_shape
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
+from weak_convex_decomposition.core.hulls.measure.inside import InsideTest
 from weak_convex_decomposition.core.hulls.outline import fine_outline
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
@@ -96,12 +97,13 @@ def test_relative_errors_above_1_make_no_sense():
     assert HullParameters(max_error=2.0, error_unit="SCENE").max_error == 2
 
 
-def dense_error(shape, mesh):
+def dense_error(shape, mesh, is_inside=None):
     """Return the larger of both distances, of 5,000 points on either surface."""
     rng = np.random.default_rng(0)
     corners = mesh.vertices[mesh.triangles]
     places = on_triangles(fine_outline(shape)[0], rng)
-    outside = places[windings(corners, places) < 0.5]
+    inside = is_inside(places) if is_inside else windings(corners, places) > 0.5
+    outside = places[~inside]
     away = np.full(len(outside), np.inf)
     for triangle in corners:
         tiled = np.tile(triangle, (len(outside), 1, 1))
@@ -139,3 +141,12 @@ def test_no_measurement_is_above_the_stated_error(make, kind):
     half = np.ptp(mesh.bounds, axis=0).max() / 2
     for shape, stated in zip(found.shapes, found.errors, strict=True):
         assert dense_error(shape, mesh) / half <= 1.05 * stated
+
+
+def test_holes_do_not_hide_what_is_outside():
+    mesh = changes.moved(shapes.open_box(), rotation=changes.any_rotation(0))
+    found = build_hulls(mesh, HullParameters(max_hulls=4))
+    is_inside = InsideTest(mesh.vertices[mesh.triangles], 3).holds
+    half = np.ptp(mesh.bounds, axis=0).max() / 2
+    for shape, stated in zip(found.shapes, found.errors, strict=True):
+        assert dense_error(shape, mesh, is_inside) / half <= 1.05 * stated

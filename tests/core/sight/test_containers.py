@@ -4,7 +4,8 @@ import pytest
 import shapes
 from computed import decompose, marcher_of, measure
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.sight.containers import find_enclosed, see_through
+from weak_convex_decomposition.core.sight.containers import see_through
+from weak_convex_decomposition.core.sight.enclosed import find_enclosed
 from weak_convex_decomposition.core.steps.progress import run
 
 

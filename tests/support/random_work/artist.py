@@ -6,13 +6,14 @@ import numpy as np
 from hand_made import in_mode
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
-from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
 from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
 
-from .checks import attempt, bodies, bone, check_body, only
+from .checks import attempt, bodies, bone, check_body, check_cleared, only
 
 FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
 NUMBERS = st.integers(0, 5)
+PARTS = st.sampled_from([0, 2, 3, 4, 6])
+COLORED = st.sampled_from(["MATERIALS", "OVERLAY"])
 NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
 COLORS = st.tuples(*[st.sampled_from([0.1, 0.4, 0.8])] * 3)
 KINDS = st.sampled_from(["ARRAY", "MIRROR", "SUBSURF", "TRIANGULATE"])
@@ -28,6 +29,8 @@ OPERATORS = (
     "implode",
     "clear",
     "separate",
+    "isolate_parts",
+    "show_colors",
 )
 
 
@@ -68,17 +71,18 @@ class RestlessArtist(RuleBasedStateMachine):
         """End a step, to be undone."""
         bpy.ops.ed.undo_push(message="step")
 
-    @rule(n=NUMBERS, parts=st.sampled_from([0, 2, 3, 4, 6]), keep=st.booleans())
-    def decompose(self, n, parts, keep):
+    @rule(n=NUMBERS, parts=PARTS, keep=st.booleans(), colors=COLORED)
+    def decompose(self, n, parts, keep, colors):
         self.remember(self.body(n))
-        attempt(bpy.ops.wcd.decompose, **FAST, parts=parts, keep_edits=keep)
+        options = {"parts": parts, "keep_edits": keep, "colors": colors}
+        attempt(bpy.ops.wcd.decompose, **FAST, **options)
         self.done()
 
     @rule(n=NUMBERS, name=st.sampled_from(OPERATORS))
     def operate(self, n, name):
         self.remember(self.body(n))
         attempt(getattr(bpy.ops.wcd, name))
-        if name == "clear":  # its undo in Edit Mode brings back layers without a note
+        if name == "clear":  # its undo in Edit Mode brings back all of the file
             self.kept = []
         bpy.context.view_layer.update()
         self.done()
@@ -243,7 +247,4 @@ class RestlessArtist(RuleBasedStateMachine):
             if bpy.ops.wcd.clear.poll():
                 bpy.ops.wcd.clear()
         for obj in bodies():
-            assert not [a.name for a in obj.data.attributes if "wcd" in a.name]
-            assert not any(map(is_ours, obj.data.materials)) or obj.name.count("Part")
-            assert "wcd" not in obj
-            assert "wcd_restore" not in obj.data
+            check_cleared(obj)

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 from edited import check_in_step
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
+from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
 
 
 def bone(x=0.0):
@@ -67,3 +68,11 @@ def check_body(obj):
         assert np.allclose(rows[identity.number].color, identity.color)
     if not obj.data.is_editmode and "past" not in figures.record:
         check_in_step(obj)
+
+
+def check_cleared(obj):
+    """Check that nothing of ours is left on an object."""
+    assert not [a.name for a in obj.data.attributes if "wcd" in a.name]
+    assert not any(map(is_ours, obj.data.materials)) or obj.name.count("Part")
+    assert "wcd" not in obj
+    assert not [key for key in obj.data.keys() if "wcd" in key]  # noqa: SIM118

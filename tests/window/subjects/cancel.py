@@ -45,7 +45,15 @@ def steps(hands):
     assert leftovers() == []
 
     yield from start(hands)
+    area = hands.area
+    yield from hands.move(area.x + area.width // 3, area.y + area.height // 2)
     bpy.data.objects.remove(bpy.context.active_object)
     bpy.context.scene.wcd.samples = 100
     yield lambda: running.current is None
     assert leftovers() == []
+    yield 0.5
+    assert area.spaces.active.show_region_ui
+    hands.picture("deleted")
+    yield from hands.press("n")  # the error opens no popup, which would take the key
+    yield 0.5
+    assert not area.spaces.active.show_region_ui

@@ -1,5 +1,6 @@
 """Edit Mode is entered while parts are computed; each step is undone by itself."""
 
+import bmesh
 import bpy
 from leftovers import leftovers
 from snapshot import snapshot
@@ -8,6 +9,24 @@ from weak_convex_decomposition.operators.running import modal as running
 
 def mode():
     return bpy.context.active_object.mode
+
+
+def state():
+    """Return what there is of the active object in Edit Mode, which is not left."""
+    obj = bpy.context.active_object
+    bm = bmesh.from_edit_mesh(obj.data)
+    weights = bm.verts.layers.deform.active
+    return {
+        "groups": obj.vertex_groups.keys(),
+        "slots": obj.data.materials.keys(),
+        "notes": (obj.get("wcd"), obj.data.get("wcd_restore")),
+        "rows": [(row.name, tuple(row.color)) for row in obj.wcd_parts],
+        "faces": [
+            (face.material_index, *(face[i] for i in bm.faces.layers.int.values()))
+            for face in bm.faces
+        ],
+        "weights": [vertex[weights].items() for vertex in bm.verts if weights],
+    }
 
 
 def steps(hands):
@@ -33,3 +52,32 @@ def steps(hands):
     yield from hands.undo()
     yield lambda: mode() == "OBJECT"
     assert snapshot(bpy.context.active_object) == before
+    yield from clear_and_undo(hands)
+
+
+def clear_and_undo(hands):
+    """Clear in Edit Mode; undo brings back groups, slots and notes with the faces."""
+    yield from hands.parted_suzanne(1, samples=300)
+    area = hands.area
+    yield from hands.move(area.x + area.width // 4, area.y + area.height // 2)
+    with hands.context():  # the copy shares materials, so Clear removes none of them
+        bpy.ops.object.duplicate("INVOKE_DEFAULT", True)
+    yield from hands.press("Tab")
+    yield lambda: bpy.context.active_object.mode == "EDIT"
+    states = [state()]
+    with hands.context():
+        bpy.ops.wcd.clear("INVOKE_DEFAULT", True)
+    yield 0.5
+    states.append(state())
+    assert not bpy.context.active_object.vertex_groups
+    for key, expected in (("ctrl+z", 0), ("ctrl+shift+z", 1), ("ctrl+z", 0)):
+        yield from hands.press(key)
+        yield 0.5
+        found = state()
+        for kind, value in states[expected].items():
+            assert found[kind] == value, (key, kind)
+    hands.picture("back")
+    with hands.context():
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.wcd.decompose("EXEC_DEFAULT", samples=300)
+    assert leftovers() == []

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 from leftovers import leftovers
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.exploding import (
+from weak_convex_decomposition.operators.bridge.views.exploding import (
     exploding,
     slider,
 )

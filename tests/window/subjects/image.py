@@ -1,4 +1,7 @@
-"""The matrix of lines of sight in the Image Editor, all of it; undo takes it away."""
+"""The matrix of lines of sight in an Image Editor that opens for it, all of it.
+
+Undo takes the image away. Another picture uses the editor that is there.
+"""
 
 import bpy
 import numpy as np
@@ -6,18 +9,21 @@ from leftovers import leftovers
 from weak_convex_decomposition.operators.running import modal as running
 
 
+def editors(hands):
+    return [a for a in hands.window.screen.areas if a.type == "IMAGE_EDITOR"]
+
+
 def steps(hands):
-    editor = max(
-        (area for area in hands.window.screen.areas if area.type != "VIEW_3D"),
-        key=lambda area: area.width * area.height,
-    )
-    editor.type = "IMAGE_EDITOR"
     yield from hands.open_sidebar()
     yield from hands.parted_suzanne(1, samples=300)
     with hands.context():
         bpy.ops.wcd.show_picture("INVOKE_DEFAULT", picture="SIGHT")
-    yield lambda: running.current is None and editor.spaces.active.image
+    yield lambda: running.current is None and editors(hands)
     yield 0.5
+    (editor,) = editors(hands)
+    view = hands.area
+    assert view.y == editor.y
+    assert abs(view.width - editor.width) < 0.1 * view.width
     space = editor.spaces.active
     image = space.image.name
     region = next(each for each in editor.regions if each.type == "WINDOW")
@@ -28,3 +34,7 @@ def steps(hands):
     assert leftovers() == []
     yield from hands.undo()
     yield lambda: image not in bpy.data.images
+    with hands.context():
+        bpy.ops.wcd.show_picture("INVOKE_DEFAULT", picture="SCATTER")
+    yield lambda: running.current is None and editors(hands)[0].spaces.active.image
+    assert len(editors(hands)) == 1

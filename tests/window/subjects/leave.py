@@ -3,8 +3,8 @@
 import bpy
 import weak_convex_decomposition as package
 from leftovers import handlers, leftovers, remembered
-from weak_convex_decomposition.operators import sight_overlay
 from weak_convex_decomposition.operators.running import modal as running
+from weak_convex_decomposition.operators.viewport import sight_overlay
 
 
 def steps(hands):

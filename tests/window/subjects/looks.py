@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import bpy
+from leftovers import leftovers
 
 THEMES = {"dark": "Blender_Dark", "light": "Blender_Light"}
 SCALES = (1.0, 1.5)
@@ -18,6 +19,26 @@ def use_theme(name):
             return
     # The dark theme is what Blender starts with, and has no file.
     bpy.ops.preferences.reset_default_theme()
+
+
+def picked(hands, name):
+    """Take a picture of a part under the cursor, with the menu around it."""
+    with hands.context():
+        bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")
+    region = hands.region("WINDOW")
+    for _ in range(2):
+        yield from hands.move(
+            region.x + int(0.45 * region.width), region.y + region.height // 2
+        )
+        yield 0.3
+    hands.picture(name, hands.area)
+    yield from hands.press("w")
+    yield 0.5
+    hands.picture(f"{name}-menu", hands.area)
+    for _ in range(2):
+        yield from hands.press("Escape")
+        yield 0.3
+    assert leftovers() == []
 
 
 def steps(hands):
@@ -41,3 +62,4 @@ def steps(hands):
             yield 0.5
             yield from hands.open_sidebar()
             hands.picture(f"{theme}-{scale}", hands.area)
+            yield from picked(hands, f"picked-{theme}-{scale}")

@@ -12,13 +12,13 @@ from mathutils import Color
 
 from .....core.parameters.bodies import BodyParameters
 from .....core.solids.mass_properties import MassProperties
+from ....bridge.hulls.placed import Solid, solid_of
 from ....bridge.mesh.attributes import read_ints
 from ....bridge.parts.palette import UNPAINTED
 from ..names import legal_names
 from ..obj_files import write_obj
 from ..placed_meshes import FloatArray, TriangleArray, matrix_of, placed
 from .masses import mass_notes, mass_of_objects
-from .solids import Solid, solid_of
 
 # Names that simulators use themselves.
 _TAKEN = ("world",)
@@ -114,7 +114,8 @@ def write_meshes(folder: Path, bodies: Sequence[Body]) -> None:
     for body in bodies:
         for geometry in (*body.collisions, *body.visuals):
             if geometry.solid is None:
-                mesh = (geometry.name, geometry.vertices, geometry.triangles)
+                faces = geometry.triangles.tolist()
+                mesh = (geometry.name, geometry.vertices, faces)
                 write_obj(folder / geometry.file, [mesh])
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ....bridge.hulls.placed import Solid, quaternion_of
 from ..placed_meshes import written
 from .bodies import Body, Geometry
-from .solids import Solid, quaternion_of
 from .urdf import write_xml
 
 # The groups that MuJoCo's viewer shows and hides: 2 is shown at first, 3 is not.

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ....bridge.hulls.placed import Solid, angles_of
 from ..placed_meshes import FloatArray, written
 from .bodies import Body, Geometry
-from .solids import Solid, angles_of
 
 # Simulators take a link of this name for the ground, which does not move.
 _GROUND = "world"

@@ -22,7 +22,8 @@ def polyhedron(obj):
     vertices = np.empty(len(mesh.vertices) * 3, dtype=np.float32)
     mesh.vertices.foreach_get("co", vertices)
     vertices = vertices.reshape(-1, 3).astype(float)
-    triangles = np.array([list(face.vertices) for face in mesh.polygons])
+    mesh.calc_loop_triangles()
+    triangles = np.array([list(each.vertices) for each in mesh.loop_triangles])
     a, b, c = np.moveaxis(vertices[triangles], 1, 0)
     volume = np.einsum("fd,fd->f", a, np.cross(b, c)).sum() / 6
     return Hull(vertices, triangles, np.zeros((0, 4)), volume)

@@ -6,8 +6,8 @@ from typing import Any
 
 import bpy
 
-from ....core.errors import DecompositionError
 from ..stored.names import EXPLODE_TAG, PART_LAYER
+from .node_modifiers import Nodes, new_node_group, remove_modifier, tagged_modifier
 
 _NAME = "Exploded View"
 # Largest distance of the slider; at 1, parts are twice as far from the center.
@@ -16,10 +16,7 @@ _FARTHEST = 3.0
 
 def exploding(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """Return the modifier that moves an object's parts apart, None without one."""
-    for modifier in obj.modifiers:
-        if modifier.type == "NODES" and EXPLODE_TAG in (modifier.node_group or ()):
-            return modifier
-    return None
+    return tagged_modifier(obj, EXPLODE_TAG)
 
 
 def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
@@ -51,18 +48,7 @@ def explode(obj: bpy.types.Object, distance: float) -> None:
 
 def implode(obj: bpy.types.Object) -> None:
     """Remove an exploded view, and its node group if nothing else uses it."""
-    modifier = exploding(obj)
-    if modifier is None:
-        return
-    if obj.mode != "OBJECT":
-        raise DecompositionError(
-            "The exploded view is a modifier, which Edit Mode cannot bring back on"
-            " undo; switch to Object Mode first."
-        )
-    group = modifier.node_group
-    obj.modifiers.remove(modifier)
-    if group.users == 0 and group.library is None:
-        bpy.data.node_groups.remove(group)
+    remove_modifier(obj, EXPLODE_TAG)
 
 
 def _node_group() -> bpy.types.GeometryNodeTree:
@@ -70,13 +56,7 @@ def _node_group() -> bpy.types.GeometryNodeTree:
     for group in bpy.data.node_groups:
         if EXPLODE_TAG in group and group.library is None:
             return group
-    group = bpy.data.node_groups.new(_NAME, "GeometryNodeTree")
-    group[EXPLODE_TAG] = True
-    group.is_modifier = True
-    for in_out in ("INPUT", "OUTPUT"):
-        group.interface.new_socket(
-            "Geometry", in_out=in_out, socket_type="NodeSocketGeometry"
-        )
+    group = new_node_group(_NAME, EXPLODE_TAG)
     distance = group.interface.new_socket(
         "Distance", in_out="INPUT", socket_type="NodeSocketFloat"
     )
@@ -93,7 +73,7 @@ def _wire(group: bpy.types.GeometryNodeTree) -> None:
     Every face of a part has the same offset. A point gets the mean offset of its faces,
     which is that of its part, because after the split no two parts share a point.
     """
-    nodes = _Nodes(group)
+    nodes = _MoveNodes(group)
     given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 6)
     part = nodes.add("GeometryNodeInputNamedAttribute", 0, data_type="INT")
     part.inputs["Name"].default_value = PART_LAYER
@@ -117,22 +97,8 @@ def _wire(group: bpy.types.GeometryNodeTree) -> None:
     link(on_face.outputs[0], move.inputs["Offset"])
 
 
-class _Nodes:
-    """Adds nodes to a group, in columns from left to right."""
-
-    def __init__(self, group: bpy.types.GeometryNodeTree) -> None:
-        self._group = group
-        self._heights: dict[int, float] = {}
-
-    def add(self, kind: str, column: int, **settings: str) -> bpy.types.Node:
-        """Return a new node."""
-        node = self._group.nodes.new(kind)
-        for name, value in settings.items():
-            setattr(node, name, value)
-        height = self._heights.get(column, 0.0)
-        node.location = 220.0 * column, -height
-        self._heights[column] = height + 220.0
-        return node
+class _MoveNodes(Nodes):
+    """Adds the nodes that find centers."""
 
     def center(self, group_id: Any) -> bpy.types.NodeSocket:
         """Return the center, by area, of the faces of each group, or of all."""

@@ -8,7 +8,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from leftovers import leftovers
 from mathutils import Vector
 from snapshot import snapshot
-from weak_convex_decomposition.operators import sight_overlay
+from weak_convex_decomposition.operators.viewport import sight_overlay
 
 # How far from the click the picked point may be drawn, in points.
 _NEAR = 2

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.results import View
+from ...core.results import View
+from .viewports import redraw
 
 
 @dataclass
@@ -67,11 +67,3 @@ def show_view(view: View) -> None:
     if current is not None:
         current.view = view
     redraw()
-
-
-def redraw() -> None:
-    """Let Blender draw the viewports and their sidebars again."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()

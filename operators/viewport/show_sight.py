@@ -6,23 +6,23 @@ from typing import Any, ClassVar
 
 import bpy
 import numpy as np
-from bpy_extras import view3d_utils
 from mathutils import Vector
 
-from .. import core
-from ..core.errors import DecompositionError
-from ..core.steps.progress import Steps
+from ... import core
+from ...core.errors import DecompositionError
+from ...core.steps.progress import Steps
+from ..bridge.mesh.points import vertices_now
+from ..bridge.read.shape import stretch
+from ..bridge.read.target import Target
+from ..bridge.refusals import measure_refusal
+from ..bridge.work.computing import point_viewer_of
+from ..running import modal
+from ..running.computation import Computation
+from ..running.on_objects import OnActive
+from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
-from .bridge.mesh.points import vertices_now
-from .bridge.read.shape import stretch
-from .bridge.read.target import Target
-from .bridge.refusals import measure_refusal
-from .bridge.work.computing import point_viewer_of
-from .running import modal
-from .running.computation import Computation
-from .running.on_objects import OnActive
-from .settings import SELECTION, parameters_from, properties_for
 from .sight_overlay import Overlay
+from .viewports import ray_at, viewport_at
 
 _HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hide"
 
@@ -70,7 +70,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         if event.type in {"RET", "NUMPAD_ENTER"}:
             modal.show_status(self._overlay.workspace, None)
             return {"FINISHED"}
-        place = _viewport_at(context, event.mouse_x, event.mouse_y)
+        place = viewport_at(context, event.mouse_x, event.mouse_y)
         if event.type != "LEFTMOUSE" or place is None:
             return {"PASS_THROUGH"}
         return self._clicked(*place)
@@ -110,10 +110,8 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             self.report({"WARNING"}, str(error))
             return {"CANCELLED"}
         to_object = obj.matrix_world.inverted_safe()
-        where = region, region.data, (x, y)
-        origin = to_object @ view3d_utils.region_2d_to_origin_3d(*where)
-        towards = view3d_utils.region_2d_to_vector_3d(*where)
-        self._show(origin, to_object.to_3x3() @ towards)
+        origin, towards = ray_at(region, x, y)
+        self._show(to_object @ origin, to_object.to_3x3() @ towards)
         return {"RUNNING_MODAL"}
 
     def _show(self, origin: Vector, direction: Vector) -> None:
@@ -208,19 +206,3 @@ def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
     normal = polygons[face].normal
     height = max(obj.dimensions) * 1e-4
     return polygons[face].center + height * normal, -normal
-
-
-def _viewport_at(
-    context: bpy.types.Context, x: int, y: int
-) -> tuple[bpy.types.Region, int, int] | None:
-    """Return the viewport at a point of the window, and the point in its pixels."""
-    for area in context.window.screen.areas:
-        there = [region for region in area.regions if _holds(region, x, y)]
-        if area.type == "VIEW_3D" and {r.type for r in there} == {"WINDOW"}:
-            return there[0], x - there[0].x, y - there[0].y
-    return None
-
-
-def _holds(region: Any, x: int, y: int) -> bool:
-    """Return whether a point of the window is in a region."""
-    return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height

@@ -12,10 +12,10 @@ from ....core.errors import DecompositionError
 from ..mesh.attributes import read_labels
 from ..mesh.layers import layers_of
 from ..mesh.points import count_points, is_cloud, set_points
+from ..parts.palette import UNPAINTED
+from ..parts.read import part_identities, part_labels
 from ..stored.identity import Identity
 from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
-from .palette import UNPAINTED
-from .read import part_identities, part_labels
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:

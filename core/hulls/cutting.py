@@ -1,0 +1,155 @@
+"""Cut a solid by the planes whose two sides have the cheapest shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..steps.progress import Progress, Steps, within
+from .cost import cost_of_sides, least_cost_of_sides
+from .cut_planes import ranked_planes
+from .enclosing import roughly_around
+from .piece import Cell, cut
+
+# Number of planes that are cut with, to compare the exact costs of both sides.
+_TRIES = 8
+# Two planes count as the same above this cosine between their normals and below this
+# difference of their offsets; the longest side of the shape is 2.
+_ALIKE = 0.95
+_NEAR = 0.05
+# A piece is convex if its hull adds less than this share of the hull's volume.
+_CONVEX = 0.05
+# Shapes that fit a convex piece the better the less long it is.
+_ROUND = ("SPHERE", "CYLINDER", "CAPSULE")
+# Cuts that leave more than this share of the error are in vain.
+_LOWER = 0.9
+
+
+def cut_until_close(cell: Cell, most: int) -> Steps[list[Cell]]:
+    """Cut the piece of largest error repeatedly, until the errors of all are allowed.
+
+    If `most` pieces are too few for that, cuts of convex pieces that do not lower the
+    error are undone: small spheres in a row stray as far as a large one.
+
+    Parameters
+    ----------
+    cell : Cell
+    most : int
+        Largest number of pieces.
+
+    Returns
+    -------
+    Steps of list of Cell
+    """
+    cells, largest = [cell], cell.fit.max_error
+    done: list[Cell] = []
+    sides_of: dict[Cell, tuple[Cell, Cell]] = {}
+    while cells and len(cells) + len(done) < most:
+        share = (len(cells) + len(done)) / most
+        far: list[Cell] = []
+        for surely in (False, True):  # estimates are quick, bounds are not
+            for one in cells if not far else []:
+                yield Progress("Cutting", share)
+                is_close = one.is_close if surely else one.error <= largest
+                far += [] if is_close else [one]
+        if not far:
+            return done + cells
+        worst = max(far, key=lambda one: round(one.error, 6))
+        cells.remove(worst)
+        sides = yield from within(best_cut(worst), share, share + 1 / most)
+        if sides:
+            sides_of[worst] = sides
+        cells += sides or ()
+        done += () if sides else (worst,)
+    return _worthwhile(cell, sides_of)
+
+
+def _worthwhile(whole: Cell, sides_of: dict[Cell, tuple[Cell, Cell]]) -> list[Cell]:
+    """Return the pieces of a cut one, without cuts of convex pieces in vain.
+
+    `sides_of` has both sides of each piece that was cut, in the order of the cuts.
+    """
+    pieces: dict[Cell, list[Cell]] = {}
+    for cell, sides in reversed(sides_of.items()):
+        small = [one for side in sides for one in pieces.get(side, [side])]
+        error = max(one.known_error for one in small)
+        in_vain = _is_convex(cell) and error > _LOWER * cell.known_error
+        pieces[cell] = [cell] if in_vain else small
+    return pieces.get(whole, [whole])
+
+
+def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
+    """Cut a piece by the plane whose two sides have the lowest cost.
+
+    Planes are ranked by the volume that the hulls of both sides add. Only the first few
+    different ones are cut with, and compared by `cost_of_sides`: the errors of both
+    hulls and the volume that they add. Where this tells little about shapes other than
+    hulls, the piece is cut across its longest side: round shapes around convex pieces,
+    and where both sides would be no better than the piece, such as a film and the rest.
+    A sphere may have to be cut more than once before that gains anything.
+
+    Parameters
+    ----------
+    cell : Cell
+
+    Returns
+    -------
+    Steps of tuple of two Cells or None
+        The pieces below and above the plane. None if no plane has some of the surface
+        on both sides.
+    """
+    kind = cell.fit.parameters.shape
+    if kind in _ROUND and _is_convex(cell):
+        return (yield from _cheapest(cell, _middle(cell)))
+    planes = yield from ranked_planes(cell)
+    best = yield from _cheapest(cell, planes)
+    in_vain = best and min(side.error for side in best) > _LOWER * cell.error
+    if in_vain and kind not in ("HULL", "SPHERE"):
+        best = (yield from _cheapest(cell, _middle(cell))) or best
+    return best
+
+
+def _cheapest(
+    cell: Cell, planes: NDArray[np.float64]
+) -> Steps[tuple[Cell, Cell] | None]:
+    """Return the sides of lowest cost, of cuts by the first planes that differ."""
+    best, least = None, np.inf
+    solid_volume = cell.solid.volume
+    for plane in _distinct(planes):
+        yield Progress("Cutting", 1.0)
+        sides = cut(cell, plane)
+        if not all(side.on_surface.any() for side in sides):
+            continue
+        if least_cost_of_sides(*sides, solid_volume) >= least:
+            continue
+        cost = cost_of_sides(*sides, solid_volume)
+        if cost < least:
+            best, least = sides, cost
+    return best
+
+
+def _is_convex(cell: Cell) -> bool:
+    """Return whether a hull adds next to no volume to a piece."""
+    return cell.hull.volume - cell.volume < _CONVEX * cell.hull.volume
+
+
+def _middle(cell: Cell) -> NDArray[np.float64]:
+    """Return the plane across the longest side of a piece's box, (1, 4)."""
+    box = roughly_around(cell.hull, "BOX")
+    normal = box.axes[np.round(box.sizes, 6).argmax()]
+    return np.append(normal, -normal @ box.center)[None]
+
+
+def _distinct(planes: NDArray[np.float64]) -> Iterator[NDArray[np.float64]]:
+    """Yield the first planes (4,) that differ from those before, `_TRIES` at most."""
+    taken = np.zeros((0, 4))
+    for plane in planes:
+        along = taken[:, :3] @ plane[:3]
+        shifts = np.abs(np.sign(along) * taken[:, 3] - plane[3])
+        if not ((np.abs(along) > _ALIKE) & (shifts < _NEAR)).any():
+            yield plane
+            taken = np.concatenate([taken, plane[None]])
+        if len(taken) == _TRIES:
+            return

@@ -1,0 +1,68 @@
+"""Fit another shape around one piece of a solid, and measure it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...cache import ShapeCache
+from ...geometry.mesh import TriangleMesh
+from ...parameters.hulls import HullParameters
+from ...results import HullDecomposition
+from ...steps.progress import Progress, Steps, within
+from ..convex_hull import THIN, convex_hull
+from ..fitting import fit_for
+from ..solid import solid_of
+from .error_bound import error_bound
+
+
+def refit_in_steps(
+    mesh: TriangleMesh,
+    points: NDArray[np.float64],
+    parameters: HullParameters,
+    cache: ShapeCache,
+    seed: int = 0,
+    scene_unit: float = 1.0,
+) -> Steps[HullDecomposition]:
+    """Fit a shape around a piece, and state its error as for the shapes of all pieces.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        The whole.
+    points : (N, 3) float
+        Points with the same convex hull as the piece.
+    parameters : HullParameters
+    cache : ShapeCache
+    seed : int
+        Seed of the random surface samples.
+    scene_unit : float
+        Length in the scene of 1 in the units of the mesh.
+
+    Returns
+    -------
+    Steps of HullDecomposition
+        With one shape, and a volume ratio of that alone.
+    """
+    prepared = yield from within(cache.prepare(mesh), 0.0, 0.1)
+    assert prepared.solid is not None  # None for point clouds only
+    fit, factor = fit_for(mesh, parameters, scene_unit)
+    scaled = prepared.solid.vertices * (mesh.diagonal / fit.unit)
+    whole = replace(prepared.solid, vertices=scaled)
+    solid = yield from within(solid_of(whole, seed), 0.1, 0.8)
+    yield Progress("Measuring", 0.8)
+    hull = convex_hull((points - mesh.center) / fit.unit, THIN)
+    shape = fit.shape(hull)
+    error, _ = error_bound(solid, shape, hull, fit.max_error)
+    ratio = shape.volume / solid.volume if solid.volume > 0 else np.inf
+    return HullDecomposition(
+        (shape.moved(fit.unit, mesh.center),),
+        np.array([error * factor]),
+        np.array([-1]),
+        ratio,
+        prepared.notes,
+        parameters.error_unit,
+        fit.unit * scene_unit,
+    )

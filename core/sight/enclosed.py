@@ -1,0 +1,170 @@
+"""Enclosed space, such as the hollow of a cup: cells outside where most rays hit.
+
+On a coarse grid, it finds the cells outside the shape whose rays hit the shape in
+nearly all directions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..geometry.frames import cone_directions
+from ..steps.progress import Progress, Steps, within
+from .lines import RAYS_PER_STEP
+from .ray_march import PASS, RayMarcher
+
+# Cells along the longest side of the bounding box.
+_CELLS = 28
+# Rays from each cell, one per direction.
+_DIRECTIONS = 24
+# Every ninth tells inside from outside, every third which cells may be enclosed.
+_FEW, _FIRST = 9, 3
+# A cell is not enclosed if a smaller share of its first rays hits the shape.
+_CLEARLY_OPEN = 0.3
+# Nothing is enclosed if a smaller share of the first rays hits the shape from each of
+# every second cell in all directions of the grid.
+_MAY_ENCLOSE = 0.8
+# A container has at least one cell where this share of rays hits the shape.
+_ENCLOSED = 0.75
+# It also holds the connected outside cells with at least this share. None is farther
+# than two cells from a cell of which this share of the first rays hits.
+_OPENING = 0.6
+# Kinds of cells.
+INSIDE, ENCLOSED_OUTSIDE, OPEN = np.arange(3, dtype=np.uint8)
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """A grid of cells around a shape.
+
+    Attributes
+    ----------
+    low : (3,) float
+        Lowest corner of the first cell.
+    size : float
+        Length of a cell's edge.
+    kinds : (X, Y, Z) uint8
+        Kind of each cell: inside, enclosed outside or open. All border cells are open.
+    """
+
+    low: NDArray[np.float64]
+    size: float
+    kinds: NDArray[np.uint8]
+
+    @property
+    def encloses(self) -> bool:
+        """Whether any cell is enclosed outside."""
+        return bool((self.kinds == ENCLOSED_OUTSIDE).any())
+
+
+def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
+    """Find the cells of the outside that a shape encloses.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+
+    Returns
+    -------
+    Steps of Grid
+        In the space of the marcher's mesh. All cells are open if nothing is enclosed.
+    """
+    low, high = marcher.mesh.bounds
+    size = float((high - low).max()) / _CELLS
+    shape = np.maximum(np.ceil((high - low) / size), 1).astype(np.int64)
+    low = (low + high - shape * size) / 2
+    centers = low + (np.indices(shape).reshape(3, -1).T + 0.5) * size
+    directions = cone_directions(np.array([[0.0, 0.0, 1.0]]), _DIRECTIONS, 2 * np.pi)[0]
+    turns = np.arange(_DIRECTIONS)
+    few, first, rest = turns % _FEW == 0, turns % _FIRST == 0, turns % _FIRST > 0
+    # Try every second cell of each row first: most shapes enclose nothing.
+    some = (np.indices(shape) % 2 == (shape // 2 % 2)[:, None, None, None]).all(axis=0)
+    hits = _Hits(marcher, centers)
+    yield from within(hits.cast(some.ravel(), directions[first]), 0, 0.1)
+    if not hits.hidden(_MAY_ENCLOSE).any():
+        return Grid(low - size, size, np.full(shape + 2, OPEN))
+    near = hits.hidden(_OPENING).reshape(shape)
+    near = ndimage.binary_dilation(near, np.ones((5, 5, 5))).ravel()
+    others = ~some.ravel()
+    yield from within(hits.cast(others, directions[few]), 0.1, 0.4)
+    yield from within(hits.cast(others & near, directions[first & ~few]), 0.4, 0.7)
+    # Most cells are decided by now: they are inside, or clearly open.
+    doubtful = near & hits.hidden(_CLEARLY_OPEN)
+    yield from within(hits.cast(doubtful, directions[rest]), 0.7, 1.0)
+    outside = (hits.front >= hits.back).reshape(shape)
+    shares = np.where(near, hits.shares, 0.0).reshape(shape)
+    kinds = np.where(outside, OPEN, INSIDE)
+    kinds[_enclosed(outside, shares)] = ENCLOSED_OUTSIDE
+    return Grid(low - size, size, np.pad(kinds, 1, constant_values=OPEN))
+
+
+class _Hits:
+    """Rays that meet the front or the back of a shape, of those cast from points.
+
+    Attributes
+    ----------
+    front, back, n_cast : (M,) int
+    """
+
+    def __init__(self, marcher: RayMarcher, points: NDArray[np.float64]) -> None:
+        self._marcher, self._points = marcher, points
+        self.front, self.back, self.n_cast = np.zeros((3, len(points)), dtype=np.int64)
+
+    @property
+    def shares(self) -> NDArray[np.float64]:
+        """The share of each point's rays that hit the shape, 0 without rays."""
+        return (self.front + self.back) / np.maximum(self.n_cast, 1)
+
+    def hidden(self, share: float) -> NDArray[np.bool_]:
+        """Return the points outside from which at least this share hits the shape."""
+        return (self.front >= self.back) & (self.shares >= share)
+
+    def cast(
+        self, chosen: NDArray[np.bool_], directions: NDArray[np.float64]
+    ) -> Steps[None]:
+        """Cast rays from the chosen points, one in each direction."""
+        chosen_rows = np.flatnonzero(chosen)
+        for number, direction in enumerate(directions):
+            for start in range(0, len(chosen_rows), RAYS_PER_STEP):
+                yield Progress("Containers", number / len(directions))
+                rows = chosen_rows[start : start + RAYS_PER_STEP]
+                met, facing = _meet(self._marcher, self._points[rows], direction)
+                self.front[rows[met]] += facing < 0
+                self.back[rows[met]] += facing > 0
+                self.n_cast[rows] += 1
+
+
+def _meet(
+    marcher: RayMarcher, points: NDArray[np.float64], direction: NDArray[np.float64]
+) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Return which rays hit the shape, and normal · direction at each hit."""
+    triangles, distances = marcher.caster.first_hit(
+        points,
+        np.broadcast_to(direction, points.shape),
+        np.full(len(points), 2 * marcher.diagonal),
+    )
+    # Cells of a flat sheet lie on the surface itself: ignore hits at distance 0.
+    met = (triangles >= 0) & (distances > PASS * marcher.diagonal)
+    return met, marcher.normals[triangles[met]] @ direction
+
+
+def _enclosed(
+    outside: NDArray[np.bool_], shares: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return the enclosed cells, from each cell's share of rays that hit the shape."""
+    # Shares of so few rays are noisy: average them over neighboring outside cells,
+    # whose shares are nearly the same.
+    weights = ndimage.uniform_filter(outside.astype(float), 3)
+    sums = ndimage.uniform_filter(np.where(outside, shares, 0.0), 3)
+    shares = np.divide(sums, weights, out=np.zeros_like(sums), where=outside)
+    containers, _ = ndimage.label(outside & (shares >= _OPENING))
+    found = np.unique(containers[outside & (shares >= _ENCLOSED)])
+    enclosed = np.isin(containers, found[found > 0])
+    # Add one layer of cells, up to the rim, where half of the rays leave.
+    dilated: NDArray[np.bool_] = ndimage.binary_dilation(enclosed) & outside
+    return dilated

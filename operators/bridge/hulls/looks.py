@@ -1,0 +1,69 @@
+"""How hulls are seen, and the pieces that they are around."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..parts.materials import discard_unused, is_ours
+from ..stored.names import PIECE_TAG
+
+TRANSPARENT, SOLID, WIRE = "TRANSPARENT", "SOLID", "WIRE"
+# Opacity of hulls that are seen through.
+_OPACITY = 0.35
+
+
+def look_like(hulls: Sequence[bpy.types.Object], look: str) -> None:
+    """Show hulls as transparent or opaque solids, or as wires.
+
+    The material of the mesh may be that of a part, which is opaque. So a transparent
+    hull wears a copy of its own.
+
+    Parameters
+    ----------
+    hulls : sequence of Object
+    look : {'TRANSPARENT', 'SOLID', 'WIRE'}
+    """
+    for hull in hulls:
+        hull.display_type = "WIRE" if look == WIRE else "TEXTURED"
+        opacity = _OPACITY if look == TRANSPARENT else 1.0
+        hull.color = (*hull.color[:3], opacity)
+        for slot in hull.material_slots:
+            if slot.link == "OBJECT":
+                worn, slot.material = slot.material, None
+                discard_unused([worn] if is_ours(worn) else ())
+            slot.link = "DATA"
+            if look == TRANSPARENT and slot.material is not None:
+                seen_through = _transparent(slot.material)
+                slot.link = "OBJECT"
+                slot.material = seen_through
+
+
+def _transparent(material: bpy.types.Material) -> bpy.types.Material:
+    """Return a copy of a material that is seen through, in all kinds of shading."""
+    copy = material.copy()
+    copy.diffuse_color = (*material.diffuse_color[:3], _OPACITY)
+    copy.surface_render_method = "BLENDED"
+    for node in copy.node_tree.nodes if copy.node_tree else ():
+        if node.type == "BSDF_PRINCIPLED":
+            node.inputs["Alpha"].default_value = _OPACITY
+    return copy
+
+
+def keep_piece(hull: bpy.types.Object, points: NDArray[np.float64]) -> None:
+    """Keep the points of the piece that a hull is around, (N, 3), in object space."""
+    hull[PIECE_TAG] = points.ravel().tolist()
+
+
+def piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
+    """Return the points of the piece that a hull is around, and if they are its own.
+
+    A convex hull is itself around its piece, and has its margin already.
+    """
+    if PIECE_TAG in hull:
+        return np.array(hull[PIECE_TAG]).reshape(-1, 3), False
+    points = np.array([vertex.co for vertex in hull.data.vertices], dtype=np.float64)
+    return points, True

@@ -1,0 +1,142 @@
+"""Give one hull another shape, or remove it; the others stay."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any
+
+import bpy
+
+from .... import core
+from ....core.errors import DecompositionError
+from ....core.geometry.mesh import TriangleMesh
+from ....core.parameters.hull_names import hull_names
+from ....core.parameters.hulls import HullParameters
+from ....core.results import HullDecomposition
+from ....core.steps.progress import Steps
+from ..read.evaluated import read_as
+from ..read.shape import read_shape, scene_unit, stretch
+from ..stored.record import ORIGINAL, record_of, write_record
+from ..work.libraries import with_libraries
+from ..work.session_cache import session_cache
+from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, hulls_of, tag_hull
+from .looks import keep_piece, piece_of
+
+
+def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecomposition]:
+    """Return the steps that fit another shape to the piece that a hull is around.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    name : str
+        Of a hull of the object.
+    shape : str
+        'HULL', 'BOX', 'CAPSULE', 'SPHERE' or 'CYLINDER'.
+
+    Raises
+    ------
+    DecompositionError
+        At once, if the object has no such hull, or cannot be read.
+    """
+    hull = hull_called(obj, name)
+    parameters = replace(_noted_parameters(obj), shape=shape)
+    points, has_margin = piece_of(hull)
+    if has_margin:
+        parameters = replace(parameters, margin=0.0)
+    points = points * stretch(obj)
+    seen = read_as(record_of(obj)["hulls"].get("mesh", ORIGINAL), obj)
+    mesh, unit = seen.shape if seen else read_shape(obj), scene_unit(obj)
+    assert isinstance(mesh, TriangleMesh)  # clouds have no hulls
+
+    def work() -> Steps[HullDecomposition]:
+        cache = session_cache()
+        steps = core.refit_in_steps(mesh, points, parameters, cache, 0, unit)
+        return (yield from steps)
+
+    return with_libraries((), work())
+
+
+def write_refit(
+    obj: bpy.types.Object, name: str, found: HullDecomposition
+) -> bpy.types.Object:
+    """Give a hull of an object the shape that was found; return the hull."""
+    hull, (shape,) = hull_called(obj, name), found.shapes
+    points, _ = piece_of(hull)
+    scale, former = stretch(obj), hull.data
+    material = former.materials[0]
+    hull.data = hull_mesh(former.name, shape, scale, material)
+    bpy.data.meshes.remove(former)
+    keep_piece(hull, points)
+    record = record_of(obj)
+    hulls = record["hulls"]["hulls"]
+    row = next(r for r, each in enumerate(hulls) if each["name"] == name)
+    figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
+    before = sum(each["volume"] for each in hulls)
+    hulls[row] = {"name": name, **figures}
+    hulls[row]["name"] = hull.name = hull.data.name = _name(obj, hulls, row)
+    tag_hull(hull, figures, shape, scale)
+    after = sum(each["volume"] for each in hulls)
+    _note(obj, record, after / before)
+    return hull
+
+
+def remove_hull(obj: bpy.types.Object, name: str) -> None:
+    """Remove one hull of an object."""
+    erase_hulls(obj, [hull_called(obj, name)])
+    record = record_of(obj)
+    hulls = record.get("hulls", {}).get("hulls", [])
+    before = sum(each["volume"] for each in hulls)
+    kept = [each for each in hulls if each["name"] != name]
+    if not kept:
+        forget_hulls(obj)
+        return
+    record["hulls"]["hulls"] = kept
+    _note(obj, record, sum(each["volume"] for each in kept) / before)
+
+
+def forget_hulls(obj: bpy.types.Object) -> None:
+    """Remove what is noted of an object's hulls; all else stays noted."""
+    record = {key: kept for key, kept in record_of(obj).items() if key != "hulls"}
+    write_record(obj, record if record.keys() - {"version"} else {})
+
+
+def note_mesh_of_hulls(obj: bpy.types.Object, mesh: str) -> None:
+    """Note which mesh of an object its hulls are around."""
+    record = record_of(obj)
+    record["hulls"]["mesh"] = mesh
+    write_record(obj, record)
+
+
+def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:
+    """Return the hull of an object with a name; raise if it has none."""
+    for hull in hulls_of(obj):
+        if hull.name == name:
+            return hull
+    raise DecompositionError(
+        f"{obj.name} has no hull {name}; choose one in the list of its hulls."
+    )
+
+
+def _note(obj: bpy.types.Object, record: dict[str, Any], growth: float) -> None:
+    """Note changed hulls, whose volumes together have grown by a factor."""
+    noted = record["hulls"]
+    noted["largest_error"] = max(each["error"] for each in noted["hulls"])
+    if noted["volume_ratio"] is not None:
+        noted["volume_ratio"] *= growth
+    write_record(obj, record)
+
+
+def _name(obj: bpy.types.Object, hulls: list[dict[str, Any]], row: int) -> str:
+    """Return the name of a hull: with Unreal's naming, its kind is in it."""
+    parameters, kinds = _noted_parameters(obj), [each["kind"] for each in hulls]
+    names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
+    former = str(hulls[row]["name"])
+    return former if names[row] in bpy.data.objects else names[row]
+
+
+def _noted_parameters(obj: bpy.types.Object) -> HullParameters:
+    """Return the parameters that an object's hulls were built with."""
+    noted = record_of(obj).get("hulls", {}).get("parameters", {})
+    known = {each.name for each in fields(HullParameters)}
+    return HullParameters(**{name: noted[name] for name in known & noted.keys()})

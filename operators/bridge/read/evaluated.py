@@ -1,0 +1,201 @@
+"""Meshes as Blender shows them: with modifiers, shape keys and poses.
+
+While such a mesh is made, its faces carry the numbers of the faces that they come from.
+So parts of what is seen can be written to the faces of the mesh itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .... import core
+from ....core.errors import DecompositionError
+from ....core.geometry.mesh import TriangleMesh
+from ....core.results import Decomposition
+from ..mesh.attributes import read_floats, read_ints, write_ints
+from ..mesh.corners import triangles_of
+from ..stored.record import ORIGINAL
+from .shape import stretch
+from .shown_mesh import differs, evaluated
+
+# Carries face numbers, counted from 1, while a mesh is evaluated; 0 is no face.
+_LAYER = "wcd_face"
+# Faces correspond if so much of the area that is seen comes from faces of the mesh,
+# and so many of these are seen.
+_MOST = 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class SeenMesh:
+    """The mesh of an object as it is seen.
+
+    Attributes
+    ----------
+    shape : TriangleMesh
+        In the space of `read_shape`.
+    areas, origins : (E,) float and int
+        Area of each face, and the face of the object's own mesh that it comes from.
+    own_areas, stand_ins : (P,) float and int
+        Area of each face of the object's own mesh, and the face that it takes its part
+        from: itself, or the nearest one that is seen.
+    corresponds : bool
+        Whether parts can be written to the object's own faces.
+    name : str
+        Of the object.
+    """
+
+    shape: TriangleMesh
+    areas: NDArray[np.float64]
+    origins: NDArray[np.int64]
+    own_areas: NDArray[np.float64]
+    stand_ins: NDArray[np.int64]
+    corresponds: bool
+    name: str
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences to the user about what was read."""
+        seen = f"The evaluated mesh was read, with {len(self.areas):,} faces"
+        own = f"the {len(self.own_areas):,} faces of the mesh"
+        if self.corresponds:
+            return (f"{seen} that come from {own}: these have the parts.",)
+        return (
+            f"{seen} that do not come from {own}: the parts are on the new object"
+            f' "{self.name} parts", and {self.name} is hidden.',
+        )
+
+    def on_own_faces(self, found: Decomposition) -> Decomposition:
+        """Return parts of the faces that are seen as parts of the mesh's own faces.
+
+        A face that several parts share goes to the one that has most of its area.
+        """
+        if not self.corresponds:
+            return found
+        faces, parts, counts = core.labels_by_area(
+            found.labels, self.origins, self.areas
+        )
+        every = np.zeros(len(self.own_areas), dtype=np.int64)
+        every[faces] = parts
+        kept, labels = np.unique(every[self.stand_ins], return_inverse=True)
+        places = {int(part): place for place, part in enumerate(kept)}
+        return replace(
+            found,
+            labels=labels,
+            areas=np.bincount(labels, self.own_areas).astype(np.float64),
+            face_counts=np.bincount(labels),
+            ranks=found.ranks[kept],
+            pairs=tuple(
+                (places[a], places[b])
+                for a, b in found.pairs
+                if a in places and b in places
+            ),
+            notes=(*found.notes, *_sharing(counts, found.n_parts - len(kept))),
+        )
+
+
+def _sharing(counts: NDArray[np.int64], n_lost: int) -> tuple[str, ...]:
+    """Return a note on faces that several parts share, and on parts without faces."""
+    n_shared = int((counts > 1).sum())
+    if not n_shared:
+        return ()
+    faces = "face of the mesh is" if n_shared == 1 else "faces of the mesh are"
+    lost = f"; {n_lost} {'part' if n_lost == 1 else 'parts'} got none" if n_lost else ""
+    return (
+        f"{n_shared:,} {faces} seen in several parts; the part with most of the area"
+        f" got it{lost}.",
+    )
+
+
+def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
+    """Return the mesh of an object as it is seen, None if its own is to be read.
+
+    Parameters
+    ----------
+    mesh : {'ORIGINAL', 'EVALUATED'}
+    obj : bpy.types.Object
+
+    Raises
+    ------
+    DecompositionError
+        If the object is in Edit Mode or hidden, or nothing of it is seen.
+    """
+    if mesh == ORIGINAL or not differs(obj):
+        return None
+    if obj.mode != "OBJECT" or not obj.visible_get():
+        raise DecompositionError(
+            f"The evaluated mesh of {obj.name} is read in Object Mode while it is"
+            " visible; leave Edit Mode and show it, or set Mesh to Original."
+        )
+    own = obj.data.polygons
+    own_areas = read_floats(own, "area").astype(np.float64)
+    own_centers = read_floats(own, "center", 3)
+    with _numbered(obj) as name, evaluated(obj) as (found, depsgraph):
+        shown = found.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph)
+        if not len(own) or not shown.polygons:
+            raise DecompositionError(
+                f"No faces of {obj.name} are seen; look at its modifiers, or set Mesh"
+                " to Original."
+            )
+        vertices, triangles, polygons = triangles_of(shown)
+        areas = read_floats(shown.polygons, "area").astype(np.float64)
+        centers = read_floats(shown.polygons, "center", 3)
+        origins = _origins(shown, name)
+        found.to_mesh_clear()
+    known = (origins >= 0) & (origins < len(own))
+    seen = np.zeros(len(own), dtype=bool)
+    seen[origins[known]] = True
+    corresponds = seen.mean() >= _MOST and areas[known].sum() >= _MOST * areas.sum()
+    if corresponds:
+        origins = origins[_nearest(centers, known)]
+    return SeenMesh(
+        TriangleMesh(vertices * stretch(obj), triangles, polygons),
+        areas,
+        origins,
+        own_areas,
+        _nearest(own_centers, seen) if corresponds else np.arange(len(own)),
+        bool(corresponds),
+        obj.name,
+    )
+
+
+def _nearest(
+    places: NDArray[np.float32], chosen: NDArray[np.bool_]
+) -> NDArray[np.int64]:
+    """Return the row of the nearest place that is chosen, for each of N places."""
+    from scipy.spatial import cKDTree
+
+    rows = np.flatnonzero(chosen)
+    nearest = np.arange(len(places))
+    if len(rows) < len(places):
+        nearest[~chosen] = rows[cKDTree(places[rows]).query(places[~chosen])[1]]
+    return nearest
+
+
+def _origins(mesh: bpy.types.Mesh, name: str) -> NDArray[np.int64]:
+    """Return the face that each face comes from, (E,); −1 where that is not known."""
+    layer = mesh.attributes.get(name)
+    if layer is None or (layer.domain, layer.data_type) != ("FACE", "INT"):
+        return np.full(len(mesh.polygons), -1, dtype=np.int64)
+    return read_ints(layer.data, "value").astype(np.int64) - 1
+
+
+@contextmanager
+def _numbered(obj: bpy.types.Object) -> Iterator[str]:
+    """Have the faces of a mesh carry their numbers; give the name of the attribute."""
+    attributes = obj.data.attributes
+    active = attributes.active_index
+    layer = attributes.new(_LAYER, "INT", "FACE")
+    name = layer.name
+    write_ints(layer.data, "value", np.arange(1, len(obj.data.polygons) + 1))
+    try:
+        yield name
+    finally:
+        attributes.remove(attributes[name])
+        attributes.active_index = active
+        obj.data.update()

@@ -1,0 +1,68 @@
+"""What an object shows in place of its own mesh, and meshes made of that."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ..views.node_modifiers import is_view
+
+
+def shown_modifiers(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
+    """Return the modifiers that have an effect in the viewport, but for ours."""
+    return [m for m in obj.modifiers if m.show_viewport and not is_view(m)]
+
+
+def shows_keys(obj: bpy.types.Object) -> bool:
+    """Return whether shape keys move the vertices of an object."""
+    keys = getattr(obj.data, "shape_keys", None)  # point clouds have none
+    return keys is not None and any(key.value for key in keys.key_blocks)
+
+
+def differs(obj: bpy.types.Object | None) -> bool:
+    """Return whether an object shows another mesh than its own."""
+    if obj is None or obj.type != "MESH":
+        return False
+    posed = obj.parent is not None and obj.parent_type in {"ARMATURE", "LATTICE"}
+    return bool(shown_modifiers(obj)) or shows_keys(obj) or posed
+
+
+@contextmanager
+def evaluated(
+    obj: bpy.types.Object,
+) -> Iterator[tuple[bpy.types.Object, bpy.types.Depsgraph]]:
+    """Give the evaluated object, without the modifiers of ours that show parts."""
+    views = [m for m in obj.modifiers if m.show_viewport and is_view(m)]
+    for modifier in views:
+        modifier.show_viewport = False
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    try:
+        yield obj.evaluated_get(depsgraph), depsgraph
+    finally:
+        for modifier in views:
+            modifier.show_viewport = True
+
+
+def evaluated_copy(obj: bpy.types.Object) -> bpy.types.Mesh:
+    """Return a new mesh of the file that equals what an object shows."""
+    with evaluated(obj) as (found, depsgraph):
+        return new_mesh_of(found, depsgraph)
+
+
+def new_mesh_of(
+    found: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None
+) -> bpy.types.Mesh:
+    """Return a new mesh of the file that equals that of an evaluated object.
+
+    Parameters
+    ----------
+    found : Object
+        An evaluated object, or the object of an instance.
+    depsgraph : Depsgraph, optional
+        With it, layers that Blender does not need to draw are kept, too. It must not
+        be given for the object of an instance.
+    """
+    layers = {"preserve_all_data_layers": True, "depsgraph": depsgraph}
+    return bpy.data.meshes.new_from_object(found, **layers if depsgraph else {})

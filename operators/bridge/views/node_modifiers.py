@@ -1,0 +1,83 @@
+"""Modifiers of ours that show parts: node groups with a tag, one modifier of a kind."""
+
+from __future__ import annotations
+
+import bpy
+
+from ....core.errors import DecompositionError
+from ..stored.names import EXPLODE_TAG, ISOLATE_TAG
+
+_TAGS = (EXPLODE_TAG, ISOLATE_TAG)
+
+
+def is_view(modifier: bpy.types.Modifier) -> bool:
+    """Return whether a modifier only shows parts, and says nothing of the shape."""
+    return any(_has_tag(modifier, tag) for tag in _TAGS)
+
+
+def tagged_modifier(obj: bpy.types.Object, tag: str) -> bpy.types.NodesModifier | None:
+    """Return the modifier of an object whose node group has a tag, None without one."""
+    return next((each for each in obj.modifiers if _has_tag(each, tag)), None)
+
+
+def remove_modifier(obj: bpy.types.Object, tag: str) -> None:
+    """Remove a modifier of ours, and its node group if nothing else uses it.
+
+    Raises
+    ------
+    DecompositionError
+        In Edit Mode, if there is one: undo there would not bring it back.
+    """
+    modifier = tagged_modifier(obj, tag)
+    if modifier is None:
+        return
+    if obj.mode != "OBJECT":
+        raise DecompositionError(
+            f"{modifier.name} is a modifier, which Edit Mode cannot bring back on"
+            " undo; switch to Object Mode first."
+        )
+    group = modifier.node_group
+    obj.modifiers.remove(modifier)
+    if group.users == 0 and group.library is None:
+        bpy.data.node_groups.remove(group)
+
+
+def remove_views(obj: bpy.types.Object) -> None:
+    """Remove all modifiers of ours from an object."""
+    for tag in _TAGS:
+        remove_modifier(obj, tag)
+
+
+def new_node_group(name: str, tag: str) -> bpy.types.GeometryNodeTree:
+    """Return a new node group for a modifier, with a tag and without nodes."""
+    group = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    group[tag] = True
+    group.is_modifier = True
+    for in_out in ("INPUT", "OUTPUT"):
+        group.interface.new_socket(
+            "Geometry", in_out=in_out, socket_type="NodeSocketGeometry"
+        )
+    return group
+
+
+class Nodes:
+    """Adds nodes to a group, in columns from left to right."""
+
+    def __init__(self, group: bpy.types.GeometryNodeTree) -> None:
+        self._group = group
+        self._heights: dict[int, float] = {}
+
+    def add(self, kind: str, column: int, **settings: str) -> bpy.types.Node:
+        """Return a new node."""
+        node = self._group.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        height = self._heights.get(column, 0.0)
+        node.location = 220.0 * column, -height
+        self._heights[column] = height + 220.0
+        return node
+
+
+def _has_tag(modifier: bpy.types.Modifier, tag: str) -> bool:
+    """Return whether a modifier is one of ours with this tag."""
+    return modifier.type == "NODES" and tag in (modifier.node_group or ())

@@ -1,0 +1,1 @@
+"""What the user does and sees in the 3D viewport itself."""

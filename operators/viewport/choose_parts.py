@@ -1,0 +1,132 @@
+"""Choose, lock and rename parts, as a click in the viewport or the pie menu does."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from ..bridge.parts.rows import chosen_numbers
+from ..bridge.refusals import edit_refusal
+from ..running.on_objects import OnActive, OnEach
+
+
+def choose(obj: bpy.types.Object, number: int, extend: bool) -> None:
+    """Highlight a part's row; `extend` adds the part to the chosen ones, or takes away.
+
+    Chosen are the ticked parts, or the highlighted one. So without `extend` no part
+    stays ticked.
+    """
+    chosen = {number}
+    if extend:
+        chosen = chosen_numbers(obj) ^ chosen or chosen
+    for place, row in enumerate(obj.wcd_parts):
+        row.chosen = len(chosen) > 1 and row.number in chosen
+        if row.number == number if number in chosen else chosen == {row.number}:
+            obj.wcd_active_part = place
+
+
+def make_active(context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """Make an object the active one, as a click does; the mode stays."""
+    layer = context.view_layer
+    if layer.objects.active == obj:
+        return
+    if obj.mode == "OBJECT":
+        for other in context.selected_objects:
+            other.select_set(False)
+        obj.select_set(True)
+    layer.objects.active = obj
+
+
+class _OnRows(OnActive, OnEach):
+    """Half an operator on rows of the table."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return edit_refusal(obj)
+
+
+class WCD_OT_choose_part(_OnRows, bpy.types.Operator):
+    """Highlight a part in the table, or add it to the ticked ones."""
+
+    bl_idname = "wcd.choose_part"
+    bl_label = "Choose Convex Part"
+    bl_description = "Highlight a part in the table, or tick it besides others"
+    bl_options: ClassVar[set[str]] = {"UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return True: another object than the active one may be meant."""
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Choose the part, on the object that has it."""
+        obj = bpy.data.objects.get(self.object) or context.active_object
+        reason = edit_refusal(obj)
+        if reason:
+            self.report({"ERROR"}, f"{reason}.")
+            return {"CANCELLED"}
+        make_active(context, obj)
+        choose(obj, self.number, self.extend)
+        return {"FINISHED"}
+
+
+WCD_OT_choose_part.__annotations__ = {
+    "object": bpy.props.StringProperty(
+        name="Object", description="Its name; none means the active object"
+    ),
+    "number": bpy.props.IntProperty(
+        name="Number", description="Number of the part, as its faces have it", min=0
+    ),
+    "extend": bpy.props.BoolProperty(
+        name="Extend", description="Add the part to the chosen ones, or take it away"
+    ),
+}
+
+
+class WCD_OT_lock_parts(_OnRows, bpy.types.Operator):
+    """Lock the chosen parts, or unlock them."""
+
+    bl_idname = "wcd.lock_parts"
+    bl_label = "Lock Convex Parts"
+    bl_description = (
+        "Lock the parts that are ticked in the table, or the highlighted one; unlock"
+        " them if all are locked. A new decomposition keeps locked parts"
+    )
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        chosen = chosen_numbers(obj)
+        rows = [row for row in obj.wcd_parts if row.number in chosen]
+        lock = not all(row.locked for row in rows)
+        for row in rows:
+            row.locked = lock
+
+
+class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
+    """Rename the highlighted part."""
+
+    bl_idname = "wcd.rename_part"
+    bl_label = "Rename Convex Part"
+    bl_description = "Rename the highlighted part, its vertex group and its material"
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the name."""
+        obj = context.active_object
+        self.name = obj.wcd_parts[obj.wcd_active_part].name
+        return context.window_manager.invoke_props_dialog(self)
+
+    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        row = obj.wcd_parts[obj.wcd_active_part]
+        wanted = self.name.strip()
+        row.name = wanted
+        if row.name != wanted:
+            self.report({"WARNING"}, f"The name is taken or empty: it is {row.name}.")
+
+
+WCD_OT_rename_part.__annotations__ = {
+    "name": bpy.props.StringProperty(name="Name", options={"SKIP_SAVE"})
+}
+
+CLASSES: tuple[Any, ...] = (WCD_OT_choose_part, WCD_OT_lock_parts, WCD_OT_rename_part)

@@ -1,0 +1,103 @@
+"""Which part is under the cursor."""
+
+from __future__ import annotations
+
+import bpy
+from mathutils import Matrix, Vector
+from mathutils.bvhtree import BVHTree
+
+from ..bridge.refusals import faces_refusal
+from .shown_parts import shown_parts
+from .viewports import ray_at
+
+# What rays go through: hulls, for example, are drawn as wires around their object.
+_SEEN_THROUGH = {"WIRE", "BOUNDS"}
+# How often a ray goes on behind what it hit at most.
+_MOST_HITS = 32
+# How far behind a hit the ray goes on, as a share of the distance.
+_BEHIND = 1e-5
+
+
+def part_at(
+    context: bpy.types.Context, region: bpy.types.Region, x: int, y: int
+) -> tuple[bpy.types.Object, int] | None:
+    """Return the object and the number of the part at a pixel, None if none is there.
+
+    What hides a part hides it from here, too. In Edit Mode the objects that are edited
+    hide each other, and other objects hide nothing.
+    """
+    area = next(a for a in context.window.screen.areas if region in a.regions[:])
+    return part_along(context, area.spaces.active, *ray_at(region, x, y))
+
+
+def part_along(
+    context: bpy.types.Context,
+    space: bpy.types.SpaceView3D,
+    origin: Vector,
+    direction: Vector,
+) -> tuple[bpy.types.Object, int] | None:
+    """Return the object and the number of the first part along a ray in the world."""
+    if context.mode == "EDIT_MESH":
+        hit = _first_edited(context, origin, direction)
+    else:
+        hit = _first_seen(context, space, origin, direction)
+    if hit is None:
+        return None
+    obj, face = hit
+    shown = shown_parts(obj)
+    if shown is None or face >= len(shown.numbers) or faces_refusal(obj):
+        return None
+    return obj, int(shown.numbers[face])
+
+
+def _first_seen(
+    context: bpy.types.Context,
+    space: bpy.types.SpaceView3D,
+    origin: Vector,
+    direction: Vector,
+) -> tuple[bpy.types.Object, int] | None:
+    """Return the first object along a ray in Object Mode, and its face there."""
+    graph = context.evaluated_depsgraph_get()
+    start = origin
+    for _ in range(_MOST_HITS):
+        hit, place, _normal, face, obj, matrix = context.scene.ray_cast(
+            graph, start, direction
+        )
+        if not hit:
+            return None
+        obj = obj.original
+        if obj.display_type not in _SEEN_THROUGH and obj.visible_in_viewport_get(space):
+            return (obj, face) if _is_itself(obj, matrix) else None
+        start = place + direction * _BEHIND * max((place - origin).length, 1e-3)
+    return None
+
+
+def _is_itself(obj: bpy.types.Object, matrix: Matrix) -> bool:
+    """Return whether an object was hit where it is, and not an instance of it."""
+    rows = zip(obj.matrix_world, matrix, strict=True)
+    return all((mine - theirs).length < 1e-4 for mine, theirs in rows)
+
+
+def _first_edited(
+    context: bpy.types.Context, origin: Vector, direction: Vector
+) -> tuple[bpy.types.Object, int] | None:
+    """Return the first object along a ray in Edit Mode, and its face there."""
+    graph, found = context.evaluated_depsgraph_get(), []
+    for obj in context.objects_in_mode:
+        shown = shown_parts(obj)
+        if shown is None:
+            continue
+        if "tree" not in shown.kept:
+            shown.kept["tree"] = BVHTree.FromObject(obj, graph)
+        to_object = obj.matrix_world.inverted_safe()
+        start, towards = to_object @ origin, to_object.to_3x3() @ direction
+        for _ in range(_MOST_HITS):
+            place, _normal, face, _far = shown.kept["tree"].ray_cast(start, towards)
+            if place is None:
+                break
+            distance = (obj.matrix_world @ place - origin).length
+            if not shown.hidden[face]:
+                found.append((distance, obj.name, (obj, face)))
+                break
+            start = place + towards * _BEHIND * max(distance, 1e-3)
+    return min(found)[2] if found else None

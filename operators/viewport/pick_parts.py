@@ -1,0 +1,224 @@
+"""Pick Parts: hover, click and act on the parts in the viewport itself."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from ..bridge.parts.read import part_identities
+from ..bridge.parts.rows import chosen_numbers
+from ..bridge.refusals import edit_refusal, faces_refusal
+from ..bridge.stored.names import RESULT
+from ..running import modal
+from . import picking
+from .choose_parts import choose
+from .part_at import part_at
+from .shown_parts import shown_parts
+from .viewports import viewport_at
+
+# The pie menu, which `ui` draws.
+_MENU = "WCD_MT_pick"
+# What each key adds to the number of parts; wheels do with Alt.
+_WHEELS = {"WHEELUPMOUSE": 1, "WHEELDOWNMOUSE": -1}
+_PAGES = {"PAGE_UP": 1, "PAGE_DOWN": -1}
+_FEWEST, _MOST = 2, 256
+
+
+class WCD_OT_pick_parts(bpy.types.Operator):
+    """Choose parts in the viewport, and act on them."""
+
+    bl_idname = "wcd.pick_parts"
+    bl_label = "Pick Parts"
+    bl_description = (
+        "Point at parts in the viewport. Click to choose one, Shift-click to add one,"
+        " right-click for a menu. Alt and the mouse wheel change the number of parts"
+    )
+    bl_options: ClassVar[set[str]] = set()
+
+    # The number of parts that was asked for, and the one that is being cut; 0 for none.
+    _asked: int = 0
+    _cut_last: int = 0
+    _right: bool = False  # whether the right mouse button is down
+    _busy: str | None = None  # what ran when the last event came
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether an object has parts that can be picked."""
+        reason = _refusal(context)
+        if reason:
+            cls.poll_message_set(reason)
+        return reason is None
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin, or end if parts are picked already."""
+        if picking.current is not None:
+            picking.stop()
+            return {"FINISHED"}
+        shown_parts(context.active_object)  # read now, and not when something hovers
+        self._picking = picking.start(context)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop: Blender closes the window or loads another file."""
+        picking.stop()
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Take an event; navigation and all else that is not ours passes."""
+        if picking.current is not self._picking:  # ended by the button, or by a load
+            return {"FINISHED", "PASS_THROUGH"}
+        if self._busy != modal.busy():
+            self._busy = modal.busy()
+            picking.tell(context)
+        if self._asked:
+            self._cut(context)
+        if event.type == "MOUSEMOVE":
+            return self._hover(context, event.mouse_x, event.mouse_y)
+        if event.type == "RIGHTMOUSE" and event.value == "RELEASE" and self._right:
+            self._right = False
+            return self._open_menu(context)
+        if event.value != "PRESS":
+            return {"PASS_THROUGH"}
+        return self._press(context, event)
+
+    def _press(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Take a pressed key or button."""
+        if event.type == "ESC":
+            return self._escape(context)
+        if viewport_at(context, event.mouse_x, event.mouse_y) is None:
+            return {"PASS_THROUGH"}
+        if event.type == "LEFTMOUSE":
+            self._click(context, event.shift)
+            return {"RUNNING_MODAL"}
+        if event.type == "RIGHTMOUSE":  # its release would close a menu
+            self._right = True
+            return {"RUNNING_MODAL"}
+        if event.type == "W" and not _modified(event):
+            return self._open_menu(context)
+        step = (_WHEELS if event.alt else _PAGES).get(event.type)
+        if step is None:
+            return {"PASS_THROUGH"}
+        self._count(context, step)
+        return {"RUNNING_MODAL"}
+
+    def _hover(self, context: bpy.types.Context, x: int, y: int) -> set[str]:
+        """Look up what is under the cursor."""
+        there = viewport_at(context, x, y)
+        found = part_at(context, *there) if there else None
+        hovered = found and (found[0].session_uid, found[1])
+        before, self._picking.hovered = self._picking.hovered, hovered
+        self._picking.place = x, y
+        if hovered != before:
+            picking.tell(context)
+        elif hovered and there:  # its name goes with the cursor
+            there[0].tag_redraw()
+        return {"PASS_THROUGH"}
+
+    def _escape(self, context: bpy.types.Context) -> set[str]:
+        """Leave a merge that waits for a click, else the picking."""
+        if self._picking.merging:
+            self._picking.merging = False
+            picking.tell(context)
+            return {"RUNNING_MODAL"}
+        picking.stop()
+        return {"FINISHED"}
+
+    def _click(self, context: bpy.types.Context, extend: bool) -> None:
+        """Choose the part under the cursor, or merge it with those that are chosen."""
+        obj, row = self._picking.object(), self._picking.row()
+        if row is None:
+            return
+        number = row.number
+        if not self._picking.merging:
+            _choose(obj, number, extend)
+        elif obj != context.active_object:
+            self.report({"WARNING"}, f"Click a part of {context.active_object.name}")
+            return
+        elif number not in chosen_numbers(obj):
+            self._picking.merging = False
+            into = obj.wcd_active_part
+            choose(obj, number, extend=True)
+            obj.wcd_active_part = into  # whose name the result has
+            self._call(bpy.ops.wcd.merge_parts)
+        picking.tell(context)
+
+    def _open_menu(self, context: bpy.types.Context) -> set[str]:
+        """Open the menu for the part under the cursor; leave where there is none."""
+        obj, row = self._picking.object(), self._picking.row()
+        if row is None or self._picking.merging:
+            return self._escape(context)
+        if obj != context.active_object or row.number not in chosen_numbers(obj):
+            _choose(obj, row.number, extend=False)
+        bpy.ops.wm.call_menu_pie("INVOKE_DEFAULT", name=_MENU)
+        return {"RUNNING_MODAL"}
+
+    def _count(self, context: bpy.types.Context, step: int) -> None:
+        """Ask for one part more or less, from what was asked for last."""
+        obj = context.active_object
+        if edit_refusal(obj) is None:
+            now = self._asked or len(part_identities(obj))
+            self._asked = min(max(now + step, _FEWEST), _MOST)
+            self._cut(context)
+
+    def _cut(self, context: bpy.types.Context) -> None:
+        """Cut the active object into as many parts as were asked for, as the chart."""
+        if modal.busy() is not None:
+            return
+        if self._asked == self._cut_last:
+            self._asked = self._cut_last = 0
+            return
+        self._cut_last = self._asked
+        self._call(bpy.ops.wcd.choose_part_count, parts=self._asked)
+
+    def _call(self, operator: Any, **values: int) -> None:
+        """Start an operator as its button does; tell if it cannot work."""
+        try:
+            operator("INVOKE_DEFAULT", True, **values)
+        except RuntimeError as error:  # what it reports, or why it cannot be called
+            self.report({"WARNING"}, str(error).removeprefix("Error: ").strip())
+
+
+class WCD_OT_merge_next(bpy.types.Operator):
+    """Merge the chosen parts with the next one that is clicked."""
+
+    bl_idname = "wcd.merge_next"
+    bl_label = "Merge with Next Click"
+    bl_description = "Merge the highlighted part with the part that you click next"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether parts are picked."""
+        return picking.current is not None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Wait for the click."""
+        if picking.current is not None:
+            picking.current.merging = True
+        picking.tell(context)
+        return {"FINISHED"}
+
+
+CLASSES = (WCD_OT_pick_parts, WCD_OT_merge_next)
+
+
+def _refusal(context: bpy.types.Context) -> str | None:
+    """Return why no parts can be picked."""
+    if context.space_data is None or context.space_data.type != "VIEW_3D":
+        return "There is no 3D viewport here"
+    reason = faces_refusal(context.active_object)
+    noted = (obj for obj in context.visible_objects if RESULT in obj)
+    return reason and (None if any(not faces_refusal(obj) for obj in noted) else reason)
+
+
+def _choose(obj: bpy.types.Object, number: int, extend: bool) -> None:
+    """Choose a part as a step of its own to undo to."""
+    bpy.ops.wcd.choose_part(
+        "EXEC_DEFAULT", True, object=obj.name, number=number, extend=extend
+    )
+
+
+def _modified(event: bpy.types.Event) -> bool:
+    """Return whether a key is pressed together with a modifier key."""
+    return event.ctrl or event.alt or event.shift or event.oskey

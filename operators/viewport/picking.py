@@ -1,0 +1,114 @@
+"""What is picked in the viewports: the part under the cursor, for `ui` to draw.
+
+Hovering changes nothing in Blender's data, so nothing has to be put back after it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+
+from ..bridge.parts.rows import WCD_PG_part
+from ..bridge.stored.record import record_of
+from ..running import modal
+from .viewports import redraw, show_header
+
+_KEYS = (
+    "Click: choose, Shift-Click: add, Right-Click or W: menu,"
+    " Alt-Wheel or Page Up and Down: number of parts, Esc: end"
+)
+
+
+@dataclass
+class Picking:
+    """Parts are picked in the viewports.
+
+    Attributes
+    ----------
+    workspace : str
+        Name of the workspace whose status bar shows the keys.
+    hovered : (int, int) or None
+        The `session_uid` of the object under the cursor, and the number of its part.
+    place : (int, int)
+        Where the cursor is in its window.
+    merging : bool
+        Whether the next part that is clicked is merged with the chosen ones.
+    """
+
+    workspace: str
+    hovered: tuple[int, int] | None = None
+    place: tuple[int, int] = (0, 0)
+    merging: bool = False
+
+    def row(self) -> WCD_PG_part | None:
+        """Return the row of the part under the cursor, None if there is none."""
+        obj = self.object()
+        rows = obj.wcd_parts if obj is not None else ()
+        return next((r for r in rows if r.number == self.number), None)
+
+    @property
+    def number(self) -> int:
+        """The number of the part under the cursor, -1 for none."""
+        return -1 if self.hovered is None else self.hovered[1]
+
+    def object(self) -> bpy.types.Object | None:
+        """Return the object under the cursor, None if there is none."""
+        if self.hovered is None:
+            return None
+        uid = self.hovered[0]
+        return next((o for o in bpy.data.objects if o.session_uid == uid), None)
+
+
+# The one picking that is on.
+current: Picking | None = None
+
+
+def start(context: bpy.types.Context) -> Picking:
+    """Begin to pick."""
+    global current
+    current = Picking(context.workspace.name)
+    tell(context)
+    return current
+
+
+@bpy.app.handlers.persistent
+def stop(*_: object) -> None:
+    """End the picking, and remove its traces. Blender passes arguments to handlers."""
+    global current
+    picking, current = current, None
+    if picking is not None:
+        show_header(None)
+        if modal.busy() is None:  # its own text would go, too
+            modal.show_status(picking.workspace, None)
+        redraw()
+
+
+def tell(context: bpy.types.Context) -> None:
+    """Say in the headers what is picked, and in the status bar which keys there are."""
+    if current is None:
+        return
+    show_header(_header(context))
+    if modal.busy() is None:
+        modal.show_status(current.workspace, _KEYS)
+    redraw()
+
+
+def _header(context: bpy.types.Context) -> str:
+    """Return what is happening, for the header."""
+    row = current.row() if current else None
+    obj = current.object() or context.active_object if current else None
+    of = "" if obj is None else f"{obj.name}: {record_of(obj).get('k', 0)} Parts"
+    doing = "Merge with" if current and current.merging else "Pick Parts"
+    return "  |  ".join(each for each in (doing, row.name if row else "", of) if each)
+
+
+def register() -> None:
+    """End the picking at each file load."""
+    bpy.app.handlers.load_pre.append(stop)
+
+
+def unregister() -> None:
+    """Undo `register`, and end the picking."""
+    bpy.app.handlers.load_pre.remove(stop)
+    stop()

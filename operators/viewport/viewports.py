@@ -1,0 +1,54 @@
+"""The 3D viewports: which one is under the cursor, and what their headers say."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+from bpy_extras import view3d_utils
+from mathutils import Vector
+
+
+def viewport_at(
+    context: bpy.types.Context, x: int, y: int
+) -> tuple[bpy.types.Region, int, int] | None:
+    """Return the viewport at a point of the window, and the point in its pixels."""
+    for area in context.window.screen.areas:
+        there = [region for region in area.regions if _holds(region, x, y)]
+        if area.type == "VIEW_3D" and {r.type for r in there} == {"WINDOW"}:
+            return there[0], x - there[0].x, y - there[0].y
+    return None
+
+
+def ray_at(region: bpy.types.Region, x: int, y: int) -> tuple[Vector, Vector]:
+    """Return the origin and direction, in the world, of what a pixel shows."""
+    where = region, region.data, (x, y)
+    return (
+        view3d_utils.region_2d_to_origin_3d(*where),
+        view3d_utils.region_2d_to_vector_3d(*where),
+    )
+
+
+def redraw() -> None:
+    """Let Blender draw the viewports and their sidebars again."""
+    for window in bpy.context.window_manager.windows:
+        for area in _areas(window.screen):
+            area.tag_redraw()
+
+
+def show_header(text: str | None) -> None:
+    """Show a text in the headers of all viewports; None shows the usual ones again."""
+    for screen in bpy.data.screens:
+        for area in _areas(screen):
+            area.header_text_set(text)
+
+
+def _areas(screen: bpy.types.Screen) -> Iterator[bpy.types.Area]:
+    """Return the viewports of a screen."""
+    return (area for area in screen.areas if area.type == "VIEW_3D")
+
+
+def _holds(region: Any, x: int, y: int) -> bool:
+    """Return whether a point of the window is in a region."""
+    return 0 <= x - region.x < region.width and 0 <= y - region.y < region.height

@@ -1,0 +1,127 @@
+"""Seconds and freezes of runs in a real window, beside those of a script.
+
+    make bench-window BLENDER=blender
+
+A subject for tests/window/drive.py: the tab is opened, the libraries load, and the
+button's operator runs on Suzanne and on finer ones. The longest freeze is the longest
+time between two of Blender's rounds, drawing the result included; the longest step is
+the longest time of the processor in the extension's own code. A script's seconds are
+those of the same operator without slices, right after, in the same process. The word
+`at-once` after the subject starts the first run before any library is loaded.
+"""
+
+import sys
+import time
+
+import bpy
+from weak_convex_decomposition.operators.bridge.work import libraries, session_cache
+from weak_convex_decomposition.operators.running import modal as running
+from weak_convex_decomposition.operators.running.computation import Computation
+
+# Name, subdivisions of Suzanne, and whether her quads are cut into triangles.
+MODELS = (
+    ("Suzanne", 2, False),
+    ("126k faces", 4, False),
+    ("504k faces", 5, False),
+    ("1.0M faces", 5, True),
+)
+_BEAT = 0.005
+
+
+class Pulse:
+    """The longest time between two rounds of Blender, and in the extension's code."""
+
+    def __init__(self):
+        bpy.app.timers.register(self._beat, persistent=True)
+        begin, go_on, load = Computation.invoke, Computation.modal, libraries._load_next
+        # Blender counts the parameters of an operator's methods.
+        Computation.invoke = lambda op, context, event: self._time(
+            begin, op, context, event
+        )
+        Computation.modal = lambda op, context, event: self._time(
+            go_on, op, context, event
+        )
+        libraries._load_next = lambda: self._time(load)
+        self.restart()
+
+    def restart(self):
+        self.freeze = self.step = 0.0
+        self._last = time.perf_counter()
+
+    def _beat(self):
+        now = time.perf_counter()
+        self.freeze, self._last = max(self.freeze, now - self._last), now
+        return _BEAT
+
+    def _time(self, function, *arguments):
+        before = time.thread_time()
+        try:
+            return function(*arguments)
+        finally:
+            self.step = max(self.step, time.thread_time() - before)
+
+
+def row(name, seconds, pulse, script=None):
+    """Print a row of the table."""
+    shares = "" if script is None else f"{script:9.2f}{seconds / script:7.2f}"
+    print(f"{name:22}{seconds:9.2f}{pulse.freeze:9.2f}{pulse.step:9.2f}{shares}")
+
+
+def a_run(hands, pulse, name, with_script=True):
+    """Press the button, as it were, and wait; then run as a script does."""
+    session_cache.forget()
+    yield 1.0
+    pulse.restart()
+    before = time.perf_counter()
+    with hands.context():
+        bpy.ops.wcd.decompose("INVOKE_DEFAULT", True)
+    yield lambda: running.current is None
+    seconds = time.perf_counter() - before
+    yield 1.0  # the result is drawn
+    script = None
+    if with_script:
+        session_cache.forget()
+        with hands.context():
+            bpy.ops.wcd.clear()
+            before = time.perf_counter()
+            bpy.ops.wcd.decompose()
+            script = time.perf_counter() - before
+    row(name, seconds, pulse, script)
+    yield 0.5
+
+
+def model(hands, subdivisions, cut):
+    """Put a Suzanne there, of quads or triangles."""
+    obj = hands.suzanne(subdivisions)
+    if cut:
+        with hands.context():
+            obj.modifiers.new("Triangulate", "TRIANGULATE")
+            bpy.ops.object.modifier_apply(modifier="Triangulate")
+            bpy.ops.ed.undo_push(message="Triangles")
+    return obj
+
+
+def steps(hands):
+    pulse = Pulse()
+    # Blender would draw the view again and again after each change, to smooth edges.
+    bpy.context.preferences.system.viewport_aa = "OFF"
+    print(f"Blender {bpy.app.version_string}")
+    titles = ("seconds", "freeze", "step", "script")
+    print(f"{'':22}{''.join(f'{title:>9}' for title in titles)}{'ratio':>7}")
+    model(hands, 2, False)
+    yield 2.0
+    pulse.restart()
+    before = time.perf_counter()
+    yield from hands.open_sidebar()
+    if "at-once" not in sys.argv:
+        yield lambda: not any(libraries._missing())
+        yield 0.5
+        row("libraries, idle", time.perf_counter() - before, pulse)
+        yield from a_run(hands, pulse, "first run", with_script=False)
+    else:
+        yield from a_run(hands, pulse, "first run, at once", with_script=False)
+        return
+    for name, subdivisions, cut in MODELS:
+        model(hands, subdivisions, cut)
+        yield 2.0
+        yield from a_run(hands, pulse, name)

@@ -1,0 +1,135 @@
+"""How hulls are seen, removing them, and changing one of them."""
+
+import bpy
+import numpy as np
+import pytest
+from edited import record_of
+from hand_made import decompose_by_hand
+from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+
+QUICK = {"max_hulls": 3, "max_error": 0.2}
+
+
+def build(**values):
+    bpy.context.scene.wcd.samples = 100
+    bpy.ops.wcd.build_hulls(**{**QUICK, **values})
+    return hulls_of(bpy.context.active_object)
+
+
+def noted(obj):
+    return {hull["name"]: hull for hull in record_of(obj)["hulls"]["hulls"]}
+
+
+@pytest.fixture
+def built(suzanne):
+    """Return an object with parts and a hull around each."""
+    decompose_by_hand(suzanne, 3)
+    build(pieces="PARTS")
+    return suzanne
+
+
+def test_hulls_are_seen_through_and_the_parts_are_not(built):
+    hulls = hulls_of(built)
+    for hull in hulls:
+        seen, own = hull.material_slots[0].material, hull.data.materials[0]
+        assert seen.diffuse_color[3] < 0.5 < own.diffuse_color[3] == 1.0
+        assert tuple(seen.diffuse_color)[:3] == tuple(own.diffuse_color)[:3]
+        assert hull.color[3] < 0.5
+    n_materials = len(bpy.data.materials)
+    bpy.context.scene.wcd.look = "WIRE"
+    assert {hull.display_type for hull in hulls} == {"WIRE"}
+    assert len(bpy.data.materials) == n_materials - len(hulls)
+    bpy.ops.wcd.show_hulls(look="SOLID")
+    assert {hull.display_type for hull in hulls} == {"TEXTURED"}
+    assert all(hull.material_slots[0].link == "DATA" for hull in hulls)
+    bpy.context.scene.wcd.look = "TRANSPARENT"
+    assert len(bpy.data.materials) == n_materials
+
+
+def test_remove_hulls_leaves_parts_and_other_children(suzanne):
+    decompose_by_hand(suzanne, 3)
+    mine = bpy.data.objects.new("mine", None)
+    mine.parent = suzanne
+    bpy.context.collection.objects.link(mine)
+    before, objects = snapshot(suzanne), bpy.data.objects[:]
+    materials = bpy.data.materials[:]
+    build(pieces="PARTS")
+    bpy.ops.wcd.remove_hulls()
+    assert snapshot(suzanne) == before
+    assert bpy.data.objects[:] == objects
+    assert bpy.data.materials[:] == materials
+    assert not bpy.ops.wcd.remove_hulls.poll()
+
+
+def test_one_hull_is_removed(built):
+    names = list(noted(built))
+    bpy.ops.wcd.remove_hull(hull=names[1])
+    assert list(noted(built)) == [names[0], names[2]]
+    assert [hull.name for hull in hulls_of(built)] == [names[0], names[2]]
+    with pytest.raises(RuntimeError, match="has no hull nothing"):
+        bpy.ops.wcd.remove_hull(hull="nothing")
+    for name in (names[0], names[2]):
+        bpy.ops.wcd.remove_hull(hull=name)
+    assert "hulls" not in record_of(built)
+    assert "Suzanne hulls" not in bpy.data.collections
+
+
+@pytest.mark.parametrize("shape", ["BOX", "SPHERE", "CAPSULE"])
+def test_one_hull_gets_the_shape_that_it_would_have_been_built_with(suzanne, shape):
+    decompose_by_hand(suzanne, 3)
+    suzanne.scale = (1, 2, 1)
+    bpy.context.view_layer.update()
+    build(pieces="PARTS", shape=shape)
+    expected, ratio = noted(suzanne), record_of(suzanne)["hulls"]["volume_ratio"]
+    build(pieces="PARTS", shape="CYLINDER")
+    for name in list(noted(suzanne)):
+        bpy.ops.wcd.refit_hull(hull=name, shape=shape)
+    found = noted(suzanne)
+    by_part = {hull["part"]: hull for hull in found.values()}
+    for hull in expected.values():
+        other = by_part[hull["part"]]
+        assert (other["kind"], other["vertices"]) == (shape, hull["vertices"])
+        assert other["volume"] == pytest.approx(hull["volume"], rel=1e-4)
+        assert other["error"] == pytest.approx(hull["error"], rel=0.1)
+    assert record_of(suzanne)["hulls"]["volume_ratio"] == pytest.approx(ratio, rel=1e-3)
+    assert len(hulls_of(suzanne)) == 3
+
+
+def test_a_hull_comes_back_after_another_shape(built):
+    hull, *others = hulls_of(built)
+    before = [tuple(vertex.co) for vertex in hull.data.vertices]
+    meshes = [other.data for other in others]
+    name = hull.name
+    bpy.ops.wcd.refit_hull(hull=name, shape="SPHERE")
+    assert noted(built)[name]["kind"] == "SPHERE"
+    bpy.ops.wcd.refit_hull(hull=name, shape="HULL")
+    after = [tuple(vertex.co) for vertex in hulls_of(built)[0].data.vertices]
+    assert np.allclose(sorted(after), sorted(before), atol=1e-4)
+    assert [other.data for other in hulls_of(built)[1:]] == meshes
+
+
+def test_unreal_names_follow_the_shape(suzanne):
+    build(naming="UNREAL", max_hulls=1)
+    bpy.ops.wcd.refit_hull(hull="UCX_Suzanne_01", shape="BOX")
+    assert [hull.name for hull in hulls_of(suzanne)] == list(noted(suzanne))
+    assert hulls_of(suzanne)[0].name.startswith("UBX_")
+
+
+def test_each_part_may_have_a_shape_of_its_own(suzanne):
+    decompose_by_hand(suzanne, 3)
+    suzanne.wcd_parts[0].hull_shape = "BOX"
+    suzanne.wcd_parts[2].hull_shape = "SPHERE"
+    build(pieces="PARTS")
+    kinds = {hull["part"]: hull["kind"] for hull in noted(suzanne).values()}
+    assert kinds == {0: "BOX", 1: "HULL", 2: "SPHERE"}
+    bpy.ops.wcd.decompose(samples=100, parts=3)
+    assert "BOX" in {row.hull_shape for row in suzanne.wcd_parts}
+
+
+def test_boxes_have_six_quads(suzanne):
+    (hull,) = build(shape="BOX", max_hulls=1)
+    assert [len(face.vertices) for face in hull.data.polygons] == [4] * 6
+    middle = sum((v.co for v in hull.data.vertices), start=hull.data.vertices[0].co * 0)
+    for face in hull.data.polygons:
+        assert face.normal.dot(face.center - middle / 8) > 0

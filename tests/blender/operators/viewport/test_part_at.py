@@ -1,0 +1,110 @@
+"""Which part a ray in the world meets first."""
+
+import bpy
+import numpy as np
+import pytest
+from hand_made import activate, decompose_by_hand, in_mode
+from mathutils import Vector
+from weak_convex_decomposition.operators.viewport.part_at import part_along
+
+FRONT = Vector((0.0, 1.0, 0.0))
+
+
+@pytest.fixture
+def labels(suzanne):
+    """Four bands along x."""
+    return decompose_by_hand(suzanne, 4)
+
+
+def seen(x, z=0.0):
+    """Return the object and part that are seen at x from the front."""
+    bpy.context.view_layer.update()
+    areas = bpy.context.window_manager.windows[0].screen.areas
+    space = next(a for a in areas if a.type == "VIEW_3D").spaces.active
+    return part_along(bpy.context, space, Vector((x, -9.0, z)), FRONT)
+
+
+def expected(obj, labels, x, z=0.0):
+    """Return the label of the face that a ray meets, by Blender's own ray cast."""
+    hit, _, _, face = obj.ray_cast(Vector((x, -9.0, z)), FRONT)
+    assert hit
+    return labels[face]
+
+
+@pytest.fixture
+def window():
+    bpy.ops.wm.read_factory_settings(use_empty=False)
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_the_part_in_front_is_found(window, suzanne, labels, mode):
+    places = [-1.2, -0.1, 0.1, 1.2]
+    wanted = [int(expected(suzanne, labels, x, 0.25)) for x in places]
+    assert len(set(wanted)) == 4
+    in_mode(suzanne, mode)
+    assert [seen(x, 0.25) for x in places] == [(suzanne, number) for number in wanted]
+    assert seen(5.0) is None
+
+
+def test_modifiers_count(window, suzanne, labels):
+    array = suzanne.modifiers.new("Array", "ARRAY")
+    array.use_relative_offset, array.use_constant_offset = False, True
+    array.constant_offset_displace = (4.0, 0.0, 0.0)
+    suzanne.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    assert seen(4.1) == seen(0.1) == (suzanne, 2)
+
+
+def test_what_hides_a_part_hides_it(window, suzanne, labels):
+    assert seen(0.1) == (suzanne, 2)
+    bpy.ops.mesh.primitive_cube_add(location=(0, -3, 0))
+    cube = bpy.context.active_object
+    assert seen(0.1) is None
+    cube.display_type = "WIRE"
+    assert seen(0.1) == (suzanne, 2)
+    cube.display_type = "TEXTURED"
+    cube.hide_set(True)
+    assert seen(0.1) == (suzanne, 2)
+
+
+def test_another_object_than_the_active_one_is_found(window, suzanne, labels):
+    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
+    cube = bpy.context.active_object
+    assert seen(4.0) is None
+    decompose_by_hand(cube, 2)
+    assert seen(4.0)[0] == cube
+    assert seen(0.1)[0] == suzanne
+    activate(cube)
+    in_mode(cube, "EDIT")
+    assert seen(4.0)[0] == cube
+    assert seen(0.1) is None  # it is not edited
+
+
+def test_hidden_faces_are_seen_through_in_edit_mode_only(window, suzanne, labels):
+    suzanne.wcd_active_part = 0
+    in_mode(suzanne, "EDIT")
+    bpy.ops.wcd.isolate_parts()
+    assert seen(0.1) is None
+    assert seen(-1.2, 0.25) == (suzanne, 0)
+    in_mode(suzanne, "OBJECT")
+    assert seen(0.1) == (suzanne, 2)
+
+
+def test_isolated_parts_alone_are_found(window, suzanne, labels):
+    suzanne.wcd_active_part = 0
+    bpy.ops.wcd.isolate_parts()
+    assert seen(0.1) is None
+    assert seen(-1.2, 0.25) == (suzanne, 0)
+
+
+def test_the_mesh_is_read_again_when_it_changes(window, suzanne, labels):
+    assert seen(0.1) == (suzanne, 2)
+    decompose_by_hand(suzanne, 1)
+    assert seen(0.1) == (suzanne, 0)
+    for vertex in suzanne.data.vertices:
+        vertex.co += Vector((50.0, 0.0, 0.0))
+    suzanne.data.update()
+    assert seen(0.1) is None
+    assert seen(50.1) == (suzanne, 0)
+    assert np.ptp(labels) == 3

@@ -1,0 +1,210 @@
+"""Pick Parts: what hovering, clicks, keys and the wheel do, and that all ends clean."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from hand_made import decompose_by_hand
+from presses import Pressed, Window
+from snapshot import snapshot
+from weak_convex_decomposition.operators.viewport import pick_parts, picking
+
+
+class Viewport:
+    """A stand-in for a viewport in a window, with a part under the cursor or none."""
+
+    def __init__(self, monkeypatch):
+        self.under, self.header, self.window = None, None, Window()
+        self.region = SimpleNamespace(tag_redraw=lambda: None)
+        self.inside = True
+        monkeypatch.setattr(
+            pick_parts,
+            "viewport_at",
+            lambda _, x, y: (self.region, x, y) if self.inside else None,
+        )
+        monkeypatch.setattr(pick_parts, "part_at", lambda *_: self.under)
+        monkeypatch.setattr(picking, "show_header", self.show_header)
+        monkeypatch.setattr(
+            picking.modal, "show_status", lambda _, text: setattr(self, "status", text)
+        )
+        self.pressed = Pressed(pick_parts.WCD_OT_pick_parts)
+
+    def show_header(self, text):
+        self.header = text
+
+    def start(self):
+        answer = self.pressed.invoke(self.context, SimpleNamespace())
+        assert answer == {"RUNNING_MODAL"}
+
+    @property
+    def context(self):
+        return SimpleNamespace(
+            active_object=bpy.context.active_object,
+            window_manager=self.window,
+            workspace=SimpleNamespace(name="Layout"),
+            scene=bpy.context.scene,
+        )
+
+    def event(self, kind, value="PRESS", **keys):
+        keys = {"ctrl": False, "alt": False, "shift": False, "oskey": False, **keys}
+        event = SimpleNamespace(type=kind, value=value, mouse_x=5, mouse_y=6, **keys)
+        return self.pressed.modal(self.context, event)
+
+    def hover(self, obj, number):
+        self.under = None if obj is None else (obj, number)
+        assert self.event("MOUSEMOVE", "NOTHING") == {"PASS_THROUGH"}
+
+
+@pytest.fixture
+def viewport(monkeypatch, suzanne):
+    decompose_by_hand(suzanne, 4)
+    viewport = Viewport(monkeypatch)
+    viewport.start()
+    yield viewport
+    picking.stop()
+
+
+def rows(obj):
+    return obj.wcd_active_part, [row.chosen for row in obj.wcd_parts]
+
+
+def test_hovering_names_the_part_and_changes_nothing(viewport, suzanne):
+    before = snapshot(suzanne)
+    viewport.hover(suzanne, 2)
+    assert picking.current.row().name == "Part 03"
+    assert viewport.header == "Pick Parts  |  Part 03  |  Suzanne: 4 Parts"
+    viewport.hover(None, 0)
+    assert picking.current.row() is None
+    assert viewport.header == "Pick Parts  |  Suzanne: 4 Parts"
+    assert snapshot(suzanne) == before
+    assert viewport.event("ESC") == {"FINISHED"}
+    assert viewport.header is viewport.status is picking.current is None
+    assert snapshot(suzanne) == before
+
+
+def test_clicks_choose_and_add(viewport, suzanne):
+    viewport.hover(suzanne, 2)
+    assert viewport.event("LEFTMOUSE") == {"RUNNING_MODAL"}
+    assert rows(suzanne) == (2, [False] * 4)
+    viewport.hover(suzanne, 0)
+    viewport.event("LEFTMOUSE", shift=True)
+    assert rows(suzanne) == (0, [True, False, True, False])
+    viewport.event("LEFTMOUSE", shift=True)
+    assert rows(suzanne) == (2, [False] * 4)
+    viewport.hover(None, 0)
+    assert viewport.event("LEFTMOUSE") == {"RUNNING_MODAL"}
+    assert rows(suzanne) == (2, [False] * 4)
+
+
+def test_a_click_makes_another_object_active(viewport, suzanne):
+    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
+    cube = bpy.context.active_object
+    decompose_by_hand(cube, 2)
+    viewport.hover(suzanne, 3)
+    viewport.event("LEFTMOUSE")
+    assert bpy.context.active_object == suzanne
+    assert (suzanne.select_get(), cube.select_get()) == (True, False)
+    assert suzanne.wcd_active_part == 3
+
+
+def test_each_choice_is_one_undo_step(viewport, suzanne):
+    bpy.ops.ed.undo_push(message="before")
+    for number in (1, 2):
+        viewport.hover(bpy.context.active_object, number)
+        viewport.event("LEFTMOUSE")
+    for number in (1, 0):
+        bpy.ops.ed.undo()
+        assert bpy.context.active_object.wcd_active_part == number
+    viewport.hover(bpy.context.active_object, 3)  # picking goes on
+    assert picking.current.row().name == "Part 04"
+
+
+def test_what_is_not_ours_passes(viewport, suzanne):
+    viewport.hover(suzanne, 2)
+    for kind in ("MIDDLEMOUSE", "NUMPAD_1", "WHEELUPMOUSE", "TAB", "TIMER", "Z"):
+        assert viewport.event(kind) == {"PASS_THROUGH"}, kind
+    assert viewport.event("W", ctrl=True) == {"PASS_THROUGH"}
+    assert viewport.event("LEFTMOUSE", "RELEASE") == {"PASS_THROUGH"}
+    viewport.inside = False  # over the sidebar
+    for kind in ("LEFTMOUSE", "RIGHTMOUSE", "W", "PAGE_UP"):
+        assert viewport.event(kind) == {"PASS_THROUGH"}, kind
+    assert rows(suzanne) == (0, [False] * 4)
+
+
+def test_the_wheel_changes_the_number_of_parts(viewport, suzanne):
+    bpy.context.scene.wcd.samples = 100
+    assert viewport.event("WHEELUPMOUSE", alt=True) == {"RUNNING_MODAL"}
+    assert len(suzanne.wcd_parts) == 5
+    viewport.event("WHEELDOWNMOUSE", alt=True)
+    viewport.event("PAGE_DOWN")
+    assert len(suzanne.wcd_parts) == 3
+    assert bpy.context.scene.wcd.parts == 3
+
+
+def test_the_menu_acts_on_the_part_under_the_cursor(viewport, suzanne, monkeypatch):
+    opened = []
+    ops = SimpleNamespace(
+        wm=SimpleNamespace(call_menu_pie=lambda *_, name: opened.append(name)),
+        wcd=bpy.ops.wcd,
+    )
+    monkeypatch.setattr(pick_parts, "bpy", SimpleNamespace(ops=ops))
+    viewport.hover(suzanne, 1)
+    assert viewport.event("RIGHTMOUSE") == {"RUNNING_MODAL"}
+    assert not opened
+    assert viewport.event("RIGHTMOUSE", "RELEASE") == {"RUNNING_MODAL"}
+    assert rows(suzanne) == (1, [False] * 4)
+    viewport.hover(suzanne, 3)
+    viewport.event("LEFTMOUSE", shift=True)
+    assert viewport.event("W") == {"RUNNING_MODAL"}
+    assert rows(suzanne) == (3, [False, True, False, True])  # ticks stay
+    assert opened == ["WCD_MT_pick"] * 2
+    viewport.hover(None, 0)
+    viewport.event("RIGHTMOUSE")
+    assert viewport.event("RIGHTMOUSE", "RELEASE") == {"FINISHED"}
+    assert picking.current is None
+
+
+def test_merging_waits_for_the_next_click(viewport, suzanne):
+    viewport.hover(suzanne, 1)
+    viewport.event("LEFTMOUSE")
+    assert bpy.ops.wcd.merge_next() == {"FINISHED"}
+    assert viewport.event("ESC") == {"RUNNING_MODAL"}  # leaves the merge alone
+    bpy.ops.wcd.merge_next()
+    viewport.event("LEFTMOUSE")  # not with itself
+    assert len(suzanne.wcd_parts) == 4
+    viewport.hover(suzanne, 3)
+    viewport.event("LEFTMOUSE")
+    assert [row.name for row in suzanne.wcd_parts] == ["Part 01", "Part 02", "Part 03"]
+    assert not picking.current.merging
+
+
+def test_picking_ends_with_the_file_and_by_its_button(viewport, suzanne, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "parts.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "parts.blend"))
+    assert picking.current is None
+    assert viewport.header is None
+    assert viewport.event("MOUSEMOVE") == {"FINISHED", "PASS_THROUGH"}
+    viewport.start()
+    assert viewport.pressed.invoke(viewport.context, None) == {"FINISHED"}
+    assert picking.current is None
+
+
+def test_picking_needs_parts_and_a_viewport(suzanne):
+    with pytest.raises(RuntimeError, match="There is no 3D viewport here"):
+        bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")
+
+
+def test_parts_are_locked_and_renamed(suzanne):
+    decompose_by_hand(suzanne, 3)
+    suzanne.wcd_parts[0].locked = True
+    suzanne.wcd_parts[0].chosen = suzanne.wcd_parts[2].chosen = True
+    bpy.ops.wcd.lock_parts()
+    assert [row.locked for row in suzanne.wcd_parts] == [True, False, True]
+    bpy.ops.wcd.lock_parts()
+    assert not any(row.locked for row in suzanne.wcd_parts)
+    suzanne.wcd_active_part = 1
+    bpy.ops.wcd.rename_part(name=" Ear ")
+    assert suzanne.wcd_parts[1].name == "Ear"
+    assert "Ear" in suzanne.vertex_groups
+    bpy.ops.wcd.rename_part(name="Part 01")
+    assert suzanne.wcd_parts[1].name == "Ear"

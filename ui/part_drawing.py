@@ -1,0 +1,200 @@
+"""Draw parts over the viewports: the one under the cursor, chosen ones, and colors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import blf
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+from numpy.typing import NDArray
+
+from ..operators.bridge.parts.kept_materials import is_overlaid
+from ..operators.bridge.parts.palette import srgb_of
+from ..operators.bridge.parts.read import noted_identities
+from ..operators.bridge.parts.rows import chosen_numbers
+from ..operators.bridge.refusals import faces_refusal
+from ..operators.viewport import picking
+from ..operators.viewport.shown_parts import ShownParts, shown_parts
+
+# How opaque the colors of an overlay are: less in Edit Mode, where edges are seen.
+# And the tints of what is under the cursor and what is chosen.
+_OPAQUE = (0.65, 0.3)
+_HOVERED = (1.0, 1.0, 1.0, 0.14)
+_CHOSEN = (1.0, 1.0, 1.0, 0.1)
+# Widths of borders, in points at interface scale 1.
+_HOVERED_WIDTH = 2.5
+_CHOSEN_WIDTH = 2.0
+# How much nearer than its surface all this is drawn, as a share of the distance; a tint
+# is nearer than a color, and a border nearer than a tint.
+_NEARER = 4e-4
+# Distance of a name from the cursor, its margins and its size, at interface scale 1.
+_BESIDE, _MARGIN, _SIZE = 18, 6, 12
+
+# What takes the drawings off the viewports again.
+_handlers: list[Any] = []
+
+
+def register() -> None:
+    """Draw in each viewport from now on."""
+    for draw, when in ((_draw, "POST_VIEW"), (_draw_name, "POST_PIXEL")):
+        add = bpy.types.SpaceView3D.draw_handler_add
+        _handlers.append(add(draw, (), "WINDOW", when))
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    while _handlers:
+        bpy.types.SpaceView3D.draw_handler_remove(_handlers.pop(), "WINDOW")
+
+
+def _draw() -> None:
+    """Draw over a viewport."""
+    context = bpy.context
+    space = context.space_data
+    if not space.overlay.show_overlays:
+        return
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("LESS_EQUAL")
+    for obj in context.visible_objects:
+        shown = shown_parts(obj) if is_overlaid(obj) else None
+        if shown is not None and obj.visible_in_viewport_get(space):
+            opaque = _OPAQUE[obj.mode == "EDIT"]
+            for number, identity in noted_identities(obj).items():
+                _fill(obj, shown, number, (*srgb_of(identity.color), opaque), 1)
+    _draw_chosen(context)
+    _draw_hovered()
+    gpu.state.depth_test_set("NONE")
+    gpu.state.blend_set("NONE")
+
+
+def _draw_chosen(context: bpy.types.Context) -> None:
+    """Draw the border of the chosen parts, while parts are picked or highlighted."""
+    obj = context.active_object
+    if picking.current is None and not context.scene.wcd.highlight:
+        return
+    if (
+        obj is None
+        or faces_refusal(obj)
+        or not obj.visible_in_viewport_get(context.space_data)
+    ):
+        return
+    shown = shown_parts(obj)
+    if shown is None:
+        return
+    color = context.preferences.themes[0].view_3d.object_active
+    for number in chosen_numbers(obj):
+        _fill(obj, shown, number, _CHOSEN, 2)
+        _outline(obj, shown, number, (*color, 1.0), _CHOSEN_WIDTH)
+
+
+def _draw_hovered() -> None:
+    """Draw the part under the cursor."""
+    picked = picking.current
+    obj = None if picked is None else picked.object()
+    shown = None if obj is None else shown_parts(obj)
+    if picked is not None and shown is not None:
+        number = picked.number
+        _fill(obj, shown, number, _HOVERED, 3)
+        _outline(obj, shown, number, (1.0, 1.0, 1.0, 1.0), _HOVERED_WIDTH)
+
+
+def _fill(
+    obj: bpy.types.Object,
+    shown: ShownParts,
+    number: int,
+    color: tuple[float, ...],
+    layer: int,
+) -> None:
+    """Tint the faces of a part."""
+    key = "faces", number
+    if key not in shown.kept:
+        shown.kept[key] = _batch("UNIFORM_COLOR", "TRIS", shown.triangles_of(number))
+    shader, batch = shown.kept[key]
+    shader.bind()
+    shader.uniform_float("color", color)
+    _draw_nearer(obj, shader, batch, layer)
+
+
+def _outline(
+    obj: bpy.types.Object,
+    shown: ShownParts,
+    number: int,
+    color: tuple[float, ...],
+    width: float,
+) -> None:
+    """Draw the edges around a part."""
+    key = "border", number
+    if key not in shown.kept:
+        places = shown.border_of(number)
+        shown.kept[key] = _batch("POLYLINE_UNIFORM_COLOR", "LINES", places)
+    shader, batch = shown.kept[key]
+    shader.bind()
+    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+    shader.uniform_float("lineWidth", width * bpy.context.preferences.system.ui_scale)
+    shader.uniform_float("color", color)
+    _draw_nearer(obj, shader, batch, 4)
+
+
+def _batch(name: str, kind: str, places: NDArray[np.float32]) -> tuple[Any, Any]:
+    """Return a shader of Blender's, and a batch for it; None if there is no place."""
+    shader = gpu.shader.from_builtin(name)
+    # `batch_for_shader` takes no empty arrays.
+    return shader, batch_for_shader(shader, kind, {"pos": places}) if len(
+        places
+    ) else None
+
+
+def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> None:
+    """Draw in the space of an object, a little before its surface."""
+    if batch is None:
+        return
+    view = bpy.context.region_data
+    projection = gpu.matrix.get_projection_matrix()
+    nearer = _NEARER * layer
+    if view.is_perspective:
+        projection[2][3] *= 1.0 + nearer
+    else:
+        projection[2][3] += projection[2][2] * nearer * view.view_distance
+    with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+        gpu.matrix.load_projection_matrix(projection)
+        gpu.matrix.multiply_matrix(obj.matrix_world)
+        batch.draw(shader)
+
+
+def _draw_name() -> None:
+    """Draw the name of the part under the cursor beside it."""
+    picked, region = picking.current, bpy.context.region
+    row = None if picked is None else picked.row()
+    if picked is None or row is None:
+        return
+    x, y = picked.place[0] - region.x, picked.place[1] - region.y
+    if not (0 <= x < region.width and 0 <= y < region.height):
+        return
+    scale = bpy.context.preferences.system.ui_scale
+    colors = bpy.context.preferences.themes[0].user_interface.wcol_tooltip
+    blf.size(0, _SIZE * scale)
+    width, height = blf.dimensions(0, row.name)
+    margin, beside = _MARGIN * scale, _BESIDE * scale
+    left = min(x + beside, region.width - width - 2 * margin)
+    low = max(y - beside - height, 0)
+    _rectangle(left, low, width + 2 * margin, height + 2 * margin, colors.inner)
+    blf.color(0, *colors.text[:3], 1.0)
+    blf.position(0, left + margin, low + margin, 0)
+    blf.draw(0, row.name)
+
+
+def _rectangle(
+    left: float, low: float, width: float, height: float, color: Any
+) -> None:
+    """Draw a rectangle in pixels."""
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    corners = [(left, low), (left + width, low), (left + width, low + height)]
+    corners += [corners[0], corners[2], (left, low + height)]
+    gpu.state.blend_set("ALPHA")
+    shader.bind()
+    shader.uniform_float("color", (*color[:3], 0.9))
+    batch_for_shader(shader, "TRIS", {"pos": corners}).draw(shader)
+    gpu.state.blend_set("NONE")
