@@ -29,7 +29,7 @@ class Search(NamedTuple):
         The chosen parts, with their seams cut.
     psi_by_k : dict of int to float
         Psi of one part, and of each k tried for which k parts were found, before seams
-        are cut.
+        are cut, counted from lines of sight alone.
     best_k : int
         The number of parts that the search chooses.
     """
@@ -98,7 +98,7 @@ class PartCountSearch:
             others = [] if like else even
             best_k = (yield from within(steps, 0.9, 1.0)) or min(others, default=best_k)
         seams = yield from self._seams.cut(tried[best_k].parts)
-        return Search(seams, psi_by_k, best_k)
+        return Search(seams, self._psi_of_sight(tried), best_k)
 
     def given(self, n_parts: int) -> Steps[Search]:
         """Return `n_parts` parts, with the psi of other numbers for comparison.
@@ -121,8 +121,13 @@ class PartCountSearch:
             tried = yield from within(self._with_more(tried, n_parts), 0.7, 0.8)
         made = min(n_parts, max(tried))
         seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 1.0)
-        psi_by_k = dict(sorted(({made: tried[made].psi} | searched.psi_by_k).items()))
-        return Search(seams, psi_by_k, searched.best_k)
+        psi_by_k = self._psi_of_sight({made: tried[made]}) | searched.psi_by_k
+        return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
+
+    def _psi_of_sight(self, tried: dict[int, Candidate]) -> dict[int, float]:
+        """Return psi of candidates by lines of sight alone (eq. 5)."""
+        seen = self._partitioner.psi_seen
+        return {k: seen(candidate.parts) for k, candidate in tried.items()}
 
     def _first_like_clusters(
         self, tried: dict[int, Candidate], numbers: Sequence[int]

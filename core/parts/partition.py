@@ -62,16 +62,7 @@ class Partitioner:
         self._of_clusters = memo.clusters(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
-        """Return `n_parts` parts and their psi; fewer parts if no more are possible.
-
-        Parameters
-        ----------
-        n_parts : int
-
-        Returns
-        -------
-        Candidate
-        """
+        """Return `n_parts` parts and their psi; fewer parts if no more are possible."""
 
         def make() -> Candidate:
             parts = self.partition(n_parts)
@@ -137,16 +128,22 @@ class Partitioner:
         return self._pieces(side.copied(parts, self.graph))
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
-        """Count visible and known pairs of samples by parts (P,) of the nodes."""
+        """Count likely and known pairs of samples by parts (P,) of the nodes."""
         labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
         return self._memo.tallies.recall(
             (digest(labels), n_parts),
-            lambda: self.visibility.psi_pairs.tally(labels, n_parts),
+            lambda: self.visibility.likely_pairs.tally(labels, n_parts),
         )
 
     def psi(self, parts: NDArray[np.int64]) -> float:
-        """Return psi (eq. 5) of parts (P,) of the nodes."""
+        """Return psi (eq. 5) of parts (P,) of the nodes, from likely pairs."""
         return self.tally(parts).psi(self.parameters.alpha)
+
+    def psi_seen(self, parts: NDArray[np.int64]) -> float:
+        """Return psi (eq. 5) of parts (P,) of the nodes, from lines of sight alone."""
+        labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
+        tally = self.visibility.psi_pairs.tally(labels, n_parts)
+        return tally.psi(self.parameters.alpha)
 
     def psi_of_clusters(self, n_clusters: int) -> float:
         """Return psi of the clusters of k-means, which need not be connected."""
@@ -172,7 +169,7 @@ class Partitioner:
         raised = self._memo.moves.recall(
             (digest(labels), self.parameters.alpha),
             lambda: raise_psi(
-                self.visibility.psi_pairs, labels, n_clusters, self.parameters.alpha
+                self.visibility.likely_pairs, labels, n_clusters, self.parameters.alpha
             ),
         )
         parts = self.tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)

@@ -118,7 +118,7 @@ class SeamCutter:
         partitioner = self._partitioner
         if not partitioner.by_psi:
             return distances_to_parts(partitioner.embedding(n_labels), labels, n_labels)
-        gains = MoveGains(partitioner.visibility.psi_pairs, labels, n_labels).of(
+        gains = MoveGains(partitioner.visibility.likely_pairs, labels, n_labels).of(
             slice(None), partitioner.parameters.alpha
         )
         return gains.max(axis=1, keepdims=True) - gains

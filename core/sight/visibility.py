@@ -15,6 +15,7 @@ from .all_pairs import see_all_pairs, see_uniform_pairs
 from .blocks import see_blocks
 from .cone import see_cones
 from .containers import see_through_containers
+from .likely_pairs import likely_pairs
 from .lines import RayBudget
 from .pair_visibility import Matrix, PairVisibility
 from .prepared import PreparedShape
@@ -62,6 +63,8 @@ class Visibility:
         LoS matrix M (eq. 3), also through containers. The embedding comes from it.
     psi_pairs : PairVisibility
         Pairs that psi is counted from (eq. 5), also through containers.
+    likely_pairs : PairVisibility
+        How likely pairs lie in one part, or `psi_pairs`. Parts are found from it.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1), through the inside only.
     nodes : (N,) int
@@ -72,6 +75,7 @@ class Visibility:
     samples: Samples
     affinity: Matrix
     psi_pairs: PairVisibility
+    likely_pairs: PairVisibility
     rank_pairs: PairVisibility
     nodes: NDArray[np.int64]
 
@@ -153,6 +157,15 @@ def _for_size(shape: PreparedShape, parameters: Parameters) -> Parameters:
     return replace(parameters, samples=min(parameters.samples, few))
 
 
+def _is_fine(shape: PreparedShape) -> bool:
+    """Return whether a shape is a mesh of so many triangles that seams run anywhere.
+
+    All samples of a large face are likely in one part, and it would be one of its own.
+    """
+    solid = shape.solid is not None and shape.plane is None
+    return solid and len(shape.targets.triangles) >= _FEW_TRIANGLES
+
+
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
     """Compute the visibility of a shape: the expensive half of a decomposition.
 
@@ -180,13 +193,18 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
         affinity, psi = yield from within(
             see_through_containers(shape.marcher, sight.samples, affinity, psi),
             0.9,
-            1.0,
+            0.95,
         )
+    likely = psi
+    if _is_fine(shape):
+        guesses = likely_pairs(psi, sight.samples.positions)
+        likely = yield from within(guesses, 0.95, 1.0)
     return Visibility(
         shape,
         sight.samples,
         affinity.visible,
         psi,
+        likely,
         sight.rank_pairs,
         shape.targets.polygons[sight.samples.triangles],
     )

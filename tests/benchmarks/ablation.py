@@ -28,6 +28,7 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import preset
 from weak_convex_decomposition.core.parts import part_count, part_memo, partition
 from weak_convex_decomposition.core.sight import visibility
+from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 from weak_convex_decomposition.core.sight.prepared import PreparedShape
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
@@ -37,6 +38,12 @@ def of_equal_length(embedding: np.ndarray) -> np.ndarray:
     """Return the embedding with eigenvectors that are not scaled by eigenvalues."""
     lengths = np.linalg.norm(embedding, axis=0)
     return embedding / lengths * np.sqrt(len(embedding))
+
+
+def by_sight_alone(pairs: PairVisibility, _positions: np.ndarray) -> Iterator[None]:
+    """Return, as steps, lines of sight in place of likely pairs."""
+    yield from ()
+    return pairs
 
 
 def no_sides(*_: object) -> Iterator[None]:
@@ -56,6 +63,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "containers hollow": {"containers": "HOLLOW"},
     "balance alpha = 1": {"alpha": 1.0},
     "eigenvectors of equal length": {},
+    "no likely pairs": {},
     "no psi-raising moves": {},
     "no psi in moves and seams": {"refinement": "EMBEDDING"},
     "no graph cut": {"smoothness": 0.0},
@@ -70,6 +78,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
     "eigenvectors of equal length": [
         (part_memo, "embed", lambda *given: of_equal_length(embed(*given)))
     ],
+    "no likely pairs": [(visibility, "likely_pairs", by_sight_alone)],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],
