@@ -177,8 +177,7 @@ def build_hulls_of(
 ) -> Steps[HullDecomposition]:
     """Return the steps that build hulls around an object or its parts.
 
-    An object without parts is first decomposed if each part is to get one shape. These
-    parts are not written to the object.
+    An object without parts is first decomposed if each part is to get one shape.
 
     Parameters
     ----------
@@ -205,8 +204,7 @@ def build_hulls_of(
         labels = labels[seen.origins] if seen.corresponds else None
     kinds = hull_shapes(obj) if labels is not None else {}
     rest = parameters.seed, scene_unit(obj), kinds
-    ready = labels is not None or hull_parameters.pieces != "PARTS"
-    if processes and ready:
+    if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
         given = shape, hull_parameters, core.ShapeCache(core.no_rays), labels, *rest
         return with_libraries(notes, processes.steps(core.build_hulls_in_steps, *given))
 
