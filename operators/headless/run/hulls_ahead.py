@@ -83,4 +83,4 @@ class HullsAhead:
         """Return the steps that build the hulls of an object."""
         parameters = self._request.parameters
         wanted = self._request.hull_parameters
-        return build_hulls_of(obj, parameters, wanted, self._processes)
+        return build_hulls_of(obj, parameters, wanted, processes=self._processes)

@@ -1,4 +1,4 @@
-"""Hulls of many objects are built in several processes: the same files, no leftovers."""
+"""Hulls of many objects are built in several processes: same files, no leftovers."""
 
 import os
 import signal
