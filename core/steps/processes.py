@@ -54,6 +54,7 @@ def serve() -> None:
     with contextlib.suppress(EOFError, BrokenPipeError):
         while True:
             compute, arguments = pickle.load(calls)
+            answer: tuple[Any, str | None]
             try:
                 answer = run(compute(*arguments)), None
             except DecompositionError as error:
