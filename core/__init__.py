@@ -11,6 +11,7 @@ from .errors import missing_library
 
 if TYPE_CHECKING:
     from .cache import ShapeCache as ShapeCache
+    from .cache import no_rays as no_rays
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
     from .geometry.cutting.pieces import labels_of_pieces as labels_of_pieces
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "ShapeCache": "cache",
+    "no_rays": "cache",
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
     "labels_of_pieces": "geometry.cutting.pieces",

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import fields
+from typing import NoReturn
 
+from .geometry.mesh import TriangleMesh
 from .geometry.shape import Shape, content_key
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
@@ -14,6 +16,16 @@ from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_march import MakeCaster
 from .sight.visibility import see_in_steps
 from .steps.progress import Steps
+
+
+def no_rays(_: TriangleMesh) -> NoReturn:
+    """Make no ray caster: for computations that need none, as hulls by error.
+
+    Raises
+    ------
+    RuntimeError
+    """
+    raise RuntimeError("there is no ray caster in this process")
 
 
 class ShapeCache:

@@ -16,7 +16,8 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 # Options of the command line that are no parameters; `--command` is Blender's.
 OWN_OPTIONS = {
     *("apply_modifiers", "command", "help", "hulls", "hulls_format", "output"),
-    *("picture", "preset", "quiet", "report", "up", "version", "with_hulls"),
+    *("picture", "preset", "processes", "quiet", "report", "up", "version"),
+    "with_hulls",
 }
 
 

@@ -14,6 +14,8 @@ from ..mesh.attributes import write_floats, write_ints
 
 # Triangle and distance of a ray that hits nothing.
 _MISS = (-1, np.inf)
+# Up to this many triangles, their numbers are handed to Blender as Python objects.
+_FEW_TRIANGLES = 5_000
 
 
 class BvhRayCaster:
@@ -75,10 +77,18 @@ class BvhRayCaster:
 def _tree_of(mesh: TriangleMesh) -> BVHTree:
     """Return the tree of a mesh.
 
-    `FromPolygons` gives the same tree, but reads a Python object for each number: 1.5
-    instead of 0.6 s for a million triangles, and twice the memory. `FromObject` needs a
-    mesh and an object in the file, which are removed at once.
+    Both ways give the same tree. `FromPolygons` reads a Python object for each number:
+    1.5 instead of 0.6 s for a million triangles, and twice the memory. `FromObject`
+    needs an object in the file, and so one look at all objects there are.
     """
+    if len(mesh.triangles) <= _FEW_TRIANGLES:
+        corners, triangles = mesh.vertices.tolist(), mesh.triangles.tolist()
+        return BVHTree.FromPolygons(corners, triangles, all_triangles=True)
+    return _tree_of_object(mesh)
+
+
+def _tree_of_object(mesh: TriangleMesh) -> BVHTree:
+    """Return the tree of a mesh by an object in the file, which is removed at once."""
     n_triangles = len(mesh.triangles)
     data = bpy.data.meshes.new("Ray tree")
     obj = bpy.data.objects.new("Ray tree", data)

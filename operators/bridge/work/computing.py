@@ -17,6 +17,7 @@ from ....core.geometry.shape import Shape
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition, HullDecomposition, Measurement, Picture
+from ....core.steps.processes import Processes
 from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
@@ -172,11 +173,11 @@ def build_hulls_of(
     parameters: Parameters,
     hull_parameters: HullParameters,
     seen: SeenMesh | None = None,
+    processes: Processes | None = None,
 ) -> Steps[HullDecomposition]:
     """Return the steps that build hulls around an object or its parts.
 
-    An object without parts is first decomposed if each part is to get one shape. These
-    parts are not written to the object.
+    An object without parts is first decomposed if each part is to get one shape.
 
     Parameters
     ----------
@@ -186,6 +187,8 @@ def build_hulls_of(
     hull_parameters : HullParameters
     seen : SeenMesh, optional
         The mesh as it is seen, to be used in place of the object's own.
+    processes : Processes, optional
+        Where hulls are built at once, if no parts have to be found for them.
 
     Raises
     ------
@@ -199,8 +202,11 @@ def build_hulls_of(
     (notes, shape), labels = _read(obj, seen), part_labels(obj)
     if seen is not None and labels is not None:
         labels = labels[seen.origins] if seen.corresponds else None
-    unit = scene_unit(obj)
     kinds = hull_shapes(obj) if labels is not None else {}
+    rest = parameters.seed, scene_unit(obj), kinds
+    if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
+        given = shape, hull_parameters, core.ShapeCache(core.no_rays), labels, *rest
+        return with_libraries(notes, processes.steps(core.build_hulls_in_steps, *given))
 
     def work() -> Steps[HullDecomposition]:
         cache, known, start = session_cache(), labels, 0.0
@@ -208,9 +214,7 @@ def build_hulls_of(
             start = 0.4
             parts = core.decompose_in_steps(shape, parameters, cache)
             known = (yield from within(parts, 0.0, start)).labels
-        steps = core.build_hulls_in_steps(
-            shape, hull_parameters, cache, known, parameters.seed, unit, kinds
-        )
+        steps = core.build_hulls_in_steps(shape, hull_parameters, cache, known, *rest)
         return (yield from within(steps, start, 1.0))
 
     return with_libraries(notes, work())

@@ -13,6 +13,7 @@ from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parameter import info_of
 from ....core.parameters.parts import Parameters
 from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
+from ....core.steps.processes import available
 from ...bridge.stored.notes import version
 from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS
 from .help_text import DESCRIPTION, EPILOG
@@ -49,6 +50,8 @@ class Request:
     with_hulls : bool
         Put hulls into the model that is written, too.
     quiet : bool
+    processes : int
+        Most processes that build hulls at once.
     parameters : Parameters
     hull_parameters : HullParameters
     body_parameters : BodyParameters
@@ -61,6 +64,7 @@ class Request:
     apply_modifiers: bool
     with_hulls: bool
     quiet: bool
+    processes: int
     parameters: Parameters
     hull_parameters: HullParameters
     body_parameters: BodyParameters
@@ -101,6 +105,7 @@ def parse(arguments: list[str], program: str) -> Request:
             apply_modifiers=options.apply_modifiers,
             with_hulls=options.with_hulls,
             quiet=options.quiet,
+            processes=max(options.processes, 1),
             parameters=chosen.parameters(**_given(options, Parameters)),
             hull_parameters=HullParameters(**_given(options, HullParameters)),
             body_parameters=BodyParameters(**_given(options, BodyParameters)),
@@ -221,6 +226,14 @@ def _add_general(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("general")
     group.add_argument(
         "--quiet", action="store_true", help="print warnings and errors only"
+    )
+    group.add_argument(
+        "--processes",
+        metavar="COUNT",
+        type=int,
+        default=available(),
+        help="build the hulls of so many objects at once, if a file has many (default:"
+        " as many as there are processors, 8 at most)",
     )
     group.add_argument(
         "--version",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,9 +17,10 @@ from ...bridge.hulls.hull_objects import write_hulls
 from ...bridge.hulls.placed import placed
 from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
-from ...bridge.work.computing import build_hulls_of, hull_summary
+from ...bridge.work.computing import hull_summary
 from ..request.options import Request
 from ..screen import Screen, progress_title
+from .hulls_ahead import HullsAhead
 from .results import ObjectResult
 
 
@@ -36,20 +38,39 @@ def build_hulls(
     results : tuple of ObjectResult
         With the hulls, or the error, of each object.
     """
-    with_hulls = [result.record is not None for result in results]
-    n_objects, n_begun = sum(with_hulls), 0
+    asked = [
+        obj
+        for obj, result in zip(objects, results, strict=True)
+        if result.record is not None
+    ]
+    with closing(HullsAhead(asked, request)) as ahead:
+        hulls, told = _build_each(objects, results, request, screen, ahead)
+    _show(hulls)
+    return hulls, told
+
+
+def _build_each(
+    objects: Sequence[bpy.types.Object],
+    results: Sequence[ObjectResult],
+    request: Request,
+    screen: Screen,
+    ahead: HullsAhead,
+) -> tuple[list[bpy.types.Object], tuple[ObjectResult, ...]]:
+    """Build the hulls of one object after the other."""
+    n_objects, n_begun = sum(result.record is not None for result in results), 0
     known: dict[bpy.types.ID, list[_Built]] = {}
     hulls: list[bpy.types.Object] = []
     told = []
-    for obj, result, is_asked in zip(objects, results, with_hulls, strict=True):
-        if not is_asked:
+    for obj, result in zip(objects, results, strict=True):
+        if result.record is None:
             told.append(result)
             continue
         started = time.perf_counter()
         n_begun += 1
         try:
             built = known.setdefault(obj.data, [])
-            new, figures = _hulls_of(obj, built, request, screen, (n_begun, n_objects))
+            place = n_begun, n_objects
+            new, figures = _hulls_of(obj, built, request, screen, place, ahead)
             hulls += new
             result = replace(result, record=record_of(obj), hulls=figures)
         except DecompositionError as error:
@@ -57,7 +78,6 @@ def build_hulls(
             result = replace(result, error=str(error))
         seconds = result.seconds + time.perf_counter() - started
         told.append(replace(result, seconds=seconds))
-    _show(hulls)
     return hulls, tuple(told)
 
 
@@ -97,6 +117,7 @@ def _hulls_of(
     request: Request,
     screen: Screen,
     place: tuple[int, int],
+    ahead: HullsAhead,
 ) -> tuple[list[bpy.types.Object], tuple[dict[str, Any], ...]]:
     """Build the hulls of one object and show its result; return figures, too.
 
@@ -106,8 +127,7 @@ def _hulls_of(
     title, parameters = _title(obj), request.hull_parameters
     built = next((each for each in known if _serves(each, obj, parameters)), None)
     if built is None:
-        steps = build_hulls_of(obj, request.parameters, parameters)
-        found = screen.follow(progress_title(title, *place), steps)
+        found = screen.follow(progress_title(title, *place), ahead.steps_of(obj))
         for note in found.notes:
             screen.warning(f"{title}: {note}")
     else:

@@ -82,7 +82,8 @@ class Stages:
         try:
             yield
         finally:
-            self._add(name, started)
+            self.stages[name].seconds += self._clock() - started
+            self._ends(name)
 
     def watched(self, steps: Steps[T]) -> Steps[T]:
         """Run `steps`; count the time after each report to the stage it names.
@@ -105,15 +106,16 @@ class Stages:
                     value: T = stop.value
                     return value
                 finally:
-                    self._add(name, started)
+                    self.stages[name].seconds += self._clock() - started
                 yield progress
-                name = STAGE_OF.get(progress.stage, "hulls")
+                if (next_name := STAGE_OF.get(progress.stage, "hulls")) != name:
+                    self._ends(name)
+                    name = next_name
                 started = self._clock()
         finally:
             steps.close()
+            self._ends(name)
 
-    def _add(self, name: str, started: float) -> None:
-        """Add the time since `started` to a stage."""
-        stage = self.stages[name]
-        stage.seconds += self._clock() - started
-        stage.peak_memory = peak_memory()
+    def _ends(self, name: str) -> None:
+        """Note the memory at the end of a stage; the system is slow to tell it."""
+        self.stages[name].peak_memory = peak_memory()

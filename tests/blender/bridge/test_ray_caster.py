@@ -2,6 +2,7 @@ import bpy
 import numpy as np
 import pytest
 from brute_caster import BruteCaster
+from weak_convex_decomposition.operators.bridge.rays import bvh
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.rays.choice import choose_ray_caster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
@@ -9,9 +10,11 @@ from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 PRECISION = 1e-5  # casters work in single precision, the shapes have size 2
 
 
-@pytest.fixture(params=["bvh", "embree"])
-def make_caster(request):
-    if request.param == "bvh":
+@pytest.fixture(params=["bvh", "bvh of many triangles", "embree"])
+def make_caster(request, monkeypatch):
+    if request.param != "embree":
+        if request.param != "bvh":
+            monkeypatch.setattr(bvh, "_FEW_TRIANGLES", 0)
         return BvhRayCaster
     pytest.importorskip("embreex")
     from weak_convex_decomposition.operators.bridge.rays.embree import EmbreeRayCaster

@@ -1,0 +1,181 @@
+"""Run computations in other processes of Python, which know nothing of Blender.
+
+Threads would wait for each other: Python runs one at a time. The processes are plain
+Python with this package and its libraries; Blender is in none of them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from ..errors import DecompositionError
+from .progress import Progress, Steps, T, run
+
+# More processes hardly help: one process writes what the others compute.
+_MOST = 8
+# Time between two reports of progress.
+_SECONDS = 0.05
+_PACKAGE = __name__.rpartition(".core.")[0]
+_ROOT = str(Path(__file__).resolve().parents[2])
+# What a process does. Inside Blender, the package is below others that Blender makes.
+_PROGRAM = """
+import pickle, signal, sys, types
+from importlib.util import module_from_spec, spec_from_file_location
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+sys.path[:], name, root = pickle.load(sys.stdin.buffer)
+above = name.split(".")[:-1]
+for n in range(len(above)):
+    outer = types.ModuleType(".".join(above[: n + 1]))
+    outer.__path__ = []
+    sys.modules[outer.__name__] = outer
+spec = spec_from_file_location(
+    name, root + "/__init__.py", submodule_search_locations=[root]
+)
+sys.modules[name] = package = module_from_spec(spec)
+spec.loader.exec_module(package)
+__import__(name + ".core.steps.processes", fromlist=["serve"]).serve()
+"""
+
+
+def serve() -> None:
+    """Answer the calls that come from standard input, until it ends."""
+    calls, answers = sys.stdin.buffer, sys.stdout.buffer
+    sys.stdout = sys.stderr  # nothing else is to be written among the answers
+    with contextlib.suppress(EOFError, BrokenPipeError):
+        while True:
+            compute, arguments = pickle.load(calls)
+            answer: tuple[Any, str | None]
+            try:
+                answer = run(compute(*arguments)), None
+            except DecompositionError as error:
+                answer = None, str(error)
+            pickle.dump(answer, answers, pickle.HIGHEST_PROTOCOL)
+            answers.flush()
+
+
+def available() -> int:
+    """Return how many processes keep the processors busy that this one may use."""
+    if hasattr(os, "sched_getaffinity"):  # not on macOS and Windows
+        return min(len(os.sched_getaffinity(0)), _MOST)
+    return min(os.cpu_count() or 1, _MOST)
+
+
+class Processes:
+    """Processes that compute one thing each at a time.
+
+    Each starts when it is needed first. Where one cannot start, or ends for want of
+    memory, this process computes.
+
+    Parameters
+    ----------
+    count : int
+        Number of processes.
+    """
+
+    def __init__(self, count: int) -> None:
+        self._threads = ThreadPoolExecutor(count)  # they wait for answers
+        self._starting = threading.Lock()
+        self._started: list[subprocess.Popen[bytes]] = []
+        self._left = count  # how many may still be started
+        self._idle: queue.SimpleQueue[subprocess.Popen[bytes]] = queue.SimpleQueue()
+
+    def steps(self, compute: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
+        """Start a computation at once; return steps that wait for its value.
+
+        Parameters
+        ----------
+        compute : callable
+            A function of a module in the core; returns steps.
+        *arguments
+            What can be pickled.
+
+        Returns
+        -------
+        Steps
+
+        Raises
+        ------
+        DecompositionError
+            By the steps, if the computation raises it.
+        """
+        answer = self._threads.submit(self._answer, compute, arguments)
+        return _waiting(answer, compute, arguments)
+
+    def close(self) -> None:
+        """End all processes, whatever they do."""
+        with self._starting:
+            self._left = 0
+        for process in self._started:
+            process.kill()
+        self._threads.shutdown(cancel_futures=True)
+        for process in self._started:
+            process.communicate()
+
+    def _answer(self, compute: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+        """Return the value and the error of a computation, None without an answer."""
+        try:
+            process = self._free()
+            assert process.stdin is not None
+            assert process.stdout is not None
+            pickle.dump((compute, arguments), process.stdin, pickle.HIGHEST_PROTOCOL)
+            process.stdin.flush()
+            answer = pickle.load(process.stdout)
+        except (OSError, EOFError, queue.Empty, pickle.UnpicklingError):
+            return None
+        self._idle.put(process)
+        return answer
+
+    def _free(self) -> subprocess.Popen[bytes]:
+        """Return a process that is idle, or a new one; there is one for each thread."""
+        with contextlib.suppress(queue.Empty):
+            return self._idle.get_nowait()
+        with self._starting:
+            if self._left == 0:
+                raise queue.Empty
+            self._left -= 1
+            process = _start()
+            self._started.append(process)
+        assert process.stdin is not None
+        pickle.dump((sys.path, _PACKAGE, _ROOT), process.stdin)
+        return process
+
+
+def _start() -> subprocess.Popen[bytes]:
+    """Start a process."""
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+    return subprocess.Popen(
+        [sys.executable or "", "-c", _PROGRAM],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, **dict.fromkeys(names, "1")},
+        start_new_session=True,  # Ctrl-C is for this process, which ends the others
+    )
+
+
+def _waiting(
+    answer: Future[Any], compute: Callable[..., Steps[T]], arguments: tuple[Any, ...]
+) -> Steps[T]:
+    """Wait for the answer to a call; compute here if there is none."""
+    while not answer.done():
+        yield Progress("Hulls", 0.0)
+        with contextlib.suppress(TimeoutError):
+            answer.exception(_SECONDS)
+    found = answer.result()
+    if found is None:
+        return (yield from compute(*arguments))
+    value, error = found
+    if error is not None:
+        raise DecompositionError(error)
+    result: T = value
+    return result

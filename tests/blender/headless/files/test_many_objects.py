@@ -1,0 +1,84 @@
+"""Hulls of many objects are built in several processes: same files, no leftovers."""
+
+import os
+import signal
+
+import bpy
+import pytest
+from headless.command import QUICK
+from weak_convex_decomposition.core.steps import processes
+from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.run import hulls_ahead
+
+
+@pytest.fixture
+def model(tmp_path):
+    """Return a file of four tori, the last with the mesh of the first, and a plane."""
+    for place in range(3):
+        bpy.ops.mesh.primitive_torus_add(
+            major_segments=8, minor_segments=4, minor_radius=0.2 + 0.1 * place
+        )
+        bpy.context.object.location = (3 * place, 0, 0)
+    torus = bpy.data.objects["Torus"].copy()
+    torus.location, torus.scale = (0, 5, 0), (1, 2, 1)
+    bpy.context.collection.objects.link(torus)
+    bpy.ops.mesh.primitive_plane_add()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"), copy=True)
+    return tmp_path / "in.blend"
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """Start processes at once; return those that were started."""
+    monkeypatch.setattr(hulls_ahead, "_PATIENCE", 0.0)
+    found, start = [], processes._start
+
+    def starting():
+        found.append(start())
+        return found[-1]
+
+    monkeypatch.setattr(processes, "_start", starting)
+    return found
+
+
+def build(model, name, *options):
+    """Build hulls; return the status and the file."""
+    file = model.with_name(name)
+    status = main([str(model), "--hulls", str(file), *QUICK, *options])
+    return status, file
+
+
+@pytest.mark.parametrize("options", [(), ("--pieces=PARTS", "--output={name}-p.blend")])
+def test_the_files_are_the_same(model, started, capsys, options):
+    words = [word.replace("{name}", str(model.with_suffix(""))) for word in options]
+    status, one = build(model, "one.obj", *words, "--processes=1")
+    assert status == 0
+    assert not started
+    told = capsys.readouterr().out
+    status, two = build(model, "two.obj", *words, "--processes=2")
+    assert status == 0
+    assert len(started) == 2
+    assert one.read_bytes() == two.read_bytes()
+    lines = [line.rpartition(",")[0] for line in told.splitlines()]  # without seconds
+    after = capsys.readouterr().out.splitlines()
+    assert [line.rpartition(",")[0] for line in after] == lines
+    assert all(process.poll() is not None for process in started)
+
+
+def test_an_interrupt_leaves_no_process(model, started, monkeypatch, capfd):
+    write = hulls_ahead.HullsAhead.steps_of
+
+    def interrupted(self, obj):
+        steps = write(self, obj)
+        if obj.name == "Torus.001":
+            os.kill(os.getpid(), signal.SIGINT)
+        return steps
+
+    monkeypatch.setattr(hulls_ahead.HullsAhead, "steps_of", interrupted)
+    capfd.readouterr()
+    status, file = build(model, "a.obj", "--quiet", "--processes=2")
+    assert status == 130
+    assert capfd.readouterr().err.endswith("\nerror: Interrupted.\n")
+    assert not file.exists()
+    assert started
+    assert all(process.poll() is not None for process in started)

@@ -1,0 +1,91 @@
+"""Hulls built in other processes are those built in this one."""
+
+import os
+import sys
+import time
+
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.cache import ShapeCache, no_rays
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
+from weak_convex_decomposition.core.steps.processes import Processes, available
+from weak_convex_decomposition.core.steps.progress import run
+
+
+@pytest.fixture
+def processes():
+    made = Processes(2)
+    yield made
+    made.close()
+
+
+def task(shape):
+    return build_hulls_in_steps, shape, HullParameters(), ShapeCache(no_rays)
+
+
+def here(shape):
+    compute, *arguments = task(shape)
+    return run(compute(*arguments))
+
+
+def assert_same(one, other):
+    assert one.n_hulls == other.n_hulls
+    assert (one.errors == other.errors).all()
+    for mine, yours in zip(one.shapes, other.shapes, strict=True):
+        assert (mine.hull.vertices == yours.hull.vertices).all()
+
+
+def pid_of_first(processes):
+    """Return the number of the process that was started first, once it is."""
+    while not processes._started:
+        time.sleep(0.01)
+    return processes._started[0].pid
+
+
+def test_the_hulls_are_the_same(processes):
+    meshes = [shapes.l_prism(arm) for arm in (2.0, 3.0, 4.0)]
+    steps = [processes.steps(*task(mesh)) for mesh in meshes]
+    for mesh, found in zip(meshes, [run(each) for each in steps], strict=True):
+        assert_same(found, here(mesh))
+    assert len(processes._started) == 2
+
+
+def test_errors_come_back(processes):
+    cloud = PointCloud(np.random.default_rng(0).random((50, 3)))
+    with pytest.raises(DecompositionError, match="A cloud has no faces"):
+        run(processes.steps(*task(cloud)))
+    mesh = shapes.l_prism()
+    assert_same(run(processes.steps(*task(mesh))), here(mesh))
+    assert all(process.poll() is None for process in processes._started)
+
+
+def test_without_processes_this_one_computes(processes, monkeypatch):
+    monkeypatch.setattr(sys, "executable", "/no/such/python")
+    mesh = shapes.l_prism()
+    for _ in range(3):
+        assert_same(run(processes.steps(*task(mesh))), here(mesh))
+
+
+def test_a_process_that_dies_is_made_up_for(processes):
+    mesh = shapes.l_prism()
+    steps = [processes.steps(*task(mesh)) for _ in range(4)]
+    os.kill(pid_of_first(processes), 9)
+    for each in steps:
+        assert_same(run(each), here(mesh))
+
+
+def test_closing_ends_processes_at_work(processes):
+    for _ in range(8):
+        processes.steps(*task(shapes.comb()))
+    pid = pid_of_first(processes)
+    processes.close()
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_there_is_a_processor():
+    assert 1 <= available() <= 8
