@@ -157,13 +157,15 @@ def _for_size(shape: PreparedShape, parameters: Parameters) -> Parameters:
     return replace(parameters, samples=min(parameters.samples, few))
 
 
-def _is_fine(shape: PreparedShape) -> bool:
-    """Return whether a shape is a mesh of so many triangles that seams run anywhere.
+def _are_guessed(shape: PreparedShape) -> bool:
+    """Return whether likely pairs are guessed: for whole meshes of many triangles.
 
     All samples of a large face are likely in one part, and it would be one of its own.
+    People divide whole shapes. Within a part, such as a hand, lines of sight tell more.
     """
     solid = shape.solid is not None and shape.plane is None
-    return solid and len(shape.targets.triangles) >= _FEW_TRIANGLES
+    whole = (shape.targets.polygons < shape.n_nodes).all()
+    return bool(solid and whole and len(shape.targets.triangles) >= _FEW_TRIANGLES)
 
 
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
@@ -196,7 +198,7 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
             0.95,
         )
     likely = psi
-    if _is_fine(shape):
+    if _are_guessed(shape):
         guesses = likely_pairs(psi, sight.samples.positions)
         likely = yield from within(guesses, 0.95, 1.0)
     return Visibility(
