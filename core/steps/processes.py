@@ -168,7 +168,7 @@ def _waiting(
 ) -> Steps[T]:
     """Wait for the answer to a call; compute here if there is none."""
     while not answer.done():
-        yield Progress("Hulls", 0.0)
+        yield Progress("Cutting", 0.0)
         with contextlib.suppress(TimeoutError):
             answer.exception(_SECONDS)
     found = answer.result()
