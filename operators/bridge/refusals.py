@@ -81,7 +81,8 @@ def clear_refusal(obj: Candidate) -> str | None:
     """Return why nothing can be cleared from an object."""
     reason = refusal(obj, writes_mesh=False)
     cut = reason is None and WHOLE_MESH in obj.data
-    if reason is None and not cut and not has_record(obj):
+    marked = reason is None and obj.type == "MESH" and has_marked_seams(obj.data)
+    if reason is None and not (cut or marked or has_record(obj)):
         return f"{obj.name} has no parts to clear"
     if cut and obj.data.is_editmode:
         return (

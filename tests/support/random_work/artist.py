@@ -24,7 +24,7 @@ OPERATORS = (
     "smooth_seams",
     "mirror_parts",
     "refresh_parts",
-    "rename_parts",
+    *("rename_parts", "mark_seams", "unmark_seams"),
     "face_sets",
     "color_attribute",
     *("explode", "implode"),
