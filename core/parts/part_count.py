@@ -15,6 +15,8 @@ from .seams import SeamCutter, Seams
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
 _GAIN_TOLERANCE = 0.035
+# Symmetric parts are preferred up to this number, times k.
+_MORE = 1.5
 # A larger alpha scales all gains alike, so that alone it would hardly change k. Above
 # this alpha, which is the default, the tolerance falls as alpha grows.
 _TOLERANT_ALPHA = 2.0
@@ -75,7 +77,7 @@ class PartCountSearch:
            higher psi, some of their pieces should be parts of their own. If there is
            no such k, take the smallest that is good enough.
         3. If the parts of a symmetric shape are not symmetric, prefer the next such k
-           with symmetric parts, up to 2k.
+           with symmetric parts, up to 1.5k.
 
         Returns
         -------
@@ -92,7 +94,7 @@ class PartCountSearch:
         like = yield from within(self._first_like_clusters(tried, good), 0.7, 0.9)
         best_k = like or good[0]
         if not tried[best_k].even:
-            even = [k for k in good if tried[k].even and best_k < k <= 2 * best_k]
+            even = [k for k in good if tried[k].even and best_k < k <= _MORE * best_k]
             steps = self._first_like_clusters(tried, even)
             # If no number is like its clusters, that speaks against none of them.
             others = [] if like else even

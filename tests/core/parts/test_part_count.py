@@ -51,13 +51,13 @@ def as_parts(k):
 
 
 @pytest.mark.parametrize(
-    ("even", "expected"), [((), 3), ((3, 5), 3), ((5, 6), 5), ((2,), 3)]
+    ("even", "expected"), [((), 3), ((3, 5), 3), ((4, 6), 4), ((5, 6), 3), ((2,), 3)]
 )
 def test_symmetric_parts_are_preferred(even, expected):
     assert chosen(even, as_parts) == expected
 
 
-@pytest.mark.parametrize(("even", "expected"), [((), 3), ((3, 5), 3), ((5,), 5)])
+@pytest.mark.parametrize(("even", "expected"), [((), 3), ((3, 5), 3), ((4,), 4)])
 def test_also_where_clusters_are_better_for_each_number(even, expected):
     assert chosen(even, lambda k: as_parts(k) + 0.01) == expected
 
