@@ -69,7 +69,17 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
 WCD_OT_build_hulls.__annotations__ = properties_for(HULL_RUN)
 
 
-class WCD_OT_make_rigid(OnEach, bpy.types.Operator):
+class _OnHulls(OnEach):
+    """Half an operator on objects with hulls."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return rigid_refusal(obj)
+
+
+class WCD_OT_make_rigid(_OnHulls, bpy.types.Operator):
     """Make rigid bodies of objects with hulls."""
 
     bl_idname = "wcd.make_rigid"
@@ -78,11 +88,6 @@ class WCD_OT_make_rigid(OnEach, bpy.types.Operator):
         "Make the object a rigid body in the shape of its hulls, for Blender's own"
         " simulation. Clear removes it"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return rigid_refusal(obj)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         make_rigid(obj, hulls_of(obj), self.kind)
@@ -98,16 +103,6 @@ WCD_OT_make_rigid.__annotations__ = {
         ),
     )
 }
-
-
-class _OnHulls(OnEach):
-    """Half an operator on objects with hulls."""
-
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return rigid_refusal(obj)
 
 
 class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):

@@ -129,8 +129,7 @@ def _find(
     if found is None:
         assert prepared.solid is not None  # None for point clouds only
         yield Progress("Solid", 0.0)
-        mesh = replace(prepared.solid, vertices=prepared.solid.vertices * scale)
-        solid = yield from within(solid_of(mesh, seed), 0.0, 0.0)
+        solid = yield from within(solid_of(prepared.solid, seed, scale), 0.0, 0.0)
         found = yield from _around_pieces(solid, parts, fit)
     return found
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -153,7 +153,7 @@ class Solid:
         return int(np.bincount(parts[self.triangles[near]], minlength=1).argmax())
 
 
-def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
+def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     """Sample the surface and the inside of a mesh.
 
     The volume is measured along lines parallel to each axis. Unlike the cells of a
@@ -163,14 +163,17 @@ def solid_of(mesh: TriangleMesh, seed: int) -> Steps[Solid]:
     Parameters
     ----------
     mesh : TriangleMesh
-        Oriented: normals point outwards. The longest side is 2.
+        Oriented: normals point outwards.
     seed : int
         Seed of the random surface samples.
+    scale : float
+        Makes its longest side 2.
 
     Returns
     -------
     Steps of Solid
     """
+    mesh = replace(mesh, vertices=mesh.vertices * scale)
     samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]
     centers, shares = [], []

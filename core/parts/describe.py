@@ -125,12 +125,14 @@ def _notes_on_faces(
     if visibility.shape.solid is None or parameters.seams == "CUT":
         return ()
     nodes = visibility.nodes
+    counts = np.bincount(nodes)
+    if counts.max() < _ENOUGH_SAMPLES:  # fine meshes need no look at psi
+        return ()
     labels = visibility.shape.labels_of_nodes(found.labels)[nodes]
     gains = MoveGains(visibility.psi_pairs, labels, found.n_parts).of(
         slice(None), parameters.alpha
     )
     drawn = gains.max(axis=1) > gains[np.arange(len(labels)), labels]
-    counts = np.bincount(nodes)
     share_drawn = np.bincount(nodes, drawn) / np.maximum(counts, 1)
     spanning = (counts >= _ENOUGH_SAMPLES) & (share_drawn >= _MANY_DRAWN)
     share = counts[spanning].sum() / len(nodes)

@@ -15,11 +15,11 @@ from .seams import SeamCutter, Seams
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
 _GAIN_TOLERANCE = 0.035
-# Symmetric parts are preferred up to this number, times k.
-_MORE = 1.5
 # A larger alpha scales all gains alike, so that alone it would hardly change k. Above
 # this alpha, which is the default, the tolerance falls as alpha grows.
 _TOLERANT_ALPHA = 2.0
+# Symmetric parts are preferred up to this number, times k.
+_MORE = 1.5
 
 
 class Search(NamedTuple):

@@ -106,7 +106,7 @@ class PartMemo:
     patches : Patches or None
         The patches of a large graph, once `transfer_in_steps` has run.
     tallies : Memo
-        Maps the digest and number of labels to the counts of pairs of samples.
+        Maps the digest and number of labels, and whether seen, to counts of pairs.
     pieces : Memo
         Maps a smallest area and the digest of labels to connected parts.
     moves : Memo
@@ -119,7 +119,7 @@ class PartMemo:
         self._most_nodes = most_nodes
         self._transfer: Transfer | None = None
         self._plane: tuple[Plane | None] | None = None
-        self.tallies: Memo[tuple[bytes, int], PairTally] = Memo(256)
+        self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
         self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
         self.moves: Memo[tuple[bytes, float], Labels] = Memo(32)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)

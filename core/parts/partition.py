@@ -13,6 +13,7 @@ from ..clusters.moves import raise_psi
 from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
+from ..sight.pair_visibility import PairVisibility
 from ..steps.progress import Progress, Steps
 from .merging import connected_parts, merge_to
 from .part_memo import Candidate, PartMemo, digest
@@ -129,11 +130,14 @@ class Partitioner:
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Count likely and known pairs of samples by parts (P,) of the nodes."""
+        return self._counted(self.visibility.likely_pairs, parts)
+
+    def _counted(self, pairs: PairVisibility, parts: NDArray[np.int64]) -> PairTally:
+        """Count pairs of samples by parts (P,) of the nodes, each kind once."""
         labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
-        return self._memo.tallies.recall(
-            (digest(labels), n_parts),
-            lambda: self.visibility.likely_pairs.tally(labels, n_parts),
-        )
+        seen = pairs is self.visibility.psi_pairs
+        key = digest(labels), n_parts, seen
+        return self._memo.tallies.recall(key, lambda: pairs.tally(labels, n_parts))
 
     def psi(self, parts: NDArray[np.int64]) -> float:
         """Return psi (eq. 5) of parts (P,) of the nodes, from likely pairs."""
@@ -141,8 +145,7 @@ class Partitioner:
 
     def psi_seen(self, parts: NDArray[np.int64]) -> float:
         """Return psi (eq. 5) of parts (P,) of the nodes, from lines of sight alone."""
-        labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
-        tally = self.visibility.psi_pairs.tally(labels, n_parts)
+        tally = self._counted(self.visibility.psi_pairs, parts)
         return tally.psi(self.parameters.alpha)
 
     def psi_of_clusters(self, n_clusters: int) -> float:

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..bridge.parts.rows import chosen_numbers, noted_refusal
+from ..bridge.parts.rows import active_row, chosen_numbers, noted_refusal
 from ..bridge.refusals import edit_refusal
 from ..running.on_objects import OnActive, OnEach
 
@@ -114,11 +114,11 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the name."""
         obj = context.active_object
-        self.name = obj.wcd_parts[obj.wcd_active_part].name
+        self.name = active_row(obj).name
         return context.window_manager.invoke_props_dialog(self)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-        obj.wcd_parts[obj.wcd_active_part].name = self.name
+        active_row(obj).name = self.name
         reason = noted_refusal(obj)
         if reason:
             self.report({"WARNING"}, f"{reason}.")

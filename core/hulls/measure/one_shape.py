@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -49,9 +47,8 @@ def refit_in_steps(
     prepared = yield from within(cache.prepare(mesh), 0.0, 0.1)
     assert prepared.solid is not None  # None for point clouds only
     fit, factor = fit_for(mesh, parameters, scene_unit)
-    scaled = prepared.solid.vertices * (mesh.diagonal / fit.unit)
-    whole = replace(prepared.solid, vertices=scaled)
-    solid = yield from within(solid_of(whole, seed), 0.1, 0.8)
+    scale = mesh.diagonal / fit.unit
+    solid = yield from within(solid_of(prepared.solid, seed, scale), 0.1, 0.8)
     yield Progress("Measuring", 0.8)
     hull = convex_hull((points - mesh.center) / fit.unit, THIN)
     shape = fit.shape(hull)
