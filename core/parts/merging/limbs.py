@@ -39,7 +39,7 @@ _MOST_CREASE = 0.9
 _MOST_NEIGHBORS = 2
 _MOST_OF_JUNCTION = 1.5
 # Largest share of the seam that lies beside a third part.
-_MOST_SHARED = 0.5
+_MOST_SHARED = 0.3
 # The surface is compared up to this far from the seam, in thicknesses.
 _REACH = 0.5
 # Samples on an outline are neighbors up to this far apart, in their mean distances.
