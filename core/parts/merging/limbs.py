@@ -105,7 +105,8 @@ class LimbMerger:
         thin, thick = np.sort(thickness[pairs], axis=1).T
         near = pairs[thick <= _MOST_OF_JUNCTION * thin]
         limbs = np.bincount(near.ravel(), minlength=len(thickness)) <= _MOST_NEIGHBORS
-        bends = limbs[pairs].all(axis=1) & (thick <= _MOST_RATIO * thin)
+        alike = (thin > 0) & (thick <= _MOST_RATIO * thin)
+        bends = limbs[pairs].all(axis=1) & alike
         for number in np.flatnonzero(bends):
             yield Progress("Seams", number / len(pairs))
             edges = crossing[of_pair.reshape(-1) == number]
@@ -133,7 +134,8 @@ class LimbMerger:
             That of the thinner part.
         """
         surface, edges = self._surface, edges[:: -(-len(edges) // _MOST_EDGES)]
-        lengths = surface.lengths[edges] / surface.lengths[edges].sum()
+        lengths = np.maximum(surface.lengths[edges], np.finfo(float).tiny)
+        lengths = lengths / lengths.sum()
         if lengths @ surface.creases[edges] > _MOST_CREASE:
             return False
         turns, shared = self._turns(labels, pair, edges, _REACH * thickness)
