@@ -6,8 +6,11 @@ import flats
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of
+from computed import decompose, graph_of, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts.merging.limbs import LimbMerger
+from weak_convex_decomposition.core.parts.partition import Partitioner
+from weak_convex_decomposition.core.steps.progress import run
 
 CUT = Parameters(samples=150, max_parts=6)
 KEEP = replace(CUT, bends="KEEP")
@@ -124,3 +127,24 @@ def test_bends_are_cut_where_a_given_number_asks_for_it():
         == decompose(ring(), replace(CUT, parts=4)).labels.tolist()
     )
     assert (found.n_parts, found.best_k) == (4, 1)
+
+
+HEIGHTS = np.linspace(-3, 3, 25)
+# Radii along an axis, and whether what lies above and below its middle is one limb.
+BARS = {
+    "bar": (np.full(25, 0.6), True),
+    "step": (np.where(HEIGHTS > 0, 0.57, 0.6), False),
+    "waist": (0.6 - 0.3 * np.exp(-(HEIGHTS**2)), False),
+    "taper": (0.6 + 0.1 * HEIGHTS, False),
+}
+
+
+@pytest.mark.parametrize("name", BARS)
+def test_halves_of_a_bar_are_one_limb_where_nothing_ends(name):
+    radii, whole = BARS[name]
+    heights = np.where((name == "step") & (HEIGHTS == 0.25), 1e-3, HEIGHTS)
+    mesh = shapes.turned([0, *radii, 0], [-3, *heights, 3], 16)
+    partitioner = Partitioner(see(mesh, CUT), CUT)
+    halves = (partitioner.graph.centers[:, 2] > 2e-3).astype(np.int64)
+    merged = run(LimbMerger(partitioner).merge(halves))
+    assert merged.tolist() == (0 * halves if whole else halves).tolist()
