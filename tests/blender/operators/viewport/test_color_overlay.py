@@ -168,3 +168,25 @@ def test_copies_have_overlays_of_their_own(suzanne):
     bpy.ops.object.join()
     assert len(part_identities(suzanne)) == 6
     assert np.ptp([each.number for each in part_identities(suzanne)]) >= 5
+
+
+@pytest.mark.parametrize("refreshed", [False, True])
+@pytest.mark.parametrize("with_parts", [False, True])
+def test_groups_of_a_joined_overlay_go_with_clear(suzanne, refreshed, with_parts):
+    suzanne.vertex_groups.new(name="mine")
+    if with_parts:
+        decompose_by_hand(suzanne, 2)
+    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
+    cube = bpy.context.active_object
+    decompose_by_hand(cube, 3)
+    show("OVERLAY")
+    cube.wcd_parts[2].name = "Head"
+    activate(suzanne)
+    cube.select_set(True)
+    bpy.ops.object.join()
+    assert "Head" in suzanne.vertex_groups
+    if refreshed:
+        bpy.ops.wcd.refresh_parts()
+    bpy.ops.wcd.clear()
+    assert [group.name for group in suzanne.vertex_groups] == ["mine"]
+    assert not [a.name for a in suzanne.data.attributes if a.name.startswith("wcd")]
