@@ -18,7 +18,7 @@ from weak_convex_decomposition.operators.running import modal as running
 from weak_convex_decomposition.operators.viewport import pick_parts
 
 sys.path.append(str(Path(__file__).parent))
-from in_window import Pulse  # noqa: E402
+from in_window import Pulse
 
 NUMBERS = (*range(3, 13), *range(12, 2, -1))
 

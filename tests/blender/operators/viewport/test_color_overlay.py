@@ -5,6 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
+from edited import check_in_step
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
@@ -190,3 +191,20 @@ def test_groups_of_a_joined_overlay_go_with_clear(suzanne, refreshed, with_parts
     bpy.ops.wcd.clear()
     assert [group.name for group in suzanne.vertex_groups] == ["mine"]
     assert not [a.name for a in suzanne.data.attributes if a.name.startswith("wcd")]
+
+
+def test_a_separated_part_keeps_its_material_as_the_users(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.wcd.separate()
+    piece = next(o for o in bpy.data.objects if o.name.endswith("Part 02"))
+    activate(piece)
+    plain = looks(piece)
+    decompose_by_hand(piece, 3)
+    check_in_step(piece)
+    show("OVERLAY")
+    assert looks(piece) == plain
+    check_in_step(piece)
+    show("MATERIALS")
+    check_in_step(piece)
+    bpy.ops.wcd.clear()
+    assert looks(piece) == plain
