@@ -132,7 +132,11 @@ MESHES = (
 
 # How hulls are seen in Blender's viewport.
 LOOKS = (
-    Choice("TRANSPARENT", "Transparent", "Solids that are seen through"),
+    Choice(
+        "TRANSPARENT",
+        "Transparent",
+        "Solids that are seen through. They hide an overlay of colors; wires do not",
+    ),
     Choice("SOLID", "Solid", "Solids in the colors of the parts"),
     Choice("WIRE", "Wire", "Edges only"),
 )
