@@ -40,12 +40,12 @@ class Decomposition:
         Outward unit normals of a point cloud, if they had to be found or corrected.
     pairs_cast, pairs_inferred : int
         Pairs of samples that ranks and psi are counted from: those that rays were cast
-        between, and those that took the answer of similar pairs. No pair is inferred
-        with All Pairs or Cone for Lines of Sight. Pairs that do not face each other
-        through the inside are hidden, and count in neither number.
+        between, and those that took the answer of similar pairs. Only Blocks infers
+        pairs. Those that do not face each other through the inside count in neither.
     pairs : tuple of (int, int)
-        Parts that are each other's mirror image across X: the one at larger X, then
-        the other.
+        Parts that are mirror images across X: the one at larger X, then the other.
+    good_k : tuple of int
+        Up to three good numbers of parts: a coarse one, `best_k` and a fine one.
 
     Examples
     --------
@@ -69,6 +69,7 @@ class Decomposition:
     pairs_cast: int = 0
     pairs_inferred: int = 0
     pairs: tuple[tuple[int, int], ...] = ()
+    good_k: tuple[int, ...] = ()
 
     @property
     def n_parts(self) -> int:
@@ -141,11 +142,10 @@ class HullDecomposition:
         - the distance from the shape of any point of its piece, which margins below 0
           and `max_vertices` may leave uncovered.
     parts : (K,) int
-        Number of the part that each collision shape belongs to, −1 if no parts were
-        given.
+        Number of the part of each collision shape, −1 if no parts were given.
     volume_ratio : float
-        Sum of the volumes of the collision shapes, divided by the volume of the solid;
-        `inf` for a shape without an inside.
+        Sum of the volumes of the collision shapes, divided by that of the solid; `inf`
+        for a shape without an inside.
     notes : tuple of str
         Sentences to the user.
     error_unit : str

@@ -7,7 +7,7 @@ and psi itself is shown once.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import bpy
@@ -33,12 +33,13 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         return "parts" in result and len(result.get("psi_by_k", ())) > 1
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw a row for each number of parts, and why the best is the best."""
+        """Draw a row for each number of parts, and say which are good and why."""
         result = result_of(context.active_object)
         gains = gains_of(result["psi_by_k"])
-        reason = reason_for(result.get("best_k"), gains)
-        if reason:
-            paragraph(self.layout, reason, context, icon="SOLO_ON")
+        good = result.get("good_k", ())  # records of former versions have none
+        for text in (offer_of(good), reason_for(result.get("best_k"), gains)):
+            if text:
+                paragraph(self.layout, text, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
         column.scale_y = _HEIGHT
         for k, gain in gains.items():
@@ -48,8 +49,9 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
 
 
 def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> None:
-    """Draw the button that chooses a number of parts; a star marks the best."""
-    icon = "SOLO_ON" if k == result.get("best_k") else "NONE"
+    """Draw the button that chooses a number of parts; stars mark the best and good."""
+    icon = "SOLO_OFF" if k in result.get("good_k", ()) else "NONE"
+    icon = "SOLO_ON" if k == result.get("best_k") else icon
     # With deeper levels, k counts the parts of all levels.
     shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
     button = layout.operator(
@@ -65,6 +67,13 @@ def gains_of(psi_by_k: Mapping[str, float]) -> dict[int, float]:
         int(k): (psi - low) / (high - low) if high > low else 1.0
         for k, psi in sorted(psi_by_k.items(), key=lambda item: int(item[0]))
     }
+
+
+def offer_of(good: Sequence[int]) -> str | None:
+    """Return which numbers of parts are good, coarse to fine, if several are."""
+    if len(good) < 2:
+        return None
+    return f"Coarse to fine: {', '.join(map(str, good[:-1]))} or {good[-1]} parts."
 
 
 def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:

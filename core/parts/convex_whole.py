@@ -55,5 +55,6 @@ def as_one_part(shape: PreparedShape) -> Decomposition:
         psi=1.0,
         psi_by_k={1: 1.0},
         best_k=1,
+        good_k=(1,),
         notes=shape.notes,
     )

@@ -14,9 +14,12 @@ from .seams import SeamCutter, Seams
 
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
-_GAIN_TOLERANCE = 0.035
+_GAIN_TOLERANCE = 0.02
+# Symmetric parts may lack this share. So may parts that were found from lines of sight
+# alone: they fit the chance in the very pairs that psi is counted from.
+_WIDE_TOLERANCE = 0.035
 # A larger alpha scales all gains alike, so that alone it would hardly change k. Above
-# this alpha, which is the default, the tolerance falls as alpha grows.
+# this alpha, which is the default, tolerances fall as alpha grows.
 _TOLERANT_ALPHA = 2.0
 # Symmetric parts are preferred up to this number, times k.
 _MORE = 1.5
@@ -71,13 +74,15 @@ class PartCountSearch:
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.
 
-        1. A k is good enough if its psi is nearly the largest of all k.
+        1. A k is good enough if its psi is nearly the largest of all k. Here psi is
+           counted from lines of sight alone: likely pairs find better parts, but tell
+           less well how many there are.
         2. Take the smallest such k whose psi nearly reaches that of the k clusters of
            k-means. Clusters need not be connected, but parts are. If clusters have a
            higher psi, some of their pieces should be parts of their own. If there is
            no such k, take the smallest that is good enough.
-        3. If the parts of a symmetric shape are not symmetric, prefer the next such k
-           with symmetric parts, up to 1.5k.
+        3. If the parts of a symmetric shape are not symmetric, prefer the first such k
+           with symmetric parts, up to 1.5k. Its psi may be a little lower.
 
         Returns
         -------
@@ -85,22 +90,21 @@ class PartCountSearch:
             The steps yield `Progress`; `run` returns the search.
         """
         tried = yield from within(self._candidates(self._low, self._high), 0.0, 0.7)
-        psi_by_k = {k: candidate.psi for k, candidate in tried.items()}
-        most = max(psi_by_k.values())
-        noise = 2 * self._partitioner.negligible
-        tolerance = gain_tolerance(self._partitioner.parameters.alpha)
-        enough = most - max(noise, tolerance * (most - psi_by_k[1]))
-        good = sorted(k for k, psi in psi_by_k.items() if psi >= enough)
+        psi_by_k = self._psi_of_sight(tried)
+        guessed = self._partitioner.visibility.is_guessed
+        narrow = _GAIN_TOLERANCE if guessed else _WIDE_TOLERANCE
+        good = self._good_enough(psi_by_k, narrow)
         like = yield from within(self._first_like_clusters(tried, good), 0.7, 0.9)
         best_k = like or good[0]
         if not tried[best_k].even:
-            even = [k for k in good if tried[k].even and best_k < k <= _MORE * best_k]
+            wide = self._good_enough(psi_by_k, _WIDE_TOLERANCE)
+            even = [k for k in wide if tried[k].even and k <= _MORE * best_k]
             steps = self._first_like_clusters(tried, even)
             # If no number is like its clusters, that speaks against none of them.
             others = [] if like else even
             best_k = (yield from within(steps, 0.9, 1.0)) or min(others, default=best_k)
         seams = yield from self._seams.cut(tried[best_k].parts)
-        return Search(seams, self._psi_of_sight(tried), best_k)
+        return Search(seams, psi_by_k, best_k)
 
     def given(self, n_parts: int) -> Steps[Search]:
         """Return `n_parts` parts, with the psi of other numbers for comparison.
@@ -125,6 +129,13 @@ class PartCountSearch:
         seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 1.0)
         psi_by_k = self._psi_of_sight({made: tried[made]}) | searched.psi_by_k
         return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
+
+    def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
+        """Return each k whose gain lacks at most a share, or the sampling error."""
+        most, by = max(psi_by_k.values()), self._partitioner
+        share = tolerance * _strictness(by.parameters.alpha)
+        enough = most - max(2 * by.negligible, share * (most - psi_by_k[1]))
+        return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
 
     def _psi_of_sight(self, tried: dict[int, Candidate]) -> dict[int, float]:
         """Return psi of candidates by lines of sight alone (eq. 5)."""
@@ -199,12 +210,6 @@ class PartCountSearch:
         return tried | found
 
 
-def gain_tolerance(alpha: float) -> float:
-    """Return the share of the largest gain in psi that a good k may lack.
-
-    Parameters
-    ----------
-    alpha : float
-        The weight of hidden pairs in psi.
-    """
-    return _GAIN_TOLERANCE * _TOLERANT_ALPHA / max(alpha, _TOLERANT_ALPHA)
+def _strictness(alpha: float) -> float:
+    """Return the factor of all tolerances: 1 up to the default alpha, then less."""
+    return _TOLERANT_ALPHA / max(alpha, _TOLERANT_ALPHA)

@@ -79,6 +79,11 @@ class Visibility:
     rank_pairs: PairVisibility
     nodes: NDArray[np.int64]
 
+    @property
+    def is_guessed(self) -> bool:
+        """Whether likely pairs were guessed from more than lines of sight."""
+        return self.likely_pairs is not self.psi_pairs
+
 
 def find_lines_of_sight(
     shape: PreparedShape, parameters: Parameters

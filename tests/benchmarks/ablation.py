@@ -86,6 +86,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
     "no tolerance in the search for k": [
         (partition, "_NEGLIGIBLE", 0.0),
         (part_count, "_GAIN_TOLERANCE", 0.0),
+        (part_count, "_WIDE_TOLERANCE", 0.0),
     ],
     "no symmetry": [(part_memo, "find_sides", no_sides)],
     "no comparison with loose clusters": [

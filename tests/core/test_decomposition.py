@@ -40,6 +40,8 @@ def test_a_given_number_of_parts_has_its_psi(seen):
     searched = parts_of(seen(shapes.comb), Parameters(samples=150))
     assert found.psi_by_k == searched.psi_by_k
     assert found.best_k == searched.best_k == searched.n_parts
+    assert found.good_k == searched.good_k
+    assert found.best_k in found.good_k
     assert found.notes == ()
 
 

@@ -113,6 +113,7 @@ def write_result(
         "psi_before": _number(decomposition.psi_before),
         "psi_by_k": {str(k): float(v) for k, v in decomposition.psi_by_k.items()},
         "best_k": decomposition.best_k,
+        "good_k": list(decomposition.good_k),
         "pairs_cast": decomposition.pairs_cast,
         "pairs_inferred": decomposition.pairs_inferred,
         "parts": _entries(decomposition, identities, materials, measured_on),

@@ -25,6 +25,7 @@ _OF_PARTS = (
     "psi_before",
     "psi_by_k",
     "best_k",
+    "good_k",
     "parts",
     "notes",
 )

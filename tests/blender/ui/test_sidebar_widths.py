@@ -1,7 +1,7 @@
 """What the sidebar shows where there is not room for all."""
 
 import pytest
-from weak_convex_decomposition.ui.chart import gains_of, reason_for
+from weak_convex_decomposition.ui.chart import gains_of, offer_of, reason_for
 from weak_convex_decomposition.ui.edit_panel import fitting
 from weak_convex_decomposition.ui.hulls_panel import endings
 from weak_convex_decomposition.ui.parts_table import headings
@@ -56,6 +56,19 @@ def test_names_are_shortened_where_a_button_has_no_room(names, expected):
 def test_the_chart_says_why_the_longest_bar_is_not_the_best(best, gains, words):
     reason = reason_for(best, gains)
     assert reason is None if words is None else words in reason
+
+
+@pytest.mark.parametrize(
+    ("good", "text"),
+    [
+        ([3, 6, 11], "Coarse to fine: 3, 6 or 11 parts."),
+        ([2, 4], "Coarse to fine: 2 or 4 parts."),
+        ([1], None),
+        ((), None),
+    ],
+)
+def test_the_chart_tells_good_numbers(good, text):
+    assert offer_of(good) == text
 
 
 def test_bars_are_shares_of_the_largest_gain():

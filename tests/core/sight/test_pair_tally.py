@@ -1,8 +1,12 @@
-"""Psi of counted pairs, and the word for it."""
+"""Psi of counted pairs, the word for it, and good numbers of parts by it."""
 
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.sight.pair_tally import PairTally, quality_word
+from weak_convex_decomposition.core.sight.pair_tally import (
+    PairTally,
+    good_numbers,
+    quality_word,
+)
 
 # Two blobs of 10 samples that see nothing of each other: half of all pairs are visible.
 APART = PairTally(np.diag([100.0, 100.0]), np.full((2, 2), 100.0))
@@ -34,3 +38,13 @@ def test_words_begin_at_their_shares_of_the_largest_psi(share, word):
 
 def test_shapes_of_which_nothing_is_seen_have_a_word_too():
     assert quality_word(0.0, 0.0, 0.0) == "Very Good"
+
+
+@pytest.mark.parametrize(
+    ("best", "expected"),
+    [(4, (3, 4, 8)), (3, (3, 6)), (2, (2, 4)), (8, (3, 8)), (1, (1,)), (20, (20,))],
+)
+def test_good_numbers_are_a_coarse_one_the_best_and_a_fine_one(best, expected):
+    gains = (0.0, 0.5, 0.8, 0.96, 0.94, 0.97, 0.96, 1.0, 0.99)
+    psi_by_k = {k: 0.25 + 0.5 * gain for k, gain in enumerate(gains, start=1)}
+    assert good_numbers(psi_by_k, best) == expected
