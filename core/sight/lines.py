@@ -75,7 +75,6 @@ def faces_inside(
     -------
     facing : (M,) bool
     """
-
     # Coordinate by coordinate: NumPy is slow with axes of length 3.
     axes = list(zip(views.positions.T.copy(), samples.normals.T.copy(), strict=True))
     planes = np.einsum("nd,nd->n", samples.normals, samples.positions)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ....core.geometry.mesh import TriangleMesh
 from ..mesh.attributes import write_floats, write_ints
 
-# Triangle and distance of what `BVHTree.ray_cast` returns; None for a ray without a hit.
+# Triangle and distance of what `BVHTree.ray_cast` returns; None where nothing is hit.
 _HIT = itemgetter(2, 3)
 # Up to this many triangles, their numbers are handed to Blender as Python objects.
 _FEW_TRIANGLES = 5_000
