@@ -105,6 +105,20 @@ SEAMS = (
     ),
 )
 
+BENDS = (
+    Choice(
+        "CUT",
+        "Cut Bends",
+        "Parts end where lines of sight do: a ring becomes four parts or more",
+    ),
+    Choice(
+        "KEEP",
+        "Keep Bends",
+        "Neighbors of one thickness become one part, unless there is a crease or a neck"
+        " between them: rings, horseshoes and bent arms stay whole",
+    ),
+)
+
 # Meshes of an object of Blender that can be read.
 MESHES = (
     Choice("ORIGINAL", "Original", "The mesh itself, as in Edit Mode"),
