@@ -40,7 +40,8 @@ def cluster(
     """
     # Otherwise rows that differ only by rounding could become separate clusters.
     embedding = embedding.round(_DECIMALS)
-    n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
+    if len(np.unique(embedding[:, -1])) < n_clusters:  # a quick look at one column
+        n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
     model = KMeans(n_clusters=n_clusters, n_init=_STARTS, random_state=seed)
     with _no_count_of_cores():
         labels: NDArray[np.int64] = model.fit_predict(embedding).astype(np.int64)

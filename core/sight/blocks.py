@@ -27,9 +27,9 @@ from .sample_groups import group_samples
 from .viewpoints import Viewpoints
 
 # Probes of a block, and of a block that differs from its neighbors.
-_FIRST_PROBES, _MOST_PROBES = 1, 6
+_FIRST_PROBES, _MOST_PROBES = 1, 4
 # Neighbors of a block are those of the groups nearest to either of its groups.
-_NEAREST = 4
+_NEAREST = 2
 # There are so many groups that first probes take at most half of so many rays a sample:
 # 300 groups of 1200 samples.
 _RAYS_FOR_GROUPS = 75
@@ -177,23 +177,23 @@ class _Blocks:
         # A block without probes, since the budget was too small, is like the others.
         usual = 2 * int(self.n_seen.sum()) >= int(self.n_cast.sum())
         for rows in self.slices():
-            unknown = np.nonzero(self.known[rows] == _UNKNOWN)
-            first, second = unknown[0] + rows.start, unknown[1]
-            chosen = mixed[self._blocks_of(first, second)]
+            blocks = self._groups[rows, None] * self._n_groups + self._groups
+            unknown = self.known[rows] == _UNKNOWN
+            first, second = np.nonzero(unknown & mixed[blocks])
             if share < 1:
-                chosen &= self._rng.random(len(chosen)) < share
+                chosen = self._rng.random(len(first)) < share
+                first, second = first[chosen], second[chosen]
             done, end = (
                 1 - (1 - row / len(self._groups)) ** 2
                 for row in (rows.start, rows.stop)
             )
-            steps = self._cast(first[chosen], second[chosen], budget)
+            steps = self._cast(first + rows.start, second, budget)
             yield from within(steps, done, end)
-            left = self.known[first, second] == _UNKNOWN
-            first, second = first[left], second[left]
-            blocks = self._blocks_of(first, second)
-            visible = 2 * self.n_seen[blocks] >= self.n_cast[blocks]
-            visible[self.n_cast[blocks] == 0] = usual
-            self.known[first, second] = np.where(visible, _VISIBLE, _HIDDEN)
+            visible = 2 * self.n_seen >= self.n_cast
+            visible[self.n_cast == 0] = usual
+            answers = np.where(visible, _VISIBLE, _HIDDEN)
+            unknown = self.known[rows] == _UNKNOWN
+            self.known[rows][unknown] = answers[blocks[unknown]]
 
     def _cast(
         self, first: NDArray[np.int64], second: NDArray[np.int64], budget: RayBudget

@@ -88,19 +88,29 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     yield from within(hits.cast(some.ravel(), directions[first]), 0, 0.1)
     if not hits.hidden(_MAY_ENCLOSE).any():
         return Grid(low - size, size, np.full(shape + 2, OPEN))
-    near = hits.hidden(_OPENING).reshape(shape)
-    near = ndimage.binary_dilation(near, np.ones((5, 5, 5))).ravel()
-    others = ~some.ravel()
-    yield from within(hits.cast(others, directions[few]), 0.1, 0.4)
-    yield from within(hits.cast(others & near, directions[first & ~few]), 0.4, 0.7)
+    near = _grown(hits.hidden(_OPENING).reshape(shape))
+    # What is enclosed is decided there; averages also need cells a little farther away.
+    others, around = ~some.ravel(), _grown(near).ravel()
+    near = near.ravel()
+    yield from within(hits.cast(others & around, directions[few]), 0.1, 0.3)
+    yield from within(hits.cast(others & near, directions[first & ~few]), 0.3, 0.5)
     # Most cells are decided by now: they are inside, or clearly open.
     doubtful = near & hits.hidden(_CLEARLY_OPEN)
-    yield from within(hits.cast(doubtful, directions[rest]), 0.7, 1.0)
-    outside = (hits.front >= hits.back).reshape(shape)
+    yield from within(hits.cast(doubtful, directions[rest]), 0.5, 0.8)
     shares = np.where(near, hits.shares, 0.0).reshape(shape)
-    kinds = np.where(outside, OPEN, INSIDE)
-    kinds[_enclosed(outside, shares)] = ENCLOSED_OUTSIDE
+    enclosed = _enclosed(hits.outside.reshape(shape), shares)
+    if not enclosed.any():
+        return Grid(low - size, size, np.full(shape + 2, OPEN))
+    yield from within(hits.cast(others & ~around, directions[few]), 0.8, 1.0)
+    kinds = np.where(hits.outside.reshape(shape), OPEN, INSIDE)
+    kinds[enclosed] = ENCLOSED_OUTSIDE
     return Grid(low - size, size, np.pad(kinds, 1, constant_values=OPEN))
+
+
+def _grown(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return cells (X, Y, Z), and all that are at most two cells away from them."""
+    grown: NDArray[np.bool_] = ndimage.binary_dilation(cells, np.ones((5, 5, 5)))
+    return grown
 
 
 class _Hits:
@@ -120,9 +130,14 @@ class _Hits:
         """The share of each point's rays that hit the shape, 0 without rays."""
         return (self.front + self.back) / np.maximum(self.n_cast, 1)
 
+    @property
+    def outside(self) -> NDArray[np.bool_]:
+        """Which points lie outside. Those without rays count as such."""
+        return self.front >= self.back
+
     def hidden(self, share: float) -> NDArray[np.bool_]:
         """Return the points outside from which at least this share hits the shape."""
-        return (self.front >= self.back) & (self.shares >= share)
+        return self.outside & (self.shares >= share)
 
     def cast(
         self, chosen: NDArray[np.bool_], directions: NDArray[np.float64]

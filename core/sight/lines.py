@@ -75,13 +75,16 @@ def faces_inside(
     -------
     facing : (M,) bool
     """
+    # Coordinate by coordinate: NumPy is slow with axes of length 3.
+    axes = list(zip(views.positions.T.copy(), samples.normals.T.copy(), strict=True))
+    planes = np.einsum("nd,nd->n", samples.normals, samples.positions)
 
     def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
-        towards = views.positions[others] - samples.positions[ends]
-        heights = np.einsum("...d,...d->...", towards, samples.normals[ends])
-        allowed = 0.0
+        heights = sum(place[others] * normal[ends] for place, normal in axes)
+        allowed = planes[ends]
         if marcher.tilt:
-            allowed = marcher.tilt * np.linalg.norm(towards, axis=-1)
+            towards = views.positions[others] - samples.positions[ends]
+            allowed = allowed + marcher.tilt * np.linalg.norm(towards, axis=-1)
         under: NDArray[np.bool_] = (heights < allowed) | views.enclosed[ends]
         return under
 

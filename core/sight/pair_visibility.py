@@ -135,10 +135,11 @@ class PairVisibility:
         """
 
         def counts(matrix: Matrix) -> NDArray[np.float64]:
-            # Sums of a row are whole numbers and exact in single precision.
-            of_rows = sums_by_label(matrix, labels, n_labels).T
-            return sums_by_label(of_rows.astype(np.float64), labels, n_labels)
+            # Sums of a row are exact in single precision: multiples of a power of 2.
+            of_rows = sums_by_label(matrix, labels, n_labels).astype(np.float64)
+            return of_rows @ members
 
+        members = members_of(labels, n_labels).astype(np.float64)
         if self.known is None:
             sizes = np.bincount(labels, minlength=n_labels).astype(np.float64)
             return PairTally(counts(self.visible), sizes[:, None] * sizes)

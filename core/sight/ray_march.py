@@ -143,13 +143,12 @@ class RayMarcher:
         skipped = np.minimum(_SPLATS_AT_ENDS * self.splat_size, reach / 3)
         reach, travelled, depths = reach - skipped, skipped, depths.copy()
         for _ in range(_MOST_CROSSINGS):
-            starts = origins[going] + travelled[going, None] * directions[going]
-            triangles, lengths = self._first_hit(
-                starts, directions[going], reach[going] - travelled[going]
-            )
+            ahead, gone = directions[going], travelled[going]
+            starts = origins[going] + gone[:, None] * ahead
+            triangles, lengths = self._first_hit(starts, ahead, reach[going] - gone)
             met = triangles >= 0
             going, triangles, lengths = going[met], triangles[met], lengths[met]
-            facing = np.einsum("md,md->m", self.normals[triangles], directions[going])
+            facing = np.einsum("md,md->m", self.normals[triangles], ahead[met])
             depths[going] -= np.sign(facing).astype(np.int64) * self.closed[triangles]
             travelled[going] += lengths
             left = depths[going] <= 0

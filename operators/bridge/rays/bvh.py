@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import chain
+from operator import itemgetter
 
 import bpy
 import numpy as np
@@ -12,8 +13,8 @@ from numpy.typing import NDArray
 from ....core.geometry.mesh import TriangleMesh
 from ..mesh.attributes import write_floats, write_ints
 
-# Triangle and distance of a ray that hits nothing.
-_MISS = (-1, np.inf)
+# Triangle and distance of what `BVHTree.ray_cast` returns; None where nothing is hit.
+_HIT = itemgetter(2, 3)
 # Up to this many triangles, their numbers are handed to Blender as Python objects.
 _FEW_TRIANGLES = 5_000
 
@@ -65,13 +66,11 @@ class BvhRayCaster:
             zip(*directions.T.tolist(), strict=True),
             reach.tolist(),
         )
-        hits = [
-            _MISS if triangle is None else (triangle, distance)
-            for _, _, triangle, distance in answers
-        ]
-        numbers = np.fromiter(chain.from_iterable(hits), np.float64, 2 * len(hits))
-        triangles, distances = numbers.reshape(-1, 2).T
-        return triangles.astype(np.int64), distances
+        hits = chain.from_iterable(map(_HIT, answers))
+        numbers = np.fromiter(hits, np.float64, 2 * len(origins))  # None becomes NaN
+        missed = np.isnan(numbers[::2])
+        numbers[::2][missed], numbers[1::2][missed] = -1, np.inf
+        return numbers[::2].astype(np.int64), numbers[1::2].copy()
 
 
 def _tree_of(mesh: TriangleMesh) -> BVHTree:
