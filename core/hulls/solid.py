@@ -157,9 +157,9 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     """Sample the surface and the inside of a mesh.
 
     The volume is measured along lines in three directions. Unlike the cells of a grid,
-    such lines miss no thin wall across them. They are askew to most walls: whole rows of
-    lines would be inside or outside a wall along them. In an open mesh, a line counts
-    as inside between a front face that it enters and a back face that it leaves.
+    such lines miss no thin wall across them. They are askew to most walls: whole rows
+    of lines would be inside or outside a wall along them. In an open mesh, a line
+    counts as inside between a front face that it enters and a back face that it leaves.
 
     Parameters
     ----------

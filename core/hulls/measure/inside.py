@@ -33,8 +33,8 @@ _NARROW, _WIDE = 0.01, 0.06
 class InsideTest:
     """Tells by lines along three axes what is inside a solid.
 
-    A ray says that a point is inside if it leaves more triangles than it enters. Where a
-    mesh is open, rays differ. The share of all rays that say so is about the winding
+    A ray says that a point is inside if it leaves more triangles than it enters. Where
+    a mesh is open, rays differ. The share of all rays that say so is about the winding
     number; of six rays, most decide.
 
     Parameters
