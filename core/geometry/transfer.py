@@ -23,6 +23,8 @@ _BLOCK = 10_000
 _TOUCH = 1.5
 # Labels that cover equal areas of a face, but for rounding.
 _EQUAL = 1e-3
+# A label that got less of the area it covers lost its place to others.
+_LOST = 0.1
 
 
 def carry(
@@ -61,7 +63,8 @@ def labels_by_area(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """Return the label that covers most of each face, from labels of its fragments.
 
-    Of labels that cover equal areas, the lowest counts.
+    Of labels that cover equal areas, the lowest counts. A label that so gets little of
+    what it covers leaves it to others: it would stay as a few stray faces.
 
     Parameters
     ----------
@@ -84,12 +87,21 @@ def labels_by_area(
     stride = int(labels.max()) + 1
     cells, places = np.unique(origins * stride + labels, return_inverse=True)
     rows, candidates = np.divmod(cells, stride)
-    covered = np.bincount(places, areas)
-    faces, starts, counts = np.unique(rows, return_index=True, return_counts=True)
-    most = np.repeat(np.maximum.reduceat(covered, starts), counts)
-    best = np.flatnonzero(covered >= (1 - _EQUAL) * most)
-    _, first = np.unique(rows[best], return_index=True)
-    return faces, candidates[best[first]], counts
+    covered = np.bincount(places, areas).astype(np.float64)
+    faces, counts = np.unique(rows, return_counts=True)
+    best = _largest(rows, covered)
+    got = np.bincount(candidates[best], covered[best], stride)
+    lost = got < _LOST * np.bincount(candidates, covered, stride)
+    best = _largest(rows, np.where(lost[candidates], 0.0, covered))
+    return faces, candidates[best], counts
+
+
+def _largest(rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the first place of the largest value of each row; rows are sorted."""
+    _, starts, counts = np.unique(rows, return_index=True, return_counts=True)
+    most = np.repeat(np.maximum.reduceat(values, starts), counts)
+    best = np.flatnonzero(values >= (1 - _EQUAL) * most)
+    return best[np.unique(rows[best], return_index=True)[1]]
 
 
 def _spacing(samples: Samples, graph: FaceGraph) -> float:

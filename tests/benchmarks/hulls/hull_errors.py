@@ -16,6 +16,7 @@ import weak_convex_decomposition as package
 from convexity_check import heights_above_shape
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
+from mathutils.geometry import intersect_ray_tri, normal
 from scipy.spatial import cKDTree
 from weak_convex_decomposition.core.hulls.measure.inside import AXES
 from weak_convex_decomposition.core.hulls.outline import outline_of
@@ -29,6 +30,7 @@ ON_SHAPE, ON_MESH, IN_BOX, INSIDE_TESTS = 20_000, 200_000, 20_000, 10_000
 LEAST = 0.002
 # The lines that say what is inside: in an open mesh, others say otherwise.
 LINES = [Vector(axis) for axis in AXES]
+STEP = 1e-5
 
 
 def mesh_files(folder):
@@ -60,6 +62,8 @@ class Ruler:
         self.unit = np.ptp(mesh.bounds, axis=0).max() / 2
         self.corners = (mesh.vertices[mesh.triangles] - self.center) / self.unit
         self.tree = tree_of(self.corners)
+        self.vectors = [[Vector(corner) for corner in each] for each in self.corners]
+        self.facing = [normal(each) for each in self.vectors]
         self.points, self.rows = spread(self.corners, ON_MESH, 1)
 
     def is_inside(self, point):
@@ -71,11 +75,21 @@ class Ruler:
         """Return how many more surfaces a ray leaves than it enters."""
         place, count = Vector(point), 0
         while True:
-            hit, normal, _, _ = self.tree.ray_cast(place, way)
+            hit, facing, _, _ = self.tree.ray_cast(place, way)
             if hit is None:
                 return count
-            count += 1 if normal.dot(way) > 0 else -1
-            place = hit + 1e-5 * way
+            at_once = self.tree.find_nearest_range(hit, STEP)
+            if len(at_once) > 1:  # faces that lie on each other, or share an edge
+                met = {row for _, _, row, _ in at_once if self.is_met(row, place, way)}
+                normals = [self.facing[row] for row in met]
+            else:
+                normals = [facing]
+            count += sum(1 if each.dot(way) > 0 else -1 for each in normals)
+            place = hit + STEP * way
+
+    def is_met(self, row, place, way):
+        """Return whether a ray crosses a triangle."""
+        return intersect_ray_tri(*self.vectors[row], way, place) is not None
 
     def error(self, shape):
         """Return the error of a shape: both distances, and the volume term."""

@@ -96,3 +96,12 @@ def test_a_face_gets_the_label_that_covers_most_of_it():
     assert faces.tolist() == [0, 5, 7]
     assert found.tolist() == [1, 2, 1]  # of equal areas the lowest label
     assert counts.tolist() == [2, 2, 1]
+
+
+def test_a_label_that_keeps_little_of_what_it_covers_leaves_it_to_others():
+    """The seam between body and arm is one face off in the second of two copies."""
+    labels = np.repeat([0, 3, 2, 4], [20, 3, 21, 2])
+    origins = np.r_[0:23, 0:23]
+    _, found, counts = labels_by_area(labels, origins, np.ones(46))
+    assert found.tolist() == [0] * 20 + [3] * 3  # 2 has the lower number at the seam
+    assert (counts == 2).all()
