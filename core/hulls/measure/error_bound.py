@@ -193,7 +193,7 @@ def _distances(
 def _from_each(
     places: NDArray[np.float64], targets: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the distances of places (N, P, 3) from triangles (N, K, 3, 3), (N, P, K)."""
+    """Return distances of places (N, P, 3) from triangles (N, K, 3, 3), (N, P, K)."""
     n, p, k = *places.shape[:2], targets.shape[1]
     away = distances_to(
         np.repeat(places.reshape(-1, 3), k, axis=0),
