@@ -16,7 +16,7 @@ from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
 from .measure.fragments import edge_lengths, fragments_of
-from .measure.inside import AXES, InsideTest
+from .measure.inside import InsideTest
 
 # Number of samples on the surface.
 _SAMPLES = 6000
@@ -44,7 +44,7 @@ class Solid:
     triangles : (N,) int
         Triangle that each sample lies on.
     chords : (C, 3) float
-        Centers of short chords along three axes.
+        Centers of short chords along each axis.
     volumes : (C,) float
         Volume around each chord.
     spacing : float
@@ -156,10 +156,9 @@ class Solid:
 def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     """Sample the surface and the inside of a mesh.
 
-    The volume is measured along lines in three directions. Unlike the cells of a grid,
-    such lines miss no thin wall across them. They are askew to most walls: whole rows
-    of lines would be inside or outside a wall along them. In an open mesh, a line
-    counts as inside between a front face that it enters and a back face that it leaves.
+    The volume is measured along lines parallel to each axis. Unlike the cells of a
+    grid, such lines miss no thin wall across them. In an open mesh, a line counts as
+    inside between a front face that it enters and a back face that it leaves.
 
     Parameters
     ----------
@@ -180,8 +179,8 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     centers, shares = [], []
     for axis in range(3):
         yield Progress("Solid", axis / 3)
-        along, share = chords_along(corners @ AXES.T, axis)
-        centers.append(along @ AXES)
+        along, share = chords_along(corners, axis)
+        centers.append(along)
         shares.append(share)
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
     chords, volumes = np.concatenate(centers), np.concatenate(shares) / 3
