@@ -123,6 +123,7 @@ bench-window: ## Measure seconds and freezes in a window: BLENDER=command that s
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
 	@for start in idle at-once; do \
 	  $(BLENDER) --python tests/window/drive.py -- tests/benchmarks/speed/in_window.py $$start; done
+	@$(BLENDER) --python tests/window/drive.py -- tests/benchmarks/speed/live_in_window.py
 
 bench-objects: venv ## Measure files of many small objects: OBJECTS=1000
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/many_objects.py $(OBJECTS)

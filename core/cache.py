@@ -10,7 +10,6 @@ from .geometry.mesh import TriangleMesh
 from .geometry.shape import Shape, content_key
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
-from .parts.convex_whole import stays_whole
 from .parts.part_memo import PartMemo
 from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_march import MakeCaster
@@ -115,27 +114,6 @@ class ShapeCache:
         if latest:
             self._seen = key, memo
         return memo
-
-    def has_seen(self, shape: Shape, parameters: Parameters) -> bool:
-        """Return whether the parts of a shape need no new lines of sight.
-
-        The cache then holds its visibility, or the shape is known to be one part.
-
-        Parameters
-        ----------
-        shape : TriangleMesh or PointCloud
-        parameters : Parameters
-            Settings that affect neither samples nor lines of sight are not used.
-
-        Returns
-        -------
-        bool
-        """
-        if self._shape is None or self._shape[0] != content_key(shape):
-            return False
-        if stays_whole(self._shape[1], parameters):
-            return True
-        return self._seen is not None and self._seen[0] == _sight_key(parameters)
 
 
 def _sight_key(parameters: Parameters) -> Hashable:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 from typing import ClassVar
 
@@ -12,20 +13,21 @@ from ..core.errors import DecompositionError
 from ..core.parameters.parts import Parameters
 from ..core.steps.job import Job
 from ..core.steps.progress import Steps
-from .bridge.read.evaluated import SeenMesh, read_as
+from .bridge.read.evaluated import SeenMesh, read_as, which_mesh
 from .bridge.refusals import recut_refusal
-from .bridge.stored.record import EVALUATED, ORIGINAL, noted_mesh, noted_parameters
-from .bridge.work.computing import is_quick
+from .bridge.stored.record import noted_mesh, noted_parameters
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import modal
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
-# Seconds that a slider waits for the parts; after that a modal run finds them.
-_MOMENT = 0.3
+# Seconds that a slider waits for the parts; after that a modal run finds them. It does
+# at once for meshes of more faces: reading and writing alone takes such a moment.
+_MOMENT = 0.1
+_MANY_FACES = 50_000
 # Seconds until the next try to start a modal run.
-_RETRY = 0.1
+_RETRY = 0.02
 
 
 class _Recut(Replacement):
@@ -42,13 +44,8 @@ class _Recut(Replacement):
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        parameters, seen = self._wanted(context), _seen(context, obj)
-        if not is_quick(obj, parameters, seen):
-            self.report(
-                {"INFO"}, "The shape or its sampling has changed: it is sampled again"
-            )
-        keep_edits = context.scene.wcd.keep_edits
-        return decompose_unlocked(obj, parameters, keep_edits, seen)
+        seen, keep_edits = _seen(context, obj), context.scene.wcd.keep_edits
+        return decompose_unlocked(obj, self._wanted(context), keep_edits, seen)
 
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> SeenMesh | None:
@@ -93,15 +90,16 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     def _cut(self, context: bpy.types.Context) -> bool:
         """Replace the parts if they differ; return False if that takes too long."""
         obj, parameters = context.active_object, self._wanted(context)
-        seen = _seen(context, obj)
-        mesh = EVALUATED if seen else ORIGINAL
+        mesh = which_mesh(context.scene.wcd.mesh, obj)
         if (noted_parameters(obj), noted_mesh(obj)) == (parameters, mesh):
             return True
-        if not (bpy.app.background or is_quick(obj, parameters, seen)):
+        waits = bpy.app.background
+        if not waits and len(getattr(obj.data, "polygons", ())) > _MANY_FACES:
             return False
-        keep_edits = context.scene.wcd.keep_edits
-        job = Job(decompose_unlocked(obj, parameters, keep_edits, seen))
-        if job.advance(math.inf if bpy.app.background else _MOMENT):
+        began = time.perf_counter()
+        job = Job(self._begin(context, obj))
+        left = began + _MOMENT - time.perf_counter()
+        if job.advance(math.inf if waits else left):
             job.result().write(obj)
         job.cancel()
         return job.done

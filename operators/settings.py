@@ -100,8 +100,8 @@ def other_error(settings: Any, obj: bpy.types.Object) -> tuple[str, str] | None:
     if half <= 0 or settings.pieces != "BY_ERROR":
         return None
     if settings.error_unit == "SCENE":
-        return "Relative", f"{settings.max_error / half:.3g}"
-    return "In the Scene", f"{settings.max_error * half:.3g}"
+        return "Relative Error", f"{settings.max_error / half:.3g}"
+    return "Error in Scene", f"{settings.max_error * half:.3g}"
 
 
 def draw(layout: Any, owner: Any, names: Iterable[str]) -> None:

@@ -105,6 +105,20 @@ SEAMS = (
     ),
 )
 
+BENDS = (
+    Choice(
+        "CUT",
+        "Cut Bends",
+        "Parts end where lines of sight do: a ring becomes four parts or more",
+    ),
+    Choice(
+        "KEEP",
+        "Keep Bends",
+        "Neighbors of one thickness become one part, unless there is a crease or a neck"
+        " between them: rings, horseshoes and bent arms stay whole",
+    ),
+)
+
 # Meshes of an object of Blender that can be read.
 MESHES = (
     Choice("ORIGINAL", "Original", "The mesh itself, as in Edit Mode"),
@@ -118,7 +132,11 @@ MESHES = (
 
 # How hulls are seen in Blender's viewport.
 LOOKS = (
-    Choice("TRANSPARENT", "Transparent", "Solids that are seen through"),
+    Choice(
+        "TRANSPARENT",
+        "Transparent",
+        "Solids that are seen through. They hide an overlay of colors; wires do not",
+    ),
     Choice("SOLID", "Solid", "Solids in the colors of the parts"),
     Choice("WIRE", "Wire", "Edges only"),
 )

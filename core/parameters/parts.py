@@ -6,15 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import DecompositionError
-from .choices import (
-    CONTAINERS,
-    NORMALIZATION,
-    PSI_PAIRS,
-    REFINEMENT,
-    SAMPLING,
-    SEAMS,
-    SIGHT,
-)
+from . import choices
 from .parameter import ParameterInfo, parameter, settle
 
 
@@ -85,7 +77,7 @@ class Parameters:
             "Lines of Sight",
             "Which pairs of samples are tested for a line of sight, a straight line"
             " between them inside the shape",
-            choices=SIGHT,
+            choices=choices.SIGHT,
         ),
     )
     sampling: str = parameter(
@@ -93,7 +85,7 @@ class Parameters:
         ParameterInfo(
             "Sampling",
             "Where samples are placed, the points between which lines of sight run",
-            choices=SAMPLING,
+            choices=choices.SAMPLING,
         ),
     )
     samples: int = parameter(
@@ -124,7 +116,7 @@ class Parameters:
             "Psi From",
             "Pairs of samples that psi, the score of the parts, is estimated from; only"
             " used if Lines of Sight is Cone, since the other kinds count every pair",
-            choices=PSI_PAIRS,
+            choices=choices.PSI_PAIRS,
         ),
     )
     containers: str = parameter(
@@ -133,7 +125,7 @@ class Parameters:
             "Containers",
             "Whether lines of sight may cross the hollow that a shape encloses, such as"
             " that of a cup",
-            choices=CONTAINERS,
+            choices=choices.CONTAINERS,
         ),
     )
     normalization: str = parameter(
@@ -141,7 +133,7 @@ class Parameters:
         ParameterInfo(
             "Normalization",
             "How the matrix of lines of sight is scaled before samples are clustered",
-            choices=NORMALIZATION,
+            choices=choices.NORMALIZATION,
             affects_sight=False,
         ),
     )
@@ -172,7 +164,7 @@ class Parameters:
         ParameterInfo(
             "Refinement",
             "How parts and their seams are improved after samples are clustered",
-            choices=REFINEMENT,
+            choices=choices.REFINEMENT,
             affects_sight=False,
         ),
     )
@@ -193,7 +185,16 @@ class Parameters:
         ParameterInfo(
             "Seams",
             "Whether seams may run through faces: for meshes of few, large faces",
-            choices=SEAMS,
+            choices=choices.SEAMS,
+            affects_sight=False,
+        ),
+    )
+    bends: str = parameter(
+        "CUT",
+        ParameterInfo(
+            "Bends",
+            "Whether a limb or a ring is divided where it bends",
+            choices=choices.BENDS,
             affects_sight=False,
         ),
     )

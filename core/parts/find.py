@@ -10,6 +10,7 @@ from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on
 from .fine_seams import labels_of_nodes
+from .merging.bends import with_bends_kept
 from .part_count import PartCountSearch
 from .part_memo import PartMemo
 from .partition import Partitioner
@@ -44,6 +45,8 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
         cut.searches,
     )
     wanted = search.given(parameters.parts) if parameters.parts else search.best()
+    if parameters.bends == "KEEP":
+        wanted = with_bends_kept(search, partitioner, parameters)
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
     nodes = yield from within(labels_of_nodes(memo, parameters, seams), 0.9, 1.0)
     labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]

@@ -52,13 +52,16 @@ def labels_of_nodes(
     steps = memo.cut(parameters).fine.recall_steps(
         key, lambda: _cut(memo, patches, parameters, seams)
     )
-    return (yield from steps)
+    return (yield from steps).astype(np.int64)
 
 
 def _cut(
     memo: PartMemo, patches: Patches, parameters: Parameters, seams: Seams
-) -> Steps[NDArray[np.int64]]:
-    """Cut the seams where the nodes of the patches along them count on their own."""
+) -> Steps[NDArray[np.uint16]]:
+    """Cut the seams where the nodes of the patches along them count on their own.
+
+    The labels take little room: many are kept.
+    """
     yield Progress("Seams", 0.0)
     coarse, parts = patches.coarse, seams.parts
     one, other = parts[coarse.neighbors].T
@@ -77,4 +80,4 @@ def _cut(
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)
     finer = Partitioner(on_nodes, replace(parameters, smoothness=smoothness))
     cutting = SeamCutter(finer, Memo()).cut(start, enough)
-    return (yield from within(cutting, 0.3, 1.0)).parts[places]
+    return (yield from within(cutting, 0.3, 1.0)).parts[places].astype(np.uint16)

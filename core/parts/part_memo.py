@@ -85,7 +85,7 @@ class CutMemo:
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
         self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
-        self.fine: Memo[tuple[float, bytes], Labels] = Memo(4)
+        self.fine: Memo[tuple[float, bytes], NDArray[np.uint16]] = Memo(16)
 
 
 class PartMemo:

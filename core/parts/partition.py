@@ -15,7 +15,7 @@ from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.pair_visibility import PairVisibility
 from ..steps.progress import Progress, Steps
-from .merging import connected_parts, merge_to
+from .merging.pieces import connected_parts, merge_to
 from .part_memo import Candidate, PartMemo, digest
 
 # Weight of positions (in diagonals) relative to coordinates of the embedding.

@@ -75,13 +75,18 @@ def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
 
 
 def advance(run: Running) -> bool:
-    """Compute for a moment; return whether all is done."""
-    over = True  # also if a step raises an error
+    """Compute for a moment; return whether all was done before.
+
+    So the results are written in a step of their own.
+    """
     if math.isnan(run.look):
         drawn = time.perf_counter() - run.shown
         run.look = min(max(_DRAWING * drawn, _LOOKS[0]), _LOOKS[1])
+    over = True  # also if a step raises an error
     try:
-        over = run.job.advance(_SLICE)
+        if not run.job.done:
+            run.job.advance(_SLICE)
+            over = False
     finally:
         if over:
             stop()

@@ -70,6 +70,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "no symmetry": {},
     "no tolerance in the search for k": {},
     "no comparison with loose clusters": {},
+    "bends kept": {"bends": "KEEP"},
     "two levels": {"levels": 2},
     "preset of the paper": preset("PAPER").changes,
 }
@@ -94,7 +95,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
 # What comes after lines of sight: lines that differ in these alone share them.
 AFTERWARDS = {
     "parts", "alpha", "containers", "normalization", "min_parts", "max_parts",
-    "refinement", "smoothness", "smallest_part", "levels",
+    "refinement", "smoothness", "bends", "smallest_part", "levels",
 }  # fmt: skip
 
 

@@ -58,3 +58,20 @@ class CountingCaster(BruteCaster):
         self.n_calls += 1
         self.n_rays += len(origins)
         return super().first_hit(origins, directions, reach)
+
+
+class WatchedCaster(BruteCaster):
+    """Counts how often rays are asked for, of all casters together."""
+
+    calls = 0
+
+    def first_hit(self, origins, directions, reach):
+        WatchedCaster.calls += 1
+        return super().first_hit(origins, directions, reach)
+
+
+def are_cast(work):
+    """Do some work, and return whether a `WatchedCaster` was asked for rays."""
+    before = WatchedCaster.calls
+    work()
+    return WatchedCaster.calls > before

@@ -9,7 +9,7 @@ from ..mesh.seams import unmark_seams
 from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, PART_LAYER
 from ..stored.record import check_records, forget_parts, forget_result
 from ..stored.restore import Restore, read_restore, sharers, write_restore
-from .kept_materials import drop_kept
+from .kept_materials import drop_kept, marked_groups
 from .materials import discard_unused, name_of, our_materials, part_slots
 from .rows import erase_rows
 from .slots import take_out_of_slots
@@ -64,13 +64,13 @@ def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
 
 def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
     """Return the names of groups of ours that came with objects joined to this one."""
-    if restore.user_groups is None or not getattr(obj.data, "polygons", None):
+    if not getattr(obj.data, "polygons", None):
         return set()
-    return {
-        name_of(obj.data.materials[slot])
-        for slots in part_slots(obj.data).values()
-        for slot in slots
-    } - set(restore.user_groups)
+    found = marked_groups(obj)
+    if restore.user_groups is not None:
+        for slots in part_slots(obj.data).values():
+            found |= {name_of(obj.data.materials[slot]) for slot in slots}
+    return found - set(restore.user_groups or ())
 
 
 def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:

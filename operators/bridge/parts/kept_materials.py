@@ -13,7 +13,8 @@ import bpy
 import numpy as np
 
 from ..mesh.layers import layers_of
-from ..stored.names import OVERLAY, OWNER, OWNER_LAYER
+from ..stored.names import GROUP_LAYER, OVERLAY, OWNER, OWNER_LAYER, PART_LAYER
+from .materials import name_of
 
 
 def is_overlaid(obj: bpy.types.Object) -> bool:
@@ -30,14 +31,44 @@ def kept_materials(mesh: bpy.types.Mesh) -> dict[int, bpy.types.Material]:
 def keep(obj: bpy.types.Object, materials: Mapping[int, bpy.types.Material]) -> None:
     """Keep materials on the mesh of an object, by the numbers of the parts.
 
-    Faces are marked, because materials will not tell after a join whose they are.
+    Faces are marked, because materials will not tell after a join whose they are, and
+    which groups are ours.
     """
-    mesh, layers = obj.data, layers_of(obj)
+    mesh, layers, owner = obj.data, layers_of(obj), _checksum(obj.name)
     mesh[OVERLAY] = {str(number): each for number, each in materials.items()}
-    owner = crc32(obj.name.encode()) >> 1 or 1
     mesh[OWNER] = owner
     layers.set_faces(OWNER_LAYER, np.full(len(mesh.polygons), owner, dtype=np.int32))
+    numbers = layers.faces(PART_LAYER)
+    if numbers is not None:
+        marks = np.zeros(max(numbers.max(initial=0), *materials, 0) + 1, dtype=np.int32)
+        for number, material in materials.items():
+            marks[number] = _checksum(name_of(material))
+        layers.set_faces(GROUP_LAYER, marks[numbers])
     layers.finish()
+
+
+def mark_group(obj: bpy.types.Object, number: int, name: str) -> None:
+    """Mark the faces of a part with the name of its group."""
+    layers, owner = layers_of(obj), obj.data[OWNER]
+    numbers, owners = layers.faces(PART_LAYER), layers.faces(OWNER_LAYER)
+    marks = layers.faces(GROUP_LAYER)
+    if numbers is not None and owners is not None and marks is not None:
+        own = (numbers == number) & (owners == owner)
+        layers.set_faces(GROUP_LAYER, np.where(own, _checksum(name), marks))
+
+
+def marked_groups(obj: bpy.types.Object) -> set[str]:
+    """Return the names of an object's groups that marks on faces tell of."""
+    marks = layers_of(obj).faces(GROUP_LAYER)
+    if marks is None:
+        return set()
+    there = set(np.unique(marks).tolist())
+    return {each.name for each in obj.vertex_groups if _checksum(each.name) in there}
+
+
+def _checksum(name: str) -> int:
+    """Return a number above 0 for a name, which attributes of faces can hold."""
+    return crc32(name.encode()) >> 1 or 1
 
 
 def drop_kept(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:

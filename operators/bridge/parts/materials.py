@@ -13,6 +13,7 @@ import numpy as np
 
 from ..stored.identity import Identity, part_name, plain_name
 from ..stored.names import MATERIAL_NAME, MATERIAL_TAG, OVERLAY
+from ..stored.restore import read_restore
 from .palette import Color
 
 # The number in the tag of the material that shows the parts of all point clouds.
@@ -48,13 +49,17 @@ def color_of(material: bpy.types.Material) -> Color:
 def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
     """Return the slots with materials of ours, by the number of the part.
 
-    A part has more than one after a join with another object that has its number.
+    A part has more than one after a join with another object that has its number. The
+    slots before are left out: a separated part has the material of what it was.
     """
     slots: dict[int, list[int]] = {}
     if OVERLAY in mesh:  # those in slots came with another object
         return slots
+    restore = read_restore(mesh)
+    before = restore.slots if restore else ()
     for index, material in enumerate(mesh.materials):
-        if is_ours(material) and material[MATERIAL_TAG] != _OF_POINTS:
+        ours = is_ours(material) and material.name not in before
+        if ours and material[MATERIAL_TAG] != _OF_POINTS:
             slots.setdefault(material[MATERIAL_TAG], []).append(index)
     return slots
 

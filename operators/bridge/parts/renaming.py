@@ -17,7 +17,7 @@ from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
 from ..stored.versions import identities_of
 from ..views.face_sets_and_colors import show_colors
-from .kept_materials import is_overlaid
+from .kept_materials import is_overlaid, mark_group
 from .materials import color_of, discard_unused, own_material, part_slots
 from .palette import Color
 
@@ -51,6 +51,8 @@ def rename_part(
         groups = [name if each == part.name else each for each in restore.groups]
         write_restore(obj.data, replace(restore, groups=groups))
     _change(obj, replace(part, name=name, color=color_of_part(obj, number)))
+    if is_overlaid(obj):
+        mark_group(obj, number, name)
     return name, reason
 
 

@@ -20,7 +20,7 @@ from ....core.geometry.mesh import TriangleMesh
 from ....core.results import Decomposition
 from ..mesh.attributes import read_floats, read_ints, write_ints
 from ..mesh.corners import triangles_of
-from ..stored.record import ORIGINAL
+from ..stored.record import EVALUATED, ORIGINAL
 from .shape import stretch
 from .shown_mesh import differs, evaluated
 
@@ -112,6 +112,11 @@ def _sharing(counts: NDArray[np.int64], n_lost: int) -> tuple[str, ...]:
     )
 
 
+def which_mesh(mesh: str, obj: bpy.types.Object) -> str:
+    """Return `mesh`, or the original one where what is seen does not differ from it."""
+    return mesh if mesh == EVALUATED and differs(obj) else ORIGINAL
+
+
 def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
     """Return the mesh of an object as it is seen, None if its own is to be read.
 
@@ -125,7 +130,7 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
     DecompositionError
         If the object is in Edit Mode or hidden, or nothing of it is seen.
     """
-    if mesh == ORIGINAL or not differs(obj):
+    if which_mesh(mesh, obj) == ORIGINAL:
         return None
     if obj.mode != "OBJECT" or not obj.visible_get():
         raise DecompositionError(

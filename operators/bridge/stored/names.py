@@ -21,6 +21,8 @@ HAND_LAYER = "wcd_hand"
 MATERIAL_LAYER = "wcd_material_index"
 # Attribute of faces whose parts' colors are an overlay: whose parts they are.
 OWNER_LAYER = "wcd_owner"
+# Attribute of the same faces: the checksum of the name of their part's group.
+GROUP_LAYER = "wcd_group"
 # Attribute of faces: the face set before ours, 0 where the mesh had none.
 FACE_SET_LAYER = "wcd_face_set"
 # Attribute of face corners, or of points: the color of the part.
@@ -35,6 +37,7 @@ LAYERS = {
     HAND_LAYER: "INT",
     MATERIAL_LAYER: "INT",
     OWNER_LAYER: "INT",
+    GROUP_LAYER: "INT",
     FACE_SET_LAYER: "INT",
     COLOR_LAYER: "FLOAT_COLOR",
     NORMAL_LAYER: "FLOAT_VECTOR",

@@ -14,7 +14,7 @@ from ..mesh.layers import layers_of
 from ..parts.kept_materials import drop_kept, is_overlaid, keep, kept_materials
 from ..parts.materials import own_materials, part_slots, recolor
 from ..parts.slots import put_in_slots, take_out_of_slots
-from ..stored.names import MATERIAL_LAYER, OWNER_LAYER, PART_LAYER
+from ..stored.names import GROUP_LAYER, MATERIAL_LAYER, OWNER_LAYER, PART_LAYER
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
 from ..stored.versions import identities_of
@@ -70,7 +70,8 @@ def show_as_materials(obj: bpy.types.Object) -> None:
         recolor(material, identity.color)
         for sharer in sharers(obj):
             change_part(sharer, identity.number, {"material": material.name})
-    layers.remove(OWNER_LAYER)
+    for name in (OWNER_LAYER, GROUP_LAYER):
+        layers.remove(name)
     rows = np.searchsorted([each.number for each in identities], numbers)
     fields = put_in_slots(obj, materials, np.minimum(rows, len(identities) - 1))
     write_restore(obj.data, replace(restore, **fields))

@@ -29,9 +29,8 @@ from ..read.reading_notes import reading_notes
 from ..read.shape import read_shape, scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
-from .cutting import gets_new_faces, shape_to_split
 from .libraries import with_libraries
-from .session_cache import has_seen, session_cache
+from .session_cache import session_cache
 
 Notes: TypeAlias = tuple[str, ...]
 
@@ -61,24 +60,6 @@ def _read(obj: bpy.types.Object, seen: SeenMesh | None) -> tuple[Notes, Shape]:
     if seen is not None:
         return seen.notes, seen.shape
     return reading_notes(obj), read_shape(obj)
-
-
-def is_quick(
-    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
-) -> bool:
-    """Return whether decomposing an object needs no new lines of sight.
-
-    Raises
-    ------
-    DecompositionError
-        At once, if the object cannot be read or written to.
-    """
-    check_writable(obj)
-    if parameters.levels > 1:
-        return False
-    if gets_new_faces(obj, parameters, seen):
-        return has_seen(shape_to_split(obj, parameters), parameters)
-    return has_seen(_read(obj, seen)[1], parameters)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
-from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.parts import Parameters
 from ....core.results import Decomposition
 from ....core.steps.progress import Progress, Steps, within
@@ -57,18 +56,6 @@ def gets_new_faces(
             " for Seams."
         )
     return False
-
-
-def shape_to_split(obj: bpy.types.Object, parameters: Parameters) -> TriangleMesh:
-    """Return the whole faces of an object, refined if they are to be cut.
-
-    Raises
-    ------
-    DecompositionError
-        If the object has no usable faces.
-    """
-    shape = read_mesh(whole_mesh_of(obj), stretch(obj))
-    return core.refined(shape).mesh if parameters.seams == "CUT" else shape
 
 
 def decompose_whole_faces(

@@ -12,8 +12,6 @@ import atexit
 import bpy
 
 from .... import core
-from ....core.geometry.shape import Shape
-from ....core.parameters.parts import Parameters
 from ..rays.bvh import BvhRayCaster
 
 _cache: core.ShapeCache | None = None
@@ -25,22 +23,6 @@ def session_cache() -> core.ShapeCache:
     if _cache is None:
         _cache = core.ShapeCache(BvhRayCaster)
     return _cache
-
-
-def has_seen(shape: Shape, parameters: Parameters) -> bool:
-    """Return whether the cache holds the lines of sight of a shape.
-
-    Parameters
-    ----------
-    shape : TriangleMesh or PointCloud
-    parameters : Parameters
-        Those that affect samples or lines of sight must be the same.
-
-    Returns
-    -------
-    bool
-    """
-    return _cache is not None and _cache.has_seen(shape, parameters)
 
 
 @bpy.app.handlers.persistent

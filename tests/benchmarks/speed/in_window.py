@@ -33,16 +33,21 @@ class Pulse:
 
     def __init__(self):
         bpy.app.timers.register(self._beat, persistent=True)
-        begin, go_on, load = Computation.invoke, Computation.modal, libraries._load_next
-        # Blender counts the parameters of an operator's methods.
-        Computation.invoke = lambda op, context, event: self._time(
-            begin, op, context, event
-        )
-        Computation.modal = lambda op, context, event: self._time(
-            go_on, op, context, event
-        )
+        self.watch(Computation, "invoke", "modal")
+        load = libraries._load_next
         libraries._load_next = lambda: self._time(load)
         self.restart()
+
+    def watch(self, kind, *names):
+        """Take the time of methods of an operator."""
+        for name in names:
+            setattr(kind, name, self._timed(getattr(kind, name), name))
+
+    def _timed(self, method, name):
+        # Blender counts the parameters of an operator's methods.
+        if name == "execute":
+            return lambda op, context: self._time(method, op, context)
+        return lambda op, context, event: self._time(method, op, context, event)
 
     def restart(self):
         self.freeze = self.step = 0.0

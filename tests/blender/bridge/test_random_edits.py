@@ -13,7 +13,7 @@ STEPS = 30
 STRESS = int(os.environ.get("WCD_STRESS_STEPS", "0"))
 
 
-def test_whatever_an_artist_does_all_stays_in_step(tmp_path):
+def test_whatever_an_artist_does_all_stays_in_step(tmp_path, capfd):
     RestlessArtist.folder = tmp_path
     run_state_machine_as_test(
         RestlessArtist,
@@ -27,3 +27,6 @@ def test_whatever_an_artist_does_all_stays_in_step(tmp_path):
             suppress_health_check=list(HealthCheck),
         ),
     )
+    # Blender prints what goes wrong when a property is set, and goes on.
+    printed = capfd.readouterr()
+    assert "Traceback" not in printed.out + printed.err, printed.err

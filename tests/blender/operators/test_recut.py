@@ -17,6 +17,7 @@ CHANGES = {
     "refinement": "EMBEDDING",
     "smoothness": 0.0,
     "seams": "CUT",
+    "bends": "KEEP",
     "smallest_part": 0.1,
     "levels": 2,
 }

@@ -2,7 +2,10 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of
-from weak_convex_decomposition.core.parts.merging import connected_parts, merge_to
+from weak_convex_decomposition.core.parts.merging.pieces import (
+    connected_parts,
+    merge_to,
+)
 from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 
 BOX = graph_of(shapes.box(divisions=4))

@@ -9,9 +9,8 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, ru
 from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
 
 from .checks import attempt, bodies, bone, check_body, check_cleared, only
+from .more_hands import FAST, NUMBERS, MoreHands
 
-FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
-NUMBERS = st.integers(0, 5)
 PARTS = st.sampled_from([0, 2, 3, 4, 6])
 SEAMS = st.sampled_from(["KEEP", "KEEP", "CUT"])
 COLORED = st.sampled_from(["MATERIALS", "OVERLAY"])
@@ -24,18 +23,16 @@ OPERATORS = (
     "smooth_seams",
     "mirror_parts",
     "refresh_parts",
-    *("rename_parts", "mark_seams", "unmark_seams"),
     "face_sets",
     "color_attribute",
     *("explode", "implode"),
     "clear",
     "separate",
     "isolate_parts",
-    "show_colors",
 )
 
 
-class RestlessArtist(RuleBasedStateMachine):
+class RestlessArtist(MoreHands, RuleBasedStateMachine):
     """Operators of ours and of Blender's, in any order."""
 
     folder = None  # where files are saved
@@ -45,6 +42,8 @@ class RestlessArtist(RuleBasedStateMachine):
         """Start with one object in an empty file."""
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         bone()
+        for name, value in FAST.items():  # of runs without parameters of their own
+            setattr(bpy.context.scene.wcd, name, value)
         self.kept, self.saved = [], None
         attempt(bpy.ops.wcd.decompose, **FAST, parts=3)
         bpy.ops.ed.undo_push(message="begin")
@@ -85,13 +84,6 @@ class RestlessArtist(RuleBasedStateMachine):
         if name == "clear":  # its undo in Edit Mode brings back all of the file
             self.kept = []
         bpy.context.view_layer.update()
-        self.done()
-
-    @rule(n=NUMBERS)
-    def build_hulls(self, n):
-        self.object_mode()
-        self.body(n)
-        attempt(bpy.ops.wcd.build_hulls, pieces="PARTS", shape="BOX")
         self.done()
 
     @rule(n=NUMBERS, row=NUMBERS, name=NAMES, color=COLORS, what=NUMBERS)

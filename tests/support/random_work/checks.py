@@ -75,4 +75,6 @@ def check_cleared(obj):
     assert not [a.name for a in obj.data.attributes if "wcd" in a.name]
     assert not any(map(is_ours, obj.data.materials)) or obj.name.count("Part")
     assert "wcd" not in obj
+    assert not obj.vertex_groups
+    assert not any(edge.use_seam for edge in obj.data.edges)
     assert not [key for key in obj.data.keys() if "wcd" in key]  # noqa: SIM118

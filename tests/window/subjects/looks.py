@@ -13,6 +13,7 @@ PANELS = {
     "chart": ("WCD_PT_parts", "WCD_PT_chart"),
     "others": ("WCD_PT_use", "WCD_PT_why", "WCD_PT_hulls"),
     "advanced": ("WCD_PT_advanced",),
+    "built": ("WCD_PT_hulls",),  # with hulls around parts whose colors are an overlay
 }
 
 
@@ -61,6 +62,11 @@ def steps(hands):
         yield 0.5
         hands.open_panels(*panels)
         yield from decomposed_suzanne(hands)
+        if name == "built":
+            with hands.context():
+                bpy.ops.wcd.show_colors(colors="OVERLAY")
+                bpy.ops.wcd.build_hulls(pieces="PARTS")
+            yield 0.5
         for theme, file in THEMES.items():
             with hands.context():
                 use_theme(file)
@@ -68,6 +74,10 @@ def steps(hands):
                 yield 0.5
                 yield from hands.open_sidebar()
                 scale = bpy.context.preferences.view.ui_scale
+                if name == "built":  # the list of hulls is at the end
+                    with hands.context("UI"):
+                        bpy.ops.view2d.scroll_down(page=True)
+                    yield 0.5
                 hands.picture(f"{theme}-{scale:.1f}-{name}", hands.area)
                 if name == "edit":
                     yield from picked(hands, f"picked-{theme}-{scale:.1f}")

@@ -5,6 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
+from edited import check_in_step
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
@@ -168,3 +169,42 @@ def test_copies_have_overlays_of_their_own(suzanne):
     bpy.ops.object.join()
     assert len(part_identities(suzanne)) == 6
     assert np.ptp([each.number for each in part_identities(suzanne)]) >= 5
+
+
+@pytest.mark.parametrize("refreshed", [False, True])
+@pytest.mark.parametrize("with_parts", [False, True])
+def test_groups_of_a_joined_overlay_go_with_clear(suzanne, refreshed, with_parts):
+    suzanne.vertex_groups.new(name="mine")
+    if with_parts:
+        decompose_by_hand(suzanne, 2)
+    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
+    cube = bpy.context.active_object
+    decompose_by_hand(cube, 3)
+    show("OVERLAY")
+    cube.wcd_parts[2].name = "Head"
+    activate(suzanne)
+    cube.select_set(True)
+    bpy.ops.object.join()
+    assert "Head" in suzanne.vertex_groups
+    if refreshed:
+        bpy.ops.wcd.refresh_parts()
+    bpy.ops.wcd.clear()
+    assert [group.name for group in suzanne.vertex_groups] == ["mine"]
+    assert not [a.name for a in suzanne.data.attributes if a.name.startswith("wcd")]
+
+
+def test_a_separated_part_keeps_its_material_as_the_users(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.wcd.separate()
+    piece = next(o for o in bpy.data.objects if o.name.endswith("Part 02"))
+    activate(piece)
+    plain = looks(piece)
+    decompose_by_hand(piece, 3)
+    check_in_step(piece)
+    show("OVERLAY")
+    assert looks(piece) == plain
+    check_in_step(piece)
+    show("MATERIALS")
+    check_in_step(piece)
+    bpy.ops.wcd.clear()
+    assert looks(piece) == plain

@@ -8,8 +8,8 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from ..geometry.face_graph import FaceGraph
-from ..sight.pair_tally import PairTally
+from ...geometry.face_graph import FaceGraph
+from ...sight.pair_tally import PairTally
 
 # Largest number of parts, the upper bound of the parameter Parts. If there are more
 # pieces, the smallest ones join their neighbors.

@@ -1,0 +1,47 @@
+"""Finds parts of which none ends at a mere bend, for the parameter Bends."""
+
+from __future__ import annotations
+
+from ...parameters.parts import Parameters
+from ...steps.progress import Steps, within, within_turn
+from ..part_count import PartCountSearch, Search
+from ..partition import Partitioner, count_parts
+from ..seams import Seams
+from .limbs import LimbMerger
+
+
+def with_bends_kept(
+    search: PartCountSearch, partitioner: Partitioner, parameters: Parameters
+) -> Steps[Search]:
+    """Search for parts of which none ends at a mere bend.
+
+    Parameters
+    ----------
+    search : PartCountSearch
+    partitioner : Partitioner
+        That of the search.
+    parameters : Parameters
+        If they give a number of parts, more are found first, so that as many are left.
+        If no number up to `max_parts` leaves as many, bends are cut.
+
+    Returns
+    -------
+    Steps of Search
+        `best_k` is the number of parts that are left of those that the search chooses.
+    """
+    merger, n_parts = LimbMerger(partitioner), parameters.parts
+    found = yield from within(search.best(), 0.0, 0.5)
+    merged = yield from merger.merge(found.seams.parts)
+    best_k = left = count_parts(merged)
+    tried = range(n_parts, parameters.max_parts + 1) if n_parts else ()
+    for turn, k in enumerate(tried):
+        if left >= n_parts:
+            break
+        steps = within_turn(search.given(k), turn, len(tried))
+        found = yield from within(steps, 0.5, 0.9)
+        merged = yield from merger.merge(found.seams.parts)
+        left = count_parts(merged)
+    if n_parts and left != n_parts:
+        found = yield from within(search.given(n_parts), 0.9, 1.0)
+        merged = found.seams.parts
+    return Search(Seams(merged, found.seams.smoothness), found.psi_by_k, best_k)
