@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.primitives import CollisionShape, Hull
-from ..convex_hull import THIN
 from ..outline import fine_outline
 from ..solid import Solid
 from .estimate import volume_error
-from .fragments import distances_to, fragments_of, halved
+from .fragments import distances_to, fragments_of, halved, reach_of
+from .surface_within import surface_within
 from .uncovered import uncovered
 
 # Errors below this share of the largest one allowed need not be told apart.
@@ -28,12 +28,13 @@ _TOLERANCE = 0.03
 _COARSE = 0.2
 # Patches left over in one round; with more, their bounds stand as they are.
 _MOST_PATCHES = 60_000
+# Fewer patches are halved again before they are looked at, so many times more: a round
+# takes as long for one as for some hundreds.
+_FEW_PATCHES, _HALVINGS = 400, 2
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
 # Share by which distances may be too large where a rough one may do.
 _ROUGHLY = 0.5
-# The surface is within a shape that it is outside of by less: hulls are simplified.
-_WITHIN = THIN / 10
 
 # Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
 _Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -77,7 +78,7 @@ def error_bound(
         A point of the shape that is far from the surface, if there is one.
     """
     enough, bound = largest * _TOLD_APART, uncovered(shape, hull)
-    near, targets = _surface_within(solid, shape)
+    near, targets = surface_within(solid, shape)
     least = max(enough, bound)
     depths = _largest(near, lambda c, _: _depths(shape, c), least, limit)[0]
     bound, place = max(bound, depths), np.zeros((0, 3))
@@ -99,11 +100,13 @@ def _farthest(
 ) -> tuple[float, NDArray[np.float64]]:
     """Return a bound of the distance of points on a shape from a surface, and where.
 
-    The surface is as `_surface_within` returns it.
+    The surface is as `surface_within` returns it.
     """
     small, targets = surface
-    tree = cKDTree(small.mean(axis=1))
+    # Building a balanced tree takes twice as long, and questions are few.
+    tree = cKDTree(small.mean(axis=1), balanced_tree=False, compact_nodes=False)
     outline, gap = fine_outline(shape)
+    outline = fragments_of(outline, _COARSE)[0]
 
     def away(corners: NDArray[np.float64], level: float) -> _Bounds:
         return _distances(solid, targets, tree, corners, level)
@@ -125,7 +128,6 @@ def _largest(
     """
     reached, bound, level = 0.0, 0.0, enough
     place = np.zeros((0, 3))
-    corners = fragments_of(corners, _COARSE)[0]
     while len(corners):
         low, high = bounds_of(corners, level)
         if low.max() > max(reached, enough):
@@ -139,19 +141,15 @@ def _largest(
         if left.sum() > _MOST_PATCHES:
             return max(bound, float(high.max())), place
         corners = halved(corners[left])
+        for _ in range(_HALVINGS):
+            if len(corners) < _FEW_PATCHES:
+                corners = halved(corners)
     return max(bound, reached), place
-
-
-def _reach(corners: NDArray[np.float64]) -> _Bounds:
-    """Return the centers of triangles, and their largest distances from corners."""
-    centers = corners.mean(axis=1)
-    arms = corners - centers[:, None]
-    return centers, np.sqrt(np.einsum("tcd,tcd->tc", arms, arms).max(axis=1))
 
 
 def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> _Bounds:
     """Return bounds of the depth of patches below the surface of a shape."""
-    centers, radii = _reach(corners)
+    centers, radii = reach_of(corners)
     depths = -shape.heights(centers)
     return depths, depths + radii
 
@@ -164,73 +162,41 @@ def _distances(
     level: float,
 ) -> _Bounds:
     """Return bounds of the distance of patches outside a solid from targets."""
-    centers, radii = _reach(corners)
-    low, high = np.zeros(len(centers)), np.full(len(centers), np.inf)
-    inside, unbroken = solid.inside.holds_patches(corners, centers, radii)
-    # A way from inside to a point outside crosses the surface, if through no hole.
-    whole = np.flatnonzero(inside & unbroken)
-    most = float(radii.max()) + solid.reach
-    free = solid.tree.query(centers[whole], distance_upper_bound=most)[0]
-    free = np.minimum(free, most) - solid.reach
-    high[whole] = np.maximum(radii[whole] - np.maximum(free, 0.0), 0.0)
-    hard = np.flatnonzero(high > level)
-    rows = tree.query(centers[hard], eps=_ROUGHLY)[1]
-    rough = distances_to(centers[hard], targets[rows]) + radii[hard]
-    high[hard] = np.minimum(high[hard], rough)
-    hard = hard[high[hard] > level]
+    centers, radii = reach_of(corners)
+    places = np.concatenate([corners, centers[:, None]], axis=1)
+    rows = tree.query(centers, eps=_ROUGHLY)[1]
+    # The distance from a triangle is convex: it is largest at a corner of the patch.
+    away = _from_each(places, targets[rows][:, None])[..., 0]
+    high = np.minimum(away.max(axis=1), away[:, 3] + radii)
+    low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
     if len(hard) == 0:
         return low, high
-    # The distance from a triangle is convex: it is largest at a corner of the patch.
-    near = tree.query(centers[hard], min(_NEIGHBORS, len(targets)))[1]
-    near = near.reshape(len(hard), -1)
-    n_near = near.shape[1]
-    places = np.concatenate([corners[hard], centers[hard, None]], axis=1)
-    away = distances_to(
-        np.repeat(places.reshape(-1, 3), n_near, axis=0),
-        targets[np.repeat(near, 4, axis=0).ravel()],
-    ).reshape(-1, 4, n_near)
-    high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
-    low[hard] = np.where(inside[hard], 0.0, away[:, 3].min(axis=1))
+    inside, unbroken = solid.inside.holds_patches(
+        corners[hard], centers[hard], radii[hard]
+    )
+    # A way from inside to a point outside crosses the surface, if through no hole.
+    whole = hard[inside & unbroken]
+    most = float(radii.max()) + solid.reach
+    free = solid.tree.query(centers[whole], distance_upper_bound=most)[0]
+    free = np.maximum(np.minimum(free, most) - solid.reach, 0.0)
+    high[whole] = np.minimum(high[whole], np.maximum(radii[whole] - free, 0.0))
+    left = high[hard] > level
+    hard, inside = hard[left], inside[left]
+    if len(hard):
+        near = tree.query(centers[hard], min(_NEIGHBORS, len(targets)))[1]
+        away = _from_each(places[hard], targets[near.reshape(len(hard), -1)])
+        high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
+        low[hard] = np.where(inside, 0.0, away[:, 3].min(axis=1))
     return low, high
 
 
-def _surface_within(solid: Solid, shape: CollisionShape) -> _Bounds:
-    """Return triangles of the surface of a solid that are within a shape, (N, 3, 3).
-
-    They are small. The second array has triangles within the shape that contain them:
-    the whole triangles of the mesh, where possible.
-    """
-    low, high = shape.bounds
-    slack = _WITHIN + solid.grain
-    rows = ((low - slack <= solid.centers) & (solid.centers <= high + slack)).all(
-        axis=1
+def _from_each(
+    places: NDArray[np.float64], targets: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return distances of places (N, P, 3) from triangles (N, K, 3, 3), (N, P, K)."""
+    n, p, k = *places.shape[:2], targets.shape[1]
+    away = distances_to(
+        np.repeat(places.reshape(-1, 3), k, axis=0),
+        np.repeat(targets, p, axis=0).reshape(-1, 3, 3),
     )
-    if not rows.any():
-        return np.zeros((0, 3, 3)), np.zeros((0, 3, 3))
-    near = solid.fragments[rows]
-    heights = shape.heights(solid.centers[rows])
-    whole = heights <= _WITHIN - solid.reach
-    unsure = np.flatnonzero(~whole & (heights <= _WITHIN + solid.reach))
-    whole[unsure] = _held(shape, near[unsure]).all(axis=1)
-    cut = unsure[~whole[unsure]]
-    # Large triangles that are within stand for their pieces.
-    numbers, places = np.unique(solid.origins[rows][whole], return_inverse=True)
-    large = solid.corners[numbers]
-    places = places.reshape(-1)
-    of_large = np.all(_held(shape, large), axis=1).take(places)
-    targets = np.where(of_large[:, None, None], large[places], near[whole])
-    # Others may reach into the shape: of their pieces, take the corners that do.
-    pieces = fragments_of(near[cut], solid.grain / 4)[0]
-    held = _held(shape, pieces)
-    pieces, held = pieces[held.any(axis=1)], held[held.any(axis=1)]
-    order = np.argsort(~held, axis=1, kind="stable")
-    chosen = np.where(np.take_along_axis(held, order, axis=1), order, order[:, :1])
-    pieces = np.take_along_axis(pieces, chosen[..., None], axis=1)
-    return np.concatenate([near[whole], pieces]), np.concatenate([targets, pieces])
-
-
-def _held(shape: CollisionShape, corners: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which corners of triangles are within a shape, (N, 3)."""
-    heights = shape.heights(corners.reshape(-1, 3)).reshape(-1, 3)
-    held: NDArray[np.bool_] = heights <= _WITHIN
-    return held
+    return away.reshape(n, p, k)

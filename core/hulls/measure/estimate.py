@@ -73,5 +73,6 @@ def volume_error(volume: float) -> float:
     Parameters
     ----------
     volume : float
+        By noise, a convex piece may have more volume than its hull. That is no error.
     """
-    return float(_VOLUME_WEIGHT * np.cbrt(3 * abs(volume) / (4 * np.pi)))
+    return float(_VOLUME_WEIGHT * np.cbrt(3 * max(volume, 0.0) / (4 * np.pi)))

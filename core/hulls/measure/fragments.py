@@ -57,6 +57,20 @@ def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return lengths
 
 
+def reach_of(
+    corners: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the centers of triangles (T, 3), and how far corners are from them, (T,).
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+    """
+    centers = corners.mean(axis=1)
+    arms = corners - centers[:, None]
+    return centers, np.sqrt(np.einsum("tcd,tcd->tc", arms, arms).max(axis=1))
+
+
 def halved(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return triangles cut in two at the middle of their longest edges, (2 T, 3, 3).
 

@@ -33,8 +33,9 @@ _NARROW, _WIDE = 0.01, 0.06
 class InsideTest:
     """Tells by lines along three axes what is inside a solid.
 
-    A line is inside where it has entered more triangles than it has left, both counted
-    from its start and from its end. Where a mesh is open, the two may differ.
+    A ray says that a point is inside if it leaves more triangles than it enters. Where
+    a mesh is open, rays differ. The share of all rays that say so is about the winding
+    number; of six rays, most decide.
 
     Parameters
     ----------
@@ -53,7 +54,7 @@ class InsideTest:
         self._tables = [self._table(corners, axis) for axis in range(3)]
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return which points are inside, by most of the axes.
+        """Return which points are inside, by most rays along the axes, both ways.
 
         Parameters
         ----------
@@ -71,8 +72,8 @@ class InsideTest:
             below = heights < local[line, axis]
             entered = np.bincount(line[below], turns[below], len(points))
             left = np.bincount(line[~below], -turns[~below], len(points))
-            votes += (entered > 0) & (left > 0)
-        return 2 * votes > self._n_axes
+            votes += (entered > 0).astype(np.int64) + (left > 0)
+        return votes > self._n_axes
 
     def holds_patches(
         self,

@@ -67,15 +67,9 @@ class Ruler:
         self.points, self.rows = spread(self.corners, ON_MESH, 1)
 
     def is_inside(self, point):
-        """Return whether most lines have entered more surfaces than they have left.
-
-        Counted from both ends of the line: where a mesh is open, they may differ.
-        """
-        votes = 0
-        for line in LINES:
-            deep = [self.surfaces_left(point, way) > 0 for way in (line, -line)]
-            votes += all(deep)
-        return 2 * votes > len(LINES)
+        """Return whether most rays, both ways, leave more surfaces than they enter."""
+        ways = [way for line in LINES for way in (line, -line)]
+        return 2 * sum(self.surfaces_left(point, way) > 0 for way in ways) > len(ways)
 
     def surfaces_left(self, point, way):
         """Return how many more surfaces a ray leaves than it enters."""

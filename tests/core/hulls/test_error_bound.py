@@ -150,3 +150,15 @@ def test_holes_do_not_hide_what_is_outside():
     half = np.ptp(mesh.bounds, axis=0).max() / 2
     for shape, stated in zip(found.shapes, found.errors, strict=True):
         assert dense_error(shape, mesh, is_inside) / half <= 1.05 * stated
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_inside_an_open_mesh_is_where_it_winds_around_a_point(seed):
+    rng = np.random.default_rng(seed)
+    ball = shapes.sphere(2)
+    corners = ball.vertices[ball.triangles]
+    corners = corners[rng.random(len(corners)) > 0.25]
+    points = rng.uniform(-1.1, 1.1, (2000, 3))
+    winding = windings(corners, points)
+    inside = InsideTest(corners, 3).holds(points)
+    assert (inside == (winding > 0.5)).mean() > 0.9
