@@ -27,9 +27,9 @@ from .sample_groups import group_samples
 from .viewpoints import Viewpoints
 
 # Probes of a block, and of a block that differs from its neighbors.
-_FIRST_PROBES, _MOST_PROBES = 1, 4
+_FIRST_PROBES, _MOST_PROBES = 1, 6
 # Neighbors of a block are those of the groups nearest to either of its groups.
-_NEAREST = 2
+_NEAREST = 4
 # There are so many groups that first probes take at most half of so many rays a sample:
 # 300 groups of 1200 samples.
 _RAYS_FOR_GROUPS = 75
