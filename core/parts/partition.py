@@ -223,10 +223,7 @@ class Partitioner:
         return self._memo.embedding(n_parts, self.parameters)
 
     def tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
-        """Return connected parts (P,), merged down to `n_parts` if there are more.
-
-        Parts may lie in several pieces if there are more shells than `n_parts`.
-        """
+        """Return connected parts (P,), merged down to `n_parts` if there are more."""
         return self._at_most(n_parts, self._pieces(labels))
 
     def _pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -237,10 +234,13 @@ class Partitioner:
         """Return the parts, merged down to `n_parts` if there are more."""
         return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
+    def resized(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+        """Return parts (P,) split or merged so that there are `n_parts`."""
+        return self._at_most(n_parts, self._split(parts, n_parts))
+
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Merge parts (P,) where psi loses least, until `n_parts` are left."""
-        n_pieces = count_parts(parts)
-        touching = self.graph.borders(parts, n_pieces).toarray() > 0
+        touching = self.graph.borders(parts, count_parts(parts)).toarray() > 0
         merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
         return merged[parts]
 

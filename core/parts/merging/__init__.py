@@ -1,1 +1,1 @@
-"""Merges parts: those too small, those that psi loses least by, and those of a bend."""
+"""Merges small parts, parts of a bend, and what no loop of creases divides."""

@@ -4,6 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import shapes
+from computed import graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
 from weak_convex_decomposition.core.parts.part_memo import Candidate
@@ -19,6 +21,7 @@ class KnownParts:
     """Stands for the partitioner and the seam cutter: psi is known, seams stay."""
 
     by_psi, negligible = True, 0.003
+    graph = graph_of(shapes.box())  # no loop of creases divides it
 
     def __init__(self, psi_of_clusters, alpha, guessed):
         self.psi_of_clusters = psi_of_clusters

@@ -1,0 +1,58 @@
+"""Parts between closed loops of creases."""
+
+import numpy as np
+import pytest
+import shapes
+from computed import decompose, graph_of
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts.merging.creases import (
+    crease_pieces,
+    seam_cost,
+)
+
+
+def pins():
+    """Return a plate with a pin on either side."""
+    radii = [0, *[0.5] * 4, *np.linspace(0.5, 3, 6), *np.linspace(3, 0.5, 6)]
+    heights = [-2, *np.linspace(-2, -0.5, 4), *[0] * 6, *[0.3] * 6]
+    rise = [0.8, 1.3, 1.8, 2.3, 2.3]
+    return shapes.turned([*radii, *[0.5] * 4, 0], heights + rise, 48)
+
+
+@pytest.mark.parametrize(
+    ("make", "expected"),
+    [(pins, 3), (shapes.l_prism, 1), (shapes.dumbbell, 3), (shapes.box, 1)],
+)
+def test_only_loops_of_creases_divide(make, expected):
+    assert len(set(crease_pieces(graph_of(make())))) == expected
+
+
+def test_shells_that_touch_are_one_piece():
+    graph = graph_of(shapes.joined(shapes.box(), shapes.box((1, 0, 0), (2, 1, 1))))
+    linked = type(graph)(**(vars(graph) | {"links": np.array([[0, 11]])}))
+    assert len(set(crease_pieces(linked))) == 1
+
+
+def test_seams_in_creases_cost_less():
+    graph = graph_of(pins())
+    pieces = crease_pieces(graph)
+    halves = (graph.centers[:, 0] > 0).astype(int)
+    assert 0 < 20 * seam_cost(graph, pieces) < seam_cost(graph, halves)
+    assert seam_cost(graph, pieces) == pytest.approx(seam_cost(graph, 2 - pieces))
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_parts_follow_loops_that_cost_little_psi(seed):
+    """Psi alone would cut a slice off a pin."""
+    mesh = pins()
+    found = decompose(mesh, Parameters(seed=seed))
+    assert (found.n_parts, found.best_k) == (3, 3)
+    pieces = crease_pieces(graph_of(mesh))
+    assert len(set(zip(found.labels, pieces, strict=True))) == 3
+    assert found.psi == pytest.approx(found.psi_by_k[3])
+
+
+@pytest.mark.parametrize("number", [2, 5])
+def test_other_numbers_and_limits_are_kept(number):
+    assert decompose(pins(), Parameters(parts=number)).n_parts == number
+    assert decompose(pins(), Parameters(min_parts=4, max_parts=6)).n_parts >= 4
