@@ -18,6 +18,8 @@ from .sidebar import Sidebar, result_of
 # Share of the width for the number of parts, and height of a row, in usual rows.
 _NUMBER = 0.22
 _HEIGHT = 0.8
+# Largest share of the gain that the best number lacks by tolerance or sampling error.
+_MOST_TOLERATED = 0.1
 
 
 class WCD_PT_chart(Sidebar, bpy.types.Panel):
@@ -81,7 +83,10 @@ def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:
     longest = max(gains, key=gains.__getitem__)
     if best is None or best not in gains or gains[longest] <= gains[best]:
         return None
-    more = f"{gains[longest] - gains[best]:.0%}"
+    lead = gains[longest] - gains[best]
+    more = f"{lead:.0%}"
+    if lead > _MOST_TOLERATED:  # only parts between loops of creases may lack so much
+        return f"{best} is best: {longest} gain {more} more, but ignore creases."
     more = "less than 1%" if more == "0%" else f"only {more}"
     if longest > best:
         return f"{best} is best: {longest} gain {more} more."

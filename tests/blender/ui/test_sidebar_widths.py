@@ -49,6 +49,7 @@ def test_names_are_shortened_where_a_button_has_no_room(names, expected):
         (5, {1: 0.0, 5: 0.98, 10: 1.0}, "5 is best: 10 gain only 2% more."),
         (5, {1: 0.0, 5: 0.999, 7: 1.0}, "7 gain less than 1% more."),
         (7, {1: 0.0, 5: 1.0, 7: 0.98}, "5 gain only 2% more, but split less"),
+        (5, {1: 0.0, 5: 0.4, 12: 1.0}, "12 gain 60% more, but ignore creases."),
         (5, {1: 0.0, 5: 1.0, 10: 0.9}, None),
         (None, {1: 0.0, 5: 1.0}, None),
     ],
