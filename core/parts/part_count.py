@@ -15,7 +15,7 @@ from .seams import SeamCutter, Seams
 
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
-_GAIN_TOLERANCE = 0.02
+_GAIN_TOLERANCE = 0.025
 # Symmetric parts may lack this share. So may parts that were found from lines of sight
 # alone: they fit the chance in the very pairs that psi is counted from.
 _WIDE_TOLERANCE = 0.035
