@@ -121,6 +121,21 @@ def components(
     return components.astype(np.int64)[found]
 
 
+def components_at_once(
+    pairs: NDArray[np.integer[Any]], n_nodes: int
+) -> NDArray[np.int64]:
+    """Return the connected component of each node of a small graph, (`n_nodes`,).
+
+    Parameters
+    ----------
+    pairs : (E, 2) int
+        Nodes that are connected.
+    n_nodes : int
+    """
+    found = connected_components(graph_of(pairs, n_nodes), directed=False)[1]
+    return found.astype(np.int64)
+
+
 def graph_of(pairs: NDArray[np.integer[Any]], n_nodes: int) -> sparse.csr_array:
     """Return the adjacency matrix (n_nodes, n_nodes) of pairs of nodes.
 

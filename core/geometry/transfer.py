@@ -88,20 +88,19 @@ def labels_by_area(
     cells, places = np.unique(origins * stride + labels, return_inverse=True)
     rows, candidates = np.divmod(cells, stride)
     covered = np.bincount(places, areas).astype(np.float64)
-    faces, counts = np.unique(rows, return_counts=True)
-    best = _largest(rows, covered)
+    faces, starts, counts = np.unique(rows, return_index=True, return_counts=True)
+
+    def largest(values: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return the first cell of the largest value of each face."""
+        most = np.repeat(np.maximum.reduceat(values, starts), counts)
+        best = np.flatnonzero(values >= (1 - _EQUAL) * most)
+        return best[np.unique(rows[best], return_index=True)[1]]
+
+    best = largest(covered)
     got = np.bincount(candidates[best], covered[best], stride)
     lost = got < _LOST * np.bincount(candidates, covered, stride)
-    best = _largest(rows, np.where(lost[candidates], 0.0, covered))
+    best = largest(np.where(lost[candidates], 0.0, covered))
     return faces, candidates[best], counts
-
-
-def _largest(rows: NDArray[np.int64], values: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the first place of the largest value of each row; rows are sorted."""
-    _, starts, counts = np.unique(rows, return_index=True, return_counts=True)
-    most = np.repeat(np.maximum.reduceat(values, starts), counts)
-    best = np.flatnonzero(values >= (1 - _EQUAL) * most)
-    return best[np.unique(rows[best], return_index=True)[1]]
 
 
 def _spacing(samples: Samples, graph: FaceGraph) -> float:

@@ -15,7 +15,7 @@ from ..geometry.sampling import sample_surface
 from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
-from .measure.fragments import edge_lengths, fragments_of
+from .measure.fragments import edge_lengths, fragments_of, reach_of
 from .measure.inside import InsideTest
 
 # Number of samples on the surface.
@@ -101,8 +101,7 @@ class Solid:
     @cached_property
     def reach(self) -> float:
         """Largest distance of a fragment's corner from its center."""
-        arms = self.fragments - self.centers[:, None]
-        return float(np.linalg.norm(arms, axis=2).max())
+        return float(reach_of(self.fragments)[1].max())
 
     @cached_property
     def inside(self) -> InsideTest:

@@ -6,10 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from ...steps.progress import run
-from ..connectivity import graph_of, shared_edges, sort_edges
+from ..connectivity import components_at_once, shared_edges, sort_edges
 from .refined import Cut, RefinedMesh
 
 # Weight of a piece of the seam along a concave crease, where the seam surely belongs.
@@ -146,6 +145,5 @@ def _connected(
     ends = np.stack([welded[owners, corners], welded[owners, (corners + 1) % 3]], 1)
     _, nodes = np.unique(pair[:, None] * stride + ends, return_inverse=True)
     nodes = nodes.reshape(-1, 2)
-    found = connected_components(graph_of(nodes, int(nodes.max()) + 1), directed=False)
-    seams = found[1][nodes[:, 0]]
+    seams = components_at_once(nodes, int(nodes.max()) + 1)[nodes[:, 0]]
     return np.unique(seams, return_inverse=True)[1].astype(np.int64)

@@ -10,9 +10,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
-from ...geometry.connectivity import graph_of
+from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ..partition import Partitioner, count_parts
 from .pieces import connected_parts
@@ -41,8 +40,10 @@ class CreaseParts:
 
     @cached_property
     def parts(self) -> NDArray[np.int64]:
-        """(P,) piece of each node, small ones merged."""
+        """(P,) piece of each node, small ones merged; 0 for all if none is proposed."""
         graph = self._partitioner.graph
+        if not self._partitioner.visibility.is_guessed:
+            return np.zeros(graph.n_polygons, dtype=np.int64)
         return connected_parts(
             graph, crease_pieces(graph), _LEAST_PIECE * graph.areas.sum()
         )
@@ -60,8 +61,6 @@ class CreaseParts:
             Other parts of each node.
         low, high : int
         """
-        if not self._partitioner.visibility.is_guessed:
-            return False
         many = max(low, 2) <= count_parts(self.parts) <= high
         return many and self.gain(rivals, self.parts) >= 0
 
@@ -94,8 +93,7 @@ def crease_pieces(graph: FaceGraph) -> NDArray[np.int64]:
     """
     smooth = graph.neighbors[graph.bends <= _CREASED]
     ties = np.concatenate([smooth, graph.links])
-    pieces = connected_components(graph_of(ties, graph.n_polygons), directed=False)[1]
-    return pieces.astype(np.int64)
+    return components_at_once(ties, graph.n_polygons)
 
 
 def seam_cost(graph: FaceGraph, labels: NDArray[np.int64]) -> float:

@@ -8,14 +8,13 @@ thickness is alike. The seam has to agree here: nothing may begin or end there.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from ...geometry.connectivity import graph_of
+from ...geometry.connectivity import components_at_once
+from ...geometry.face_graph import FaceGraph
 from ...geometry.frames import unit
 from ...sight.lines import RAYS_PER_STEP
 from ...sight.ray_march import PASS
@@ -46,18 +45,6 @@ _REACH = 0.5
 _NEXT = 3.0
 # Most edges of a seam that are looked at.
 _MOST_EDGES = 256
-
-
-class _Surface(NamedTuple):
-    """Points on the surface, and which are neighbors: nodes, or samples if flat."""
-
-    centers: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    areas: NDArray[np.float64]
-    neighbors: NDArray[np.integer[Any]]
-    lengths: NDArray[np.float64]
-    creases: NDArray[np.float64]
-    nodes: NDArray[np.int64]
 
 
 class LimbMerger:
@@ -92,13 +79,13 @@ class LimbMerger:
         Steps of (P,) int
         """
         bends = yield from self._bends(parts)
-        limbs = connected_components(graph_of(bends, count_parts(parts)), False)[1]
-        return limbs.astype(np.int64)[parts]
+        return components_at_once(bends, count_parts(parts))[parts]
 
     def _bends(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
         """Return the pairs (B, 2) of parts of one limb."""
         thickness = yield from self._thicknesses(parts)
-        labels = parts[self._surface.nodes]
+        flat = self._transfer.graph.outline is not None
+        labels = self._transfer.to_samples(parts) if flat else parts
         ends = np.sort(labels[self._surface.neighbors], axis=1)
         crossing = np.flatnonzero(ends[:, 0] != ends[:, 1])
         pairs, of_pair = np.unique(ends[crossing], axis=0, return_inverse=True)
@@ -136,7 +123,7 @@ class LimbMerger:
         surface, edges = self._surface, edges[:: -(-len(edges) // _MOST_EDGES)]
         lengths = np.maximum(surface.lengths[edges], np.finfo(float).tiny)
         lengths = lengths / lengths.sum()
-        if lengths @ surface.creases[edges] > _MOST_CREASE:
+        if lengths @ surface.bends[edges] > _MOST_CREASE:
             return False
         turns, shared = self._turns(labels, pair, edges, _REACH * thickness)
         if lengths @ turns > _MOST_TURN or lengths @ shared > _MOST_SHARED:
@@ -152,20 +139,17 @@ class LimbMerger:
         return bool(sides.max() <= _MOST_WIDENING * sides.min())
 
     @cached_property
-    def _surface(self) -> _Surface:
-        """The nodes of the graph; of a flat shape, the samples on its outline."""
-        graph = self._transfer.graph
+    def _surface(self) -> FaceGraph:
+        """The graph of the nodes; of a flat shape, that of the samples."""
+        graph, samples = self._transfer.graph, self._samples
         if graph.outline is None:
-            lengths, nodes = graph.lengths, np.arange(graph.n_polygons)
-            whole = graph.centers, graph.normals, graph.areas, graph.neighbors
-            return _Surface(*whole, lengths, graph.bends, nodes)
-        samples, nodes = self._samples, self._transfer.polygon_of
+            return graph
         next_to = _NEXT * graph.outline.sum() / len(samples)
         tree = cKDTree(samples.positions)
         pairs = tree.query_pairs(next_to, output_type="ndarray")
-        ones, creases = np.ones(len(samples)), np.zeros(len(pairs))
-        places = samples.positions, samples.normals, ones, pairs
-        return _Surface(*places, creases + 1.0, creases, nodes)
+        areas, lengths = np.ones(len(samples)), np.ones(len(pairs))
+        places = samples.positions, samples.normals
+        return FaceGraph(areas, *places, pairs, lengths, np.zeros(len(pairs)))
 
     @cached_property
     def _tree(self) -> cKDTree:
