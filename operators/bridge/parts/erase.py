@@ -6,7 +6,14 @@ import bpy
 
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.seams import unmark_seams
-from ..stored.names import FACE_SET_LAYER, FACE_SETS, LAYERS, PART_LAYER
+from ..stored.names import (
+    FACE_SET_LAYER,
+    FACE_SETS,
+    LAYERS,
+    PART_LAYER,
+    WHOLE_LAYER,
+    WHOLE_MESH,
+)
 from ..stored.record import check_records, forget_parts, forget_result
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from .kept_materials import drop_kept, marked_groups
@@ -20,9 +27,18 @@ def clear(obj: bpy.types.Object) -> None:
     check_records(obj)
     if obj.type == "MESH":
         unmark_seams(obj.data)
+        _forget_joined_cuts(obj)
     erase_parts(obj)
     discard_unused(our_materials())  # also where the user removed their slots
     forget_result(obj)
+
+
+def _forget_joined_cuts(obj: bpy.types.Object) -> None:
+    """Remove what came with an object with cut faces that was joined to this one."""
+    if WHOLE_MESH not in obj.data:
+        layers = layers_of(obj)
+        layers.remove(WHOLE_LAYER)
+        layers.finish()
 
 
 def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:

@@ -25,6 +25,7 @@ from .read import FoundParts, find_parts_on
 # Faces are the same if their area, and their center in lengths of the root of that
 # area, differ by no more than this.
 _SAME = 1e-3
+JOINED = "Another object was joined to this one; press Refresh to list its parts."
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,5 +141,5 @@ def _problem(found: FoundParts, record: dict[str, Any] | None) -> str | None:
     if record is not None and record["psi"] is not None:
         return None
     if not found.in_step:
-        return "Another object was joined to this one; press Refresh to list its parts."
+        return JOINED
     return "The mesh has changed; press Refresh to measure the parts again."

@@ -17,6 +17,7 @@ from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
 from ..stored.versions import identities_of
 from ..views.face_sets_and_colors import show_colors
+from .figures import JOINED
 from .kept_materials import is_overlaid, mark_group
 from .materials import color_of, discard_unused, own_material, part_slots
 from .palette import Color
@@ -73,9 +74,12 @@ def rename_parts(obj: bpy.types.Object, names: Mapping[int, str]) -> list[str]:
     Raises
     ------
     DecompositionError
-        If a part cannot have its name. Then all parts keep their names.
+        If a part cannot have its name, or was joined to the object and is not listed
+        yet. Then all parts keep their names.
     """
     before = {each.number: each.name for each in identities_of(record_of(obj))}
+    if not names.keys() <= before.keys():
+        raise DecompositionError(JOINED)
     after = {**before, **names}
     for number, name in names.items():
         others = [other for key, other in after.items() if key != number]

@@ -130,6 +130,17 @@ def test_clear_after_a_join_takes_the_groups_of_both(refreshed):
     assert [group.name for group in suzanne.vertex_groups] == ["mine"]
 
 
+def test_names_after_a_join_ask_for_a_refresh():
+    one, other = two_objects()
+    other.select_set(True)
+    bpy.ops.object.join()
+    with pytest.raises(RuntimeError, match="joined to this one; press Refresh"):
+        bpy.ops.wcd.rename_parts(way="NUMBER", pattern="Limb ##")
+    bpy.ops.wcd.refresh_parts()
+    bpy.ops.wcd.rename_parts(way="NUMBER", pattern="Limb ##")
+    assert {name[:4] for name in names_of(one)} == {"Limb"}
+
+
 def test_an_exploded_view_after_a_join_moves_each_part_by_itself():
     suzanne, torus = two_objects()
     torus.select_set(True)

@@ -156,6 +156,20 @@ def test_a_copy_of_a_cut_object_is_cleared_on_its_own(angle):
     assert copy.data != angle.data
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_an_object_that_cut_faces_were_joined_to_is_cleared_of_them(angle, mode):
+    cut(parts=2)
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    cut("KEEP", parts=1)
+    angle.select_set(True)
+    bpy.ops.object.join()
+    in_mode(cube, mode)
+    bpy.ops.wcd.clear()
+    in_mode(cube, "OBJECT")
+    assert not [a.name for a in cube.data.attributes if a.name.startswith("wcd")]
+
+
 def test_the_whole_faces_are_saved_with_the_file(angle, tmp_path):
     before = snapshot(angle)["mesh"]
     cut()
