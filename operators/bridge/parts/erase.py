@@ -17,7 +17,7 @@ from ..stored.names import (
 from ..stored.record import check_records, forget_parts, forget_result
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from .kept_materials import drop_kept, marked_groups
-from .materials import discard_unused, name_of, our_materials, part_slots
+from .materials import discard_unused, is_ours, name_of, our_materials
 from .rows import erase_rows
 from .slots import take_out_of_slots
 
@@ -84,8 +84,8 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
         return set()
     found = marked_groups(obj)
     if restore.user_groups is not None:
-        for slots in part_slots(obj.data).values():
-            found |= {name_of(obj.data.materials[slot]) for slot in slots}
+        ours = [each for each in obj.data.materials if is_ours(each)]
+        found |= {name_of(m) for m in ours if m.name not in restore.slots}
     return found - set(restore.user_groups or ())
 
 

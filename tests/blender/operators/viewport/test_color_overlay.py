@@ -172,15 +172,17 @@ def test_copies_have_overlays_of_their_own(suzanne):
 
 
 @pytest.mark.parametrize("refreshed", [False, True])
-@pytest.mark.parametrize("with_parts", [False, True])
-def test_groups_of_a_joined_overlay_go_with_clear(suzanne, refreshed, with_parts):
+@pytest.mark.parametrize("joined", ["OVERLAY", "MATERIALS"])
+@pytest.mark.parametrize("own", [None, "OVERLAY", "MATERIALS"])
+def test_groups_of_joined_parts_go_with_clear(suzanne, refreshed, own, joined):
     suzanne.vertex_groups.new(name="mine")
-    if with_parts:
+    if own:
         decompose_by_hand(suzanne, 2)
+        show(own)
     bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
     cube = bpy.context.active_object
     decompose_by_hand(cube, 3)
-    show("OVERLAY")
+    show(joined)
     cube.wcd_parts[2].name = "Head"
     activate(suzanne)
     cube.select_set(True)
