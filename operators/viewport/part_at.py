@@ -7,13 +7,14 @@ from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 
 from ..bridge.refusals import faces_refusal
+from ..bridge.stored.names import HULL_TAG
 from .shown_parts import shown_parts
 from .viewports import ray_at
 
-# What rays go through: hulls, for example, are drawn as wires around their object.
+# How objects are drawn that rays go through.
 _SEEN_THROUGH = {"WIRE", "BOUNDS"}
-# How often a ray goes on behind what it hit at most.
-_MOST_HITS = 32
+# How often a ray goes on behind what it hit at most: two times for each hull.
+_MOST_HITS = 256
 # How far behind a hit the ray goes on, as a share of the distance.
 _BEHIND = 1e-5
 
@@ -23,8 +24,9 @@ def part_at(
 ) -> tuple[bpy.types.Object, int] | None:
     """Return the object and the number of the part at a pixel, None if none is there.
 
-    What hides a part hides it from here, too. In Edit Mode the objects that are edited
-    hide each other, and other objects hide nothing.
+    What hides a part hides it from here, too, except for collision hulls, which are
+    around the very parts. In Edit Mode the objects that are edited hide each other, and
+    other objects hide nothing.
     """
     area = next(a for a in context.window.screen.areas if region in a.regions[:])
     return part_along(context, area.spaces.active, *ray_at(region, x, y))
@@ -66,10 +68,16 @@ def _first_seen(
         if not hit:
             return None
         obj = obj.original
-        if obj.display_type not in _SEEN_THROUGH and obj.visible_in_viewport_get(space):
+        if _hides(obj, space):
             return (obj, face) if _is_itself(obj, matrix) else None
         start = place + direction * _BEHIND * max((place - origin).length, 1e-3)
     return None
+
+
+def _hides(obj: bpy.types.Object, space: bpy.types.SpaceView3D) -> bool:
+    """Return whether an object hides what is behind it from a ray."""
+    seen_through = HULL_TAG in obj or obj.display_type in _SEEN_THROUGH
+    return not seen_through and obj.visible_in_viewport_get(space)
 
 
 def _is_itself(obj: bpy.types.Object, matrix: Matrix) -> bool:

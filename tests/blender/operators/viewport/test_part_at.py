@@ -68,6 +68,19 @@ def test_what_hides_a_part_hides_it(window, suzanne, labels):
     assert seen(0.1) == (suzanne, 2)
 
 
+@pytest.mark.parametrize("look", ["SOLID", "TRANSPARENT", "WIRE"])
+def test_hulls_hide_no_part_that_they_are_around(window, suzanne, labels, look):
+    bpy.ops.wcd.build_hulls(pieces="PARTS", look=look)
+    assert len(suzanne.children) == 4
+    hull = suzanne.children[0]
+    bpy.context.view_layer.update()
+    for _ in range(20):  # and however many there are
+        copy = hull.copy()
+        bpy.context.collection.objects.link(copy)
+    assert seen(-1.2, 0.25) == (suzanne, 0)
+    assert seen(0.1) == (suzanne, 2)
+
+
 def test_another_object_than_the_active_one_is_found(window, suzanne, labels):
     bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
     cube = bpy.context.active_object
