@@ -10,7 +10,9 @@ from .geometry.mesh import TriangleMesh
 from .geometry.shape import Shape, content_key
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
+from .parts.find import find_parts
 from .parts.part_memo import PartMemo
+from .results import Decomposition
 from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_march import MakeCaster
 from .sight.visibility import see_in_steps
@@ -114,6 +116,23 @@ class ShapeCache:
         if latest:
             self._seen = key, memo
         return memo
+
+    def find_ahead(self, parameters: Parameters) -> Steps[Decomposition] | None:
+        """Return steps that find parts which may be asked for later.
+
+        Parameters
+        ----------
+        parameters : Parameters
+
+        Returns
+        -------
+        Steps of Decomposition, or None
+            What they compute is kept with the visibility of the latest shape. None if
+            no visibility is kept that was computed with these parameters.
+        """
+        if self._seen is None or self._seen[0] != _sight_key(parameters):
+            return None
+        return find_parts(self._seen[1], parameters)
 
 
 def _sight_key(parameters: Parameters) -> Hashable:

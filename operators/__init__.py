@@ -48,6 +48,7 @@ def register() -> None:
     from .bridge.parts import rows
     from .bridge.work import in_step, session_cache
     from .headless import command_line
+    from .running import ahead
     from .viewport import picking, show_sight, shown_parts
 
     for cls in _classes():
@@ -55,6 +56,7 @@ def register() -> None:
     scene_settings.register()
     command_line.register()
     session_cache.register()
+    ahead.register()
     in_step.register()
     show_sight.register()
     shown_parts.register()
@@ -70,7 +72,7 @@ def unregister() -> None:
     from .bridge.parts import rows
     from .bridge.work import in_step, libraries, session_cache
     from .headless import command_line
-    from .running import modal
+    from .running import ahead, modal
     from .viewport import picking, show_sight, shown_parts
 
     recut.stop()
@@ -81,6 +83,7 @@ def unregister() -> None:
     shown_parts.unregister()
     show_sight.unregister()
     in_step.unregister()
+    ahead.unregister()
     session_cache.unregister()
     command_line.unregister()
     scene_settings.unregister()

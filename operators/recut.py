@@ -18,7 +18,7 @@ from .bridge.refusals import recut_refusal
 from .bridge.stored.record import noted_mesh, noted_parameters
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
-from .running import modal
+from .running import ahead, modal
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
@@ -45,7 +45,16 @@ class _Recut(Replacement):
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
         seen, keep_edits = _seen(context, obj), context.scene.wcd.keep_edits
-        return decompose_unlocked(obj, self._wanted(context), keep_edits, seen)
+        wanted = self._wanted(context)
+        steps = decompose_unlocked(obj, wanted, keep_edits, seen)
+        return ahead.after_rest(wanted, steps)
+
+    def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        said = super()._commit(obj, value)
+        # Other numbers are looked for in the same way only if all faces are free.
+        if value.by_hand is None and value.faces is None:
+            ahead.start(value.parameters, value.decomposition.n_parts)
+        return said
 
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> SeenMesh | None:
@@ -100,7 +109,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         job = Job(self._begin(context, obj))
         left = began + _MOMENT - time.perf_counter()
         if job.advance(math.inf if waits else left):
-            job.result().write(obj)
+            self._commit(obj, job.result())
         job.cancel()
         return job.done
 

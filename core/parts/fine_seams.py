@@ -23,6 +23,8 @@ from .seams import SeamCutter, Seams
 _RINGS = 2
 # Least smoothness: borders of patches are ragged.
 _LEAST_SMOOTHNESS = 0.1
+# Most sweeps of the cut: more of them hardly straighten seams that are near their place.
+_SWEEPS = 2
 
 
 def labels_of_nodes(
@@ -79,5 +81,5 @@ def _cut(
     enough = by.psi(parts) - by.negligible
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)
     finer = Partitioner(on_nodes, replace(parameters, smoothness=smoothness))
-    cutting = SeamCutter(finer, Memo()).cut(start, enough)
+    cutting = SeamCutter(finer, Memo(), _SWEEPS).cut(start, enough)
     return (yield from within(cutting, 0.3, 1.0)).parts[places].astype(np.uint16)

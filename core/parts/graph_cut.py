@@ -17,7 +17,7 @@ _MOST_DISLIKE = 4.0
 # Cost of a seam as long as the square root of the area, at lambda = 1.
 _SEAM_UNIT = 0.02
 # Largest number of sweeps over all labels. Most shapes need two or three.
-_SWEEPS = 4
+SWEEPS = 4
 # `maximum_flow` needs integers: the largest capacity is scaled to this.
 _LARGEST_CAPACITY = 2**24
 # An expansion may relabel nodes up to this many steps away from the label's region.
@@ -63,6 +63,7 @@ def cut_seams(
     labels: NDArray[np.int64],
     costs: NDArray[np.float64],
     smoothness: float,
+    sweeps: int = SWEEPS,
 ) -> Steps[NDArray[np.int64]]:
     """Move the seams to a minimum of eq. 4, starting from given labels.
 
@@ -79,6 +80,8 @@ def cut_seams(
         Data term: cost of each label for each node, per share of the area or outline.
     smoothness : float
         Weight lambda of the seams' length.
+    sweeps : int, optional
+        Largest number of sweeps over all labels. Each moves seams a few nodes further.
 
     Returns
     -------
@@ -91,9 +94,9 @@ def cut_seams(
     labels, n_labels = labels.copy(), costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)
     seen = np.zeros((n_labels, len(labels)), dtype=bool)
-    for sweep in range(_SWEEPS):
+    for sweep in range(sweeps):
         for label in range(n_labels):
-            yield Progress("Seams", (sweep + label / n_labels) / _SWEEPS)
+            yield Progress("Seams", (sweep + label / n_labels) / sweeps)
             if settled[label]:
                 continue
             moved, seen[label] = cutter.expand(labels, label)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..clusters.moves import MoveGains
 from ..steps.memo import Memo
 from ..steps.progress import Steps, within
-from .graph_cut import cut_seams, distances_to_parts
+from .graph_cut import SWEEPS, cut_seams, distances_to_parts
 from .part_memo import digest
 from .partition import Partitioner, count_parts
 
@@ -42,12 +42,17 @@ class SeamCutter:
         The partitioner that made the parts; its parameters are used.
     memo : Memo
         Maps a smoothness and the digest of parts to the parts with their seams cut.
+    sweeps : int, optional
+        Largest number of sweeps of a cut over all parts.
     """
 
     def __init__(
-        self, partitioner: Partitioner, memo: Memo[tuple[float, bytes], Seams]
+        self,
+        partitioner: Partitioner,
+        memo: Memo[tuple[float, bytes], Seams],
+        sweeps: int = SWEEPS,
     ) -> None:
-        self._partitioner = partitioner
+        self._partitioner, self._sweeps = partitioner, sweeps
         self._smoothness = partitioner.parameters.smoothness
         self._memo = memo
 
@@ -89,14 +94,15 @@ class SeamCutter:
         labels = partitioner.transfer.to_samples(parts)
         costs = partitioner.transfer.shares @ self._data_costs(labels, n_parts)
         for share in _SOFTER:
-            steps = cut_seams(partitioner.graph, parts, costs, share * self._smoothness)
+            weight = share * self._smoothness
+            steps = cut_seams(partitioner.graph, parts, costs, weight, self._sweeps)
             cut = yield from within(steps, 0.0, 0.9)
             areas = np.bincount(cut, partitioner.graph.areas, n_parts)
             swallowed = areas <= partitioner.smallest_area
             cut = partitioner.tidied(np.where(swallowed[parts], parts, cut), n_parts)
             if count_parts(cut) == n_parts and partitioner.psi(cut) >= enough:
                 cut = yield from within(self._evened(cut, enough), 0.9, 1.0)
-                return Seams(cut, share * self._smoothness)
+                return Seams(cut, weight)
         return Seams(parts)
 
     def _evened(

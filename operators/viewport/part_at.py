@@ -32,6 +32,14 @@ def part_at(
     return part_along(context, area.spaces.active, *ray_at(region, x, y))
 
 
+def make_tree() -> None:
+    """Let Blender make the tree of the active object's mesh before a ray needs it."""
+    obj = bpy.context.view_layer.objects.active
+    if obj is not None and obj.type == "MESH" and obj.visible_get():
+        graph = bpy.context.evaluated_depsgraph_get()
+        obj.evaluated_get(graph).ray_cast(Vector(), Vector((0.0, 0.0, 1.0)))
+
+
 def part_along(
     context: bpy.types.Context,
     space: bpy.types.SpaceView3D,

@@ -13,7 +13,7 @@ from ..bridge.stored.names import RESULT
 from ..running import modal
 from . import picking
 from .choose_parts import choose
-from .part_at import part_at
+from .part_at import make_tree, part_at
 from .shown_parts import shown_parts
 from .viewports import viewport_at
 
@@ -55,7 +55,10 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         if picking.current is not None:
             picking.stop()
             return {"FINISHED"}
-        shown_parts(context.active_object)  # read now, and not when something hovers
+        # Both are read now, and not when something hovers.
+        shown_parts(context.active_object)
+        if not bpy.app.timers.is_registered(make_tree):
+            bpy.app.timers.register(make_tree, first_interval=0.0)
         self._picking = picking.start(context)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}

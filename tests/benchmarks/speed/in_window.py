@@ -34,9 +34,12 @@ class Pulse:
     def __init__(self):
         bpy.app.timers.register(self._beat, persistent=True)
         self.watch(Computation, "invoke", "modal")
-        load = libraries._load_next
-        libraries._load_next = lambda: self._time(load)
+        libraries._load_next = self.timed(libraries._load_next)
         self.restart()
+
+    def timed(self, function):
+        """Return a function that does the same, and has its time taken."""
+        return lambda: self._time(function)
 
     def watch(self, kind, *names):
         """Take the time of methods of an operator."""

@@ -4,8 +4,10 @@
 
 For each number of parts: the seconds from the setting until the parts are written, and
 the longest step, which is the longest time of the processor in the extension's own
-code. Then the same for the start of Pick Parts, what hovers first and later, and what
-drawing the overlay adds to drawing the window.
+code. First the hand rests half a second between two numbers, and then, with nothing
+kept, long enough for parts to be found ahead. Then the same for the start of Pick
+Parts, what hovers first and later, and what drawing the overlay adds to drawing the
+window.
 """
 
 import sys
@@ -14,21 +16,32 @@ from pathlib import Path
 
 import bpy
 from weak_convex_decomposition.operators import recut
+from weak_convex_decomposition.operators.bridge.work import session_cache
+from weak_convex_decomposition.operators.running import ahead
 from weak_convex_decomposition.operators.running import modal as running
 from weak_convex_decomposition.operators.viewport import pick_parts
 
 sys.path.append(str(Path(__file__).parent))
 from in_window import Pulse
 
-NUMBERS = (*range(3, 13), *range(12, 2, -1))
+UP, DOWN = range(3, 13), range(11, 2, -1)
 
 
-def live(pulse):
+def decompose(hands):
+    """Find the first parts; nothing is kept from before."""
+    session_cache.forget()
+    with hands.context():
+        bpy.ops.wcd.decompose()
+        bpy.ops.ed.undo_push(message="Parts")
+
+
+def live(pulse, numbers, rest):
     """Set the number of parts again and again, and wait for the parts."""
+    print(f"{rest} s between two numbers:")
     bpy.context.scene.wcd.live = True
     obj = bpy.context.active_object
-    for k in NUMBERS:
-        yield 0.5
+    for k in numbers:
+        yield rest
         pulse.restart()
         before, cpu = time.perf_counter(), time.thread_time()
         bpy.context.scene.wcd.parts = k
@@ -68,13 +81,14 @@ def steps(hands):
     bpy.context.preferences.system.viewport_aa = "OFF"
     pulse = Pulse()
     pulse.watch(recut.WCD_OT_recut, "execute")
+    ahead.go_on = pulse.timed(ahead.go_on)
     yield from hands.open_sidebar()
     hands.suzanne(4)
-    with hands.context():
-        bpy.ops.wcd.decompose()
-        bpy.ops.ed.undo_push(message="Parts")
-    yield 1.0
-    yield from live(pulse)
+    decompose(hands)
+    yield from live(pulse, (*UP, *DOWN), 0.5)
+    bpy.context.scene.wcd.live = False
+    decompose(hands)
+    yield from live(pulse, UP, 5.0)
     yield from hovering(hands, pulse)
     before = drawing(hands)
     with hands.context():

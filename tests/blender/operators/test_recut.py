@@ -5,6 +5,9 @@ import json
 import bpy
 import pytest
 from snapshot import snapshot
+from weak_convex_decomposition.core.parts import seams
+from weak_convex_decomposition.operators.bridge.work import session_cache
+from weak_convex_decomposition.operators.running import ahead
 from weak_convex_decomposition.operators.settings import RECUT
 
 # A value of each setting that a live object follows.
@@ -107,3 +110,41 @@ def test_the_chart_chooses_a_number(suzanne, settings):
 def test_the_chart_needs_parts(suzanne):
     with pytest.raises(RuntimeError, match="no parts to replace; press Decompose"):
         bpy.ops.wcd.choose_part_count(parts=3)
+
+
+def labels(obj):
+    return [each.value for each in obj.data.attributes["wcd_part"].data]
+
+
+@pytest.mark.parametrize("slices", [1, 10_000])
+def test_parts_found_ahead_are_those_of_a_run(suzanne, settings, monkeypatch, slices):
+    settings.parts = 4
+    for _ in range(slices):
+        if ahead.go_on() is None:
+            break
+    if slices > 1:  # nothing is left to be cut for the numbers beside
+        monkeypatch.setattr(seams, "cut_seams", None)
+    for parts in (5, 3, 6, 2):
+        settings.parts = parts
+        assert record(suzanne)["k"] == parts
+    monkeypatch.undo()
+    settings.parts = 5
+    found = labels(suzanne)
+    settings.live = False
+    session_cache.forget()
+    bpy.ops.wcd.decompose(samples=200, parts=5)
+    assert labels(suzanne) == found
+
+
+def test_nothing_is_found_ahead_after_a_file_is_loaded(suzanne, settings):
+    settings.parts = 4
+    ahead.go_on()
+    bpy.ops.wm.read_homefile(use_empty=True)
+    assert ahead.go_on() is None
+
+
+def test_nothing_is_found_ahead_where_parts_stay(suzanne, settings):
+    ahead.stop()
+    suzanne.wcd_parts[0].locked = True
+    settings.parts = 4
+    assert ahead.go_on() is None

@@ -5,7 +5,10 @@ import numpy as np
 import pytest
 from hand_made import activate, decompose_by_hand, in_mode
 from mathutils import Vector
-from weak_convex_decomposition.operators.viewport.part_at import part_along
+from weak_convex_decomposition.operators.viewport.part_at import (
+    make_tree,
+    part_along,
+)
 
 FRONT = Vector((0.0, 1.0, 0.0))
 
@@ -121,3 +124,16 @@ def test_the_mesh_is_read_again_when_it_changes(window, suzanne, labels):
     assert seen(0.1) is None
     assert seen(50.1) == (suzanne, 0)
     assert np.ptp(labels) == 3
+
+
+def test_a_tree_is_made_of_what_is_seen_only(window, suzanne, labels):
+    make_tree()
+    in_mode(suzanne, "EDIT")
+    make_tree()
+    in_mode(suzanne, "OBJECT")
+    suzanne.hide_viewport = True
+    make_tree()  # Blender has no mesh of it, and would raise
+    bpy.ops.object.empty_add()
+    make_tree()
+    bpy.data.objects.remove(bpy.context.active_object)
+    make_tree()

@@ -1,0 +1,107 @@
+"""Find the parts for the next numbers ahead, in slices, while nothing else runs.
+
+Nothing is written. The session's cache keeps what is found, so that parts follow at
+once when their number is asked for.
+"""
+
+from __future__ import annotations
+
+import atexit
+from dataclasses import replace
+from typing import TypeVar
+
+import bpy
+
+from ...core.parameters.parts import Parameters
+from ...core.steps.job import Job
+from ...core.steps.progress import Steps
+from ..bridge.work.session_cache import session_cache
+from . import modal
+
+T = TypeVar("T")
+
+# What is added to the number of parts. One more or less comes first.
+_NEAR = (1, -1, 2, -2)
+# Seconds of work in a slice, and between two slices. Steps end some 20 ms late.
+_SLICE = 0.02
+_PAUSE = 0.02
+
+# What is still to be found, and what is being found.
+_wanted: list[Parameters] = []
+_current: tuple[Parameters, Job[object]] | None = None
+
+
+def start(parameters: Parameters, n_parts: int) -> None:
+    """Find the parts for numbers near one, of the latest shape, from now on.
+
+    Numbers above the highest that are tried anyway would need more eigenvectors, which
+    take a tenth of a second at once.
+    """
+    near = [n_parts + step for step in _NEAR]
+    _wanted[:] = [
+        replace(parameters, parts=n) for n in near if 1 < n <= parameters.max_parts
+    ]
+    if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
+        bpy.app.timers.register(go_on, first_interval=_PAUSE)
+
+
+def go_on() -> float | None:
+    """Work for a slice; return when to go on, None if all is found."""
+    global _current
+    if modal.busy():
+        return _PAUSE
+    if _current is None:
+        parameters = _wanted.pop(0) if _wanted else None
+        steps = parameters and session_cache().find_ahead(parameters)
+        if parameters is None or steps is None:
+            stop()
+            return None
+        _current = parameters, Job(steps)
+    if _current[1].advance(_SLICE):
+        _current = None
+    return _PAUSE
+
+
+def after_rest(parameters: Parameters, steps: Steps[T]) -> Steps[T]:
+    """Run `steps`, which find parts too; if these are half found, find the rest first.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        That `steps` find parts with.
+    steps : Steps
+
+    Returns
+    -------
+    Steps
+        With the value of `steps`.
+    """
+    while _current is not None and _current[0] == parameters and not _current[1].done:
+        _current[1].advance(0.0)
+        yield _current[1].progress
+    return (yield from steps)
+
+
+@bpy.app.handlers.persistent
+def stop(*_: object) -> None:
+    """Find nothing any more. Blender passes arguments to handlers."""
+    global _current
+    _wanted.clear()
+    if _current is not None:
+        _current[1].cancel()
+    _current = None
+
+
+def register() -> None:
+    """Stop whenever a file is loaded, and when Python ends: see `session_cache`."""
+    atexit.register(stop)
+    bpy.app.handlers.load_pre.append(stop)
+
+
+def unregister() -> None:
+    """Undo `register`, and stop."""
+    bpy.app.handlers.load_pre.remove(stop)
+    atexit.unregister(stop)
+    stop()
+    if bpy.app.timers.is_registered(go_on):
+        bpy.app.timers.unregister(go_on)
