@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import blf
@@ -18,12 +19,14 @@ from ..operators.bridge.parts.rows import chosen_numbers
 from ..operators.bridge.refusals import faces_refusal
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_parts
+from .through_hulls import draw_through, forget, transparent_hulls
 
 # How opaque the colors of an overlay are: less in Edit Mode, where edges are seen.
 # And the tints of what is under the cursor and what is chosen.
 _OPAQUE = (0.65, 0.3)
 _HOVERED = (1.0, 1.0, 1.0, 0.14)
 _CHOSEN = (1.0, 1.0, 1.0, 0.1)
+_NONE = (1.0, 1.0, 1.0, 0.0)
 # Widths of borders, in points at interface scale 1.
 _HOVERED_WIDTH = 2.5
 _CHOSEN_WIDTH = 2.0
@@ -48,6 +51,7 @@ def unregister() -> None:
     """Undo `register`."""
     while _handlers:
         bpy.types.SpaceView3D.draw_handler_remove(_handlers.pop(), "WINDOW")
+    forget()
 
 
 def _draw() -> None:
@@ -58,16 +62,39 @@ def _draw() -> None:
         return
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("LESS_EQUAL")
-    for obj in context.visible_objects:
-        shown = shown_parts(obj) if is_overlaid(obj) else None
-        if shown is not None and obj.visible_in_viewport_get(space):
-            opaque = _OPAQUE[obj.mode == "EDIT"]
-            for number, identity in noted_identities(obj).items():
-                _fill(obj, shown, number, (*srgb_of(identity.color), opaque), 1)
+    overlaid = [each for each in context.visible_objects if is_overlaid(each)]
+    _draw_colors(context, overlaid)
     _draw_chosen(context)
     _draw_hovered()
+    if overlaid or picking.current is not None or context.scene.wcd.highlight:
+        hulls = transparent_hulls(context)
+        if hulls:
+            draw_through(hulls, lambda: _draw_on_white(context))
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
+
+
+def _draw_colors(
+    context: bpy.types.Context, objects: Iterable[bpy.types.Object]
+) -> None:
+    """Draw parts in their colors, in none where these are no overlay."""
+    for obj in objects:
+        shown = shown_parts(obj)
+        if shown is None or not obj.visible_in_viewport_get(context.space_data):
+            continue
+        opaque = _OPAQUE[obj.mode == "EDIT"]
+        for number, identity in noted_identities(obj).items():
+            color = (*srgb_of(identity.color), opaque)
+            _fill(obj, shown, number, color if is_overlaid(obj) else _NONE, 1)
+
+
+def _draw_on_white(context: bpy.types.Context) -> None:
+    """Draw the same on what is transparent white."""
+    gpu.state.blend_set("NONE")
+    _draw_colors(context, context.visible_objects)
+    gpu.state.blend_set("ALPHA")
+    _draw_chosen(context)
+    _draw_hovered()
 
 
 def _draw_chosen(context: bpy.types.Context) -> None:

@@ -135,7 +135,7 @@ LOOKS = (
     Choice(
         "TRANSPARENT",
         "Transparent",
-        "Solids that are seen through. They hide an overlay of colors; wires do not",
+        "Solids that are seen through, in the colors of the parts",
     ),
     Choice("SOLID", "Solid", "Solids in the colors of the parts"),
     Choice("WIRE", "Wire", "Edges only"),

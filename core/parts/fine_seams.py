@@ -23,7 +23,7 @@ from .seams import SeamCutter, Seams
 _RINGS = 2
 # Least smoothness: borders of patches are ragged.
 _LEAST_SMOOTHNESS = 0.1
-# Most sweeps of the cut: more of them hardly straighten seams that are near their place.
+# Most sweeps of the cut: seams are near their places, and more hardly shorten them.
 _SWEEPS = 2
 
 

@@ -101,8 +101,7 @@ def cut_seams(
                 continue
             moved, seen[label] = cutter.expand(labels, label)
             if len(moved):
-                # Expand a label again if its last expansion moved nodes, or if a node
-                # that it depends on has moved since.
+                # Expand labels again that moved nodes last, or depend on moved ones.
                 settled &= ~(restless | seen[:, moved].any(axis=1))
                 labels[moved] = label
             settled[label], restless[label] = True, len(moved) > 0

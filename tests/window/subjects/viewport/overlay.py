@@ -5,6 +5,7 @@ import numpy as np
 from hands import PICTURES
 from leftovers import leftovers
 from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
+from weak_convex_decomposition.operators.viewport import picking
 
 SHADINGS = ("SOLID", "MATERIAL")
 
@@ -51,8 +52,45 @@ def steps(hands):
     yield from shade(hands, "WIREFRAME")
     hands.picture("overlay-wireframe", hands.area)
     yield from shade(hands, "SOLID")
+    yield from through_hulls(hands)
     yield from by_the_button(hands)
     yield from reloaded(hands)
+
+
+def through_hulls(hands):
+    """Colors and borders are seen through transparent hulls, and wires; not opaque."""
+    shading = hands.area.spaces.active.shading
+    obj, before = bpy.context.active_object, colorful(hands, "no-hulls")
+    with hands.context():
+        bpy.ops.wcd.build_hulls(pieces="PARTS", look="TRANSPARENT")
+        bpy.ops.ed.undo_push(message="Hulls")
+    shading.color_type = "OBJECT"
+    for hull in obj.children:
+        hull.color = (0.8, 0.8, 0.8, hull.color[3])
+    yield 1.0
+    assert colorful(hands, "transparent-hulls") > 0.8 * before
+    with hands.context():
+        bpy.ops.wcd.show_hulls(look="SOLID")
+    yield 1.0
+    assert colorful(hands, "opaque-hulls") < 0.6 * before
+    with hands.context():
+        bpy.ops.wcd.show_hulls(look="WIRE")
+    yield 1.0
+    assert colorful(hands, "wire-hulls") > 0.8 * before
+    with hands.context():
+        bpy.ops.wcd.show_hulls(look="TRANSPARENT")
+        bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")
+    region = hands.region("WINDOW")
+    x, y = region.x + region.width // 2, region.y + region.height // 2
+    yield from hands.move(int(x), int(y))
+    yield 1.0
+    assert picking.current.row() is not None
+    hands.picture("hovered-in-hulls", hands.area)
+    yield from hands.press("Escape")
+    with hands.context():
+        bpy.ops.wcd.remove_hulls()
+        bpy.ops.ed.undo_push(message="No Hulls")
+    yield 0.5
 
 
 def by_the_button(hands):

@@ -1,0 +1,110 @@
+"""Draw what is behind transparent hulls of ours, as far as a viewport hides it.
+
+Solid shading notes the depth of transparent solids, too, so what is drawn later behind
+them is not seen. So it is drawn into a picture of its own first, and hulls that are in
+front show that picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ..operators.bridge.mesh.corners import triangles_of
+from ..operators.bridge.stored.names import HULL_TAG
+
+# The kinds of color in Solid shading that objects are transparent in.
+_WITH_ALPHA = {"MATERIAL", "OBJECT"}
+# How much nearer than its surface a hull is drawn, as a share of the depth.
+_NEARER = 1e-6
+
+# The colors, frame buffer and depth of the latest picture, to be used again.
+_pictures: list[Any] = []
+
+
+def transparent_hulls(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Return the hulls that the viewport of a context shows as transparent solids."""
+    space = context.space_data
+    shading = space.shading
+    if shading.type != "SOLID" or shading.color_type not in _WITH_ALPHA:
+        return []
+    return [
+        obj
+        for obj in context.visible_objects
+        if HULL_TAG in obj
+        and obj.display_type == "TEXTURED"
+        and obj.color[3] < 1
+        and obj.visible_in_viewport_get(space)
+    ]
+
+
+def draw_through(hulls: Sequence[bpy.types.Object], draw: Callable[[], None]) -> None:
+    """Let hulls show what is drawn, wherever they are in front.
+
+    Parameters
+    ----------
+    hulls : sequence of Object
+    draw : callable
+        Draws with the depth test, on transparent white.
+    """
+    view, noting = bpy.context.region_data, gpu.state.depth_mask_get()
+    colors, picture = _picture(*gpu.state.viewport_get()[2:])
+    gpu.state.depth_mask_set(True)
+    with picture.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+        picture.clear(color=(1, 1, 1, 0), depth=1.0)
+        gpu.matrix.load_matrix(view.view_matrix)
+        gpu.matrix.load_projection_matrix(view.window_matrix)
+        draw()
+    gpu.state.depth_mask_set(noting)
+    gpu.state.blend_set("ALPHA")
+    places = np.concatenate([_on_screen(hull, view) for hull in hulls])
+    if len(places):
+        _show(colors, places)
+
+
+def _picture(width: int, height: int) -> tuple[Any, Any]:
+    """Return the colors of a picture of a size, and what draws into it."""
+    if not _pictures or (_pictures[0].width, _pictures[0].height) != (width, height):
+        size = width, height
+        colors = gpu.types.GPUTexture(size, format="SRGB8_A8")  # as of the viewports
+        depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
+        drawn = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=colors)
+        _pictures[:] = colors, drawn, depth
+    return _pictures[0], _pictures[1]
+
+
+def forget() -> None:
+    """Forget the picture."""
+    _pictures.clear()
+
+
+def _on_screen(
+    hull: bpy.types.Object, view: bpy.types.RegionView3D
+) -> NDArray[np.float32]:
+    """Return the corners of a hull's triangles, (N, 3): from -1 to 1 on the screen."""
+    vertices, triangles, _ = triangles_of(hull.data)
+    matrix = np.array(view.perspective_matrix @ hull.matrix_world)
+    corners = (vertices @ matrix[:, :3].T + matrix[:, 3])[triangles]
+    corners = corners[(corners[:, :, 3] > 0).all(axis=1)].reshape(-1, 4)
+    places = corners[:, :3] / corners[:, 3:]
+    places[:, 2] -= _NEARER
+    return places.astype(np.float32)
+
+
+def _show(colors: Any, places: NDArray[np.float32]) -> None:
+    """Draw colors that fill the screen, on some places of it."""
+    shader = gpu.shader.from_builtin("IMAGE")
+    content = {"pos": places, "texCoord": np.ascontiguousarray(0.5 + places[:, :2] / 2)}
+    shader.bind()
+    shader.uniform_sampler("image", colors)
+    with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
+        gpu.matrix.load_matrix(Matrix())
+        gpu.matrix.load_projection_matrix(Matrix())
+        batch_for_shader(shader, "TRIS", content).draw(shader)
