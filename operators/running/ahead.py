@@ -51,12 +51,11 @@ def go_on() -> float | None:
     if modal.busy():
         return _PAUSE
     if _current is None:
-        parameters = _wanted.pop(0) if _wanted else None
-        steps = parameters and session_cache().find_ahead(parameters)
-        if parameters is None or steps is None:
+        steps = session_cache().find_ahead(_wanted[0]) if _wanted else None
+        if steps is None:
             stop()
             return None
-        _current = parameters, Job(steps)
+        _current = _wanted.pop(0), Job(steps)
     if _current[1].advance(_SLICE):
         _current = None
     return _PAUSE

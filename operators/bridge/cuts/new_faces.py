@@ -17,6 +17,7 @@ from .cut_mesh import CutMesh
 from .whole_mesh import (
     forget_whole,
     note_whole,
+    put_back,
     replace_mesh,
     whole_faces,
     whole_mesh_of,
@@ -113,7 +114,7 @@ class NewFaces:
             forget_whole(former)
         if self.pieces is None:
             if whole != former:
-                replace_mesh(obj, whole)
+                put_back(obj, whole)
             return
         mesh = whole.copy()
         with self.pieces.of(whole) as made:

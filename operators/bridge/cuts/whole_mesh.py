@@ -94,10 +94,15 @@ def bring_back(obj: bpy.types.Object) -> bool:
     if whole == mesh:
         forget_whole(mesh)
         return False
+    put_back(obj, whole)
+    return True
+
+
+def put_back(obj: bpy.types.Object, whole: bpy.types.Mesh) -> None:
+    """Give an object, and those that share its mesh, the mesh with its whole faces."""
     if whole.users > 1:  # a copy of the object has its faces from there, too
         whole = whole.copy()
     replace_mesh(obj, whole)
-    return True
 
 
 def replace_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:

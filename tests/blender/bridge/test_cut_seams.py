@@ -156,6 +156,18 @@ def test_a_copy_of_a_cut_object_is_cleared_on_its_own(angle):
     assert copy.data != angle.data
 
 
+def test_copies_of_a_cut_object_get_whole_faces_each(angle):
+    cut(parts=2)
+    bpy.ops.object.duplicate()
+    copy = bpy.context.active_object
+    for obj, parts in ((copy, 1), (angle, 2)):
+        activate(obj)
+        cut("KEEP", parts=parts)
+    assert copy.data != angle.data
+    check_in_step(copy)
+    check_in_step(angle)
+
+
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_an_object_that_cut_faces_were_joined_to_is_cleared_of_them(angle, mode):
     cut(parts=2)
