@@ -15,8 +15,13 @@ def bone(x=0.0):
     for vertex in bm.verts:
         vertex.co.y *= 0.2 + 0.8 * (abs(vertex.co.x) > 0.5)
     bmesh.ops.solidify(bm, geom=bm.faces[:], thickness=0.4)
+    bm.verts.index_update()
+    # Blender makes the sides in an order that is another one each time.
+    corners = [[vertex.index for vertex in face.verts] for face in bm.faces]
+    starts = [each.index(min(each)) for each in corners]
+    faces = [c[at:] + c[:at] for c, at in zip(corners, starts, strict=True)]
     mesh = bpy.data.meshes.new("Bone")
-    bm.to_mesh(mesh)
+    mesh.from_pydata([vertex.co for vertex in bm.verts], [], sorted(faces))
     bm.free()
     obj = bpy.data.objects.new("Bone", mesh)
     obj.location.x = x
