@@ -37,15 +37,15 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     if found is None:
         raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
     identities, own = found.identities, part_materials(obj, found)
-    materials = [  # of the parts, unless the user removed them
-        material or own_materials([identity], [None])[0]
-        for identity, material in zip(identities, own, strict=True)
-    ]
     collection = new_collection(obj, f"{obj.name} parts")
     bare = _copy(obj)
     remove_views(bare)
     clear(bare)
     forget_whole(bare.data)
+    materials = [  # new ones where the user removed them; Clear would discard these
+        material or own_materials([identity], [None])[0]
+        for identity, material in zip(identities, own, strict=True)
+    ]
     pieces: list[bpy.types.Object] = []
     for part in range(len(identities)):
         piece = _copy(bare)

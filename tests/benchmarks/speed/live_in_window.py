@@ -57,6 +57,7 @@ def hovering(hands, pulse):
     with hands.context():
         bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")
     print(f"Pick Parts: {pulse.step:.3f}")
+    yield 0.3  # a hand takes as long from the button to the model
     region = hands.region("WINDOW")
     for share in (0.5, 0.52, 0.55, 0.6):
         pulse.restart()

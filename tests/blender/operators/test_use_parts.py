@@ -89,6 +89,19 @@ def test_the_original_can_be_removed_and_leaves_its_children(suzanne):
     }
 
 
+def test_a_part_whose_material_was_removed_gets_a_new_one(suzanne):
+    decompose_by_hand(suzanne, 3)
+    suzanne.data.materials.pop(index=1)
+    bpy.data.materials.remove(bpy.data.materials["Part 02"])
+    call("separate")
+    pieces = bpy.data.collections["Suzanne parts"].objects
+    assert [slot.name for piece in pieces for slot in piece.material_slots] == [
+        "Part 01",
+        "Part 02",
+        "Part 03",
+    ]
+
+
 def test_loose_vertices_stay_with_one_part(suzanne):
     decompose_by_hand(suzanne, 2)
     suzanne.data.vertices.add(3)
