@@ -14,7 +14,6 @@ import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..operators.bridge.mesh.corners import triangles_of
@@ -25,8 +24,10 @@ _WITH_ALPHA = {"MATERIAL", "OBJECT"}
 # How much nearer than its surface a hull is drawn, as a share of the depth.
 _NEARER = 1e-6
 
-# The colors, frame buffer and depth of the latest picture, to be used again.
+# The colors, frame buffer and depth of the latest picture, and the shader that shows
+# it, to be used again.
 _pictures: list[Any] = []
+_shaders: list[Any] = []
 
 
 def transparent_hulls(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -81,8 +82,9 @@ def _picture(width: int, height: int) -> tuple[Any, Any]:
 
 
 def forget() -> None:
-    """Forget the picture."""
+    """Forget the picture and the shader."""
     _pictures.clear()
+    _shaders.clear()
 
 
 def _on_screen(
@@ -100,11 +102,25 @@ def _on_screen(
 
 def _show(colors: Any, places: NDArray[np.float32]) -> None:
     """Draw colors that fill the screen, on some places of it."""
-    shader = gpu.shader.from_builtin("IMAGE")
-    content = {"pos": places, "texCoord": np.ascontiguousarray(0.5 + places[:, :2] / 2)}
+    if not _shaders:
+        _shaders.append(_shader())
+    (shader,) = _shaders
     shader.bind()
-    shader.uniform_sampler("image", colors)
-    with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
-        gpu.matrix.load_matrix(Matrix())
-        gpu.matrix.load_projection_matrix(Matrix())
-        batch_for_shader(shader, "TRIS", content).draw(shader)
+    shader.uniform_sampler("colors", colors)
+    batch_for_shader(shader, "TRIS", {"place": places}).draw(shader)
+
+
+def _shader() -> Any:
+    """Return a shader that copies linear colors; not all of Blender's own do."""
+    info = gpu.types.GPUShaderCreateInfo()
+    between = gpu.types.GPUStageInterfaceInfo("wcd_through_hulls")
+    between.smooth("VEC2", "at")
+    info.vertex_in(0, "VEC3", "place")
+    info.vertex_out(between)
+    info.sampler(0, "FLOAT_2D", "colors")
+    info.fragment_out(0, "VEC4", "color")
+    info.vertex_source(
+        "void main() { at = 0.5 + place.xy / 2.0; gl_Position = vec4(place, 1.0); }"
+    )
+    info.fragment_source("void main() { color = texture(colors, at); }")
+    return gpu.shader.create_from_info(info)
