@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from ..operators.bridge.mesh.corners import triangles_of
 from ..operators.bridge.stored.names import HULL_TAG
 
-# The kinds of color in Solid shading that no object is transparent in.
-_OPAQUE = {"SINGLE", "RANDOM"}
+# The kind of color in Solid shading that no object is transparent in.
+_OPAQUE = "SINGLE"
 # How much nearer than its surface a hull is drawn, as a share of the depth.
 _NEARER = 1e-6
 
@@ -34,7 +34,7 @@ def transparent_hulls(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Return the hulls that the viewport of a context shows as transparent solids."""
     space = context.space_data
     shading = space.shading
-    if shading.type != "SOLID" or shading.color_type in _OPAQUE:
+    if shading.type != "SOLID" or shading.color_type == _OPAQUE:
         return []
     return [
         obj

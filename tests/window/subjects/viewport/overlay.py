@@ -69,7 +69,7 @@ def through_hulls(hands):
         hull.color = (0.8, 0.8, 0.8, hull.color[3])
     yield 1.0
     assert colorful(hands, "transparent-hulls") > 0.8 * before
-    for kind in ("SINGLE", "RANDOM", "TEXTURE", "VERTEX"):
+    for kind in ("SINGLE", "RANDOM"):
         shading.color_type = kind
         yield 0.7
         hands.picture(f"hulls-{kind.lower()}", hands.area)
