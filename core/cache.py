@@ -12,7 +12,7 @@ from .parameters.parameter import info_of
 from .parameters.parts import Parameters
 from .parts.find import find_parts
 from .parts.part_memo import PartMemo
-from .results import Decomposition
+from .results.parts import Decomposition
 from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_march import MakeCaster
 from .sight.visibility import see_in_steps
