@@ -39,7 +39,8 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         result = result_of(context.active_object)
         gains = gains_of(result["psi_by_k"])
         good = result.get("good_k", ())  # records of former versions have none
-        for text in (offer_of(good), reason_for(result.get("best_k"), gains)):
+        best = result.get("best_k")
+        for text in (offer_of(good), reason_for(best, gains), details_of(result)):
             if text:
                 paragraph(self.layout, text, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
@@ -54,8 +55,7 @@ def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> 
     """Draw the button that chooses a number of parts; stars mark the best and good."""
     icon = "SOLO_OFF" if k in result.get("good_k", ()) else "NONE"
     icon = "SOLO_ON" if k == result.get("best_k") else icon
-    # With deeper levels, k counts the parts of all levels.
-    shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
+    shown = k == result["k"] and not has_details(result)
     button = layout.operator(
         "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
     )
@@ -76,6 +76,22 @@ def offer_of(good: Sequence[int]) -> str | None:
     if len(good) < 2:
         return None
     return f"Coarse to fine: {', '.join(map(str, good[:-1]))} or {good[-1]} parts."
+
+
+def has_details(result: Mapping[str, Any]) -> bool:
+    """Return whether parts were split further: no bar tells their number then."""
+    parameters = result["parameters"]
+    levels = parameters.get("levels", 1)  # records of former versions have none
+    if levels == 0:
+        return not parameters.get("parts") and result["k"] > result["best_k"]
+    return levels > 1
+
+
+def details_of(result: Mapping[str, Any]) -> str | None:
+    """Return how many parts the details of others are, if there are any."""
+    if not has_details(result):
+        return None
+    return f"Of {result['k']} parts, {result['k'] - result['best_k']} are details."
 
 
 def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:
