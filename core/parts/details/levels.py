@@ -34,9 +34,9 @@ _WORTH_SPLITTING = 0.25
 _MOST_RANK = 0.8
 _MOST_AREA = 0.25
 _FEWEST_PRONGS = 2
-# A body has 10 fingers, 10 toes and some ears. More prongs are a texture, such as
-# feathers, and would take too long: then no part is looked at again.
-_MOST_PRONGS = 24
+# A hand has five, and a body with fingers and toes twenty. More of them on a part, or on
+# all of these parts, are a texture, such as fur or feathers, and would take too long.
+_MOST_OF_PART, _MOST_PRONGS = 12, 24
 # There are so many further levels, such as arm, hand and finger, and each part is seen
 # by so many samples and split into so many pieces at most.
 _FURTHER_LEVELS = 3
@@ -165,6 +165,7 @@ def _tips_of(memo: PartMemo, found: Decomposition) -> Steps[NDArray[np.bool_]]:
         parts = memo.patches.labels_of_patches(parts)
         numbers = memo.patches.of_nodes[numbers]
     at = yield from find_tips(graph, parts, chosen)
+    at = at[np.bincount(parts[at], minlength=1)[parts[at]] <= _MOST_OF_PART]
     if len(at) <= _MOST_PRONGS:
         places, first = np.unique(numbers, return_index=True)
         tips[first[np.isin(places, at)]] = True

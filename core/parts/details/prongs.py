@@ -18,8 +18,10 @@ from ...steps.progress import Progress, Steps
 # A prong is long if its squared length is at least this share of its area. A cylinder
 # has that share if it is 2.5 times as long as its radius; a heel has less.
 _LONG = 0.4
-# Least length of a prong, as a share of the largest distance from the part's seams.
+# Least length of a prong, as a share of the largest distance from the part's seams, and
+# number of its nodes: smaller ones are roughness.
 _LEAST_LENGTH = 0.03
+_LEAST_NODES = 4
 
 
 def find_tips(
@@ -102,9 +104,10 @@ def _long_prongs(
         length = far[short] - far[saddle]
         if short == long:
             continue
-        if length >= least[short]:
-            beyond = (tips[hills] == short) & (far > far[saddle])
-            if length**2 >= _LONG * areas[beyond].sum():
+        if length > least[short]:
+            beyond = np.flatnonzero((tips[hills] == short) & (far > far[saddle]))
+            is_long = length**2 >= _LONG * areas[beyond].sum()
+            if is_long and len(beyond) >= _LEAST_NODES:
                 found |= {int(short), int(long)}
         tips[tips == short] = long
     return np.array(sorted(found), dtype=np.int64)
