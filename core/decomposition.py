@@ -15,7 +15,7 @@ from .parts.details.levels import finds_details, split_further
 from .parts.find import find_parts
 from .parts.pairs import mirror_pairs
 from .parts.part_memo import PartMemo
-from .results import Decomposition
+from .results.parts import Decomposition
 from .sight.prepared import PreparedShape
 from .steps.progress import Steps, within
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 
+from ..core.results.psi import good_numbers
 from .panels import WCD_PT_parts, paragraph
 from .sidebar import Sidebar, result_of
 
@@ -37,9 +38,9 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw a row for each number of parts, and say which are good and why."""
         result = result_of(context.active_object)
-        gains = gains_of(result["psi_by_k"])
-        good = result.get("good_k", ())  # records of former versions have none
-        best = result.get("best_k")
+        psi_by_k = {int(k): psi for k, psi in result["psi_by_k"].items()}
+        gains, best = gains_of(psi_by_k), result.get("best_k", result["k"])
+        good = good_numbers(psi_by_k, best)
         for text in (offer_of(good), reason_for(best, gains), details_of(result)):
             if text:
                 paragraph(self.layout, text, context, icon="SOLO_ON")
@@ -47,14 +48,15 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         column.scale_y = _HEIGHT
         for k, gain in gains.items():
             split = column.split(factor=_NUMBER, align=True)
-            _draw_number(split, k, result)
+            icon = "SOLO_ON" if k == best else "SOLO_OFF" if k in good else "NONE"
+            _draw_number(split, k, result, icon)
             split.progress(factor=gain, text=f"{gain:.0%}")
 
 
-def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> None:
-    """Draw the button that chooses a number of parts; stars mark the best and good."""
-    icon = "SOLO_OFF" if k in result.get("good_k", ()) else "NONE"
-    icon = "SOLO_ON" if k == result.get("best_k") else icon
+def _draw_number(
+    layout: bpy.types.UILayout, k: int, result: dict[str, Any], icon: str
+) -> None:
+    """Draw the button that chooses a number of parts."""
     shown = k == result["k"] and not has_details(result)
     button = layout.operator(
         "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
@@ -62,12 +64,12 @@ def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> 
     button.parts = k
 
 
-def gains_of(psi_by_k: Mapping[str, float]) -> dict[int, float]:
+def gains_of(psi_by_k: Mapping[int, float]) -> dict[int, float]:
     """Return the length of each bar: 0 for the lowest psi, 1 for the highest."""
     low, high = min(psi_by_k.values()), max(psi_by_k.values())
     return {
-        int(k): (psi - low) / (high - low) if high > low else 1.0
-        for k, psi in sorted(psi_by_k.items(), key=lambda item: int(item[0]))
+        k: (psi - low) / (high - low) if high > low else 1.0
+        for k, psi in sorted(psi_by_k.items())
     }
 
 
@@ -79,25 +81,26 @@ def offer_of(good: Sequence[int]) -> str | None:
 
 
 def has_details(result: Mapping[str, Any]) -> bool:
-    """Return whether parts were split further: no bar tells their number then."""
-    parameters = result["parameters"]
-    levels = parameters.get("levels", 1)  # records of former versions have none
+    """Return whether parts were split further: then no bar tells their number."""
+    parameters, best = result["parameters"], result.get("best_k", result["k"])
+    levels = parameters.get("levels", 1)
     if levels == 0:
-        return not parameters.get("parts") and result["k"] > result["best_k"]
-    return levels > 1
+        return not parameters["parts"] and result["k"] > best
+    return bool(levels > 1)
 
 
 def details_of(result: Mapping[str, Any]) -> str | None:
-    """Return how many parts the details of others are, if there are any."""
-    if not has_details(result):
+    """Return how many parts more there are because some of them hide details."""
+    if result["parameters"].get("levels", 1) or not has_details(result):
         return None
-    return f"Of {result['k']} parts, {result['k'] - result['best_k']} are details."
+    more = result["k"] - result["best_k"]
+    return f"{result['best_k']} parts of the whole, and {more} more in their details."
 
 
-def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:
+def reason_for(best: int, gains: Mapping[int, float]) -> str | None:
     """Return why the best number of parts has not the longest bar, if it has not."""
     longest = max(gains, key=gains.__getitem__)
-    if best is None or best not in gains or gains[longest] <= gains[best]:
+    if best not in gains or gains[longest] <= gains[best]:
         return None
     lead = gains[longest] - gains[best]
     more = f"{lead:.0%}"

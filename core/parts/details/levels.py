@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...parameters.parts import Parameters
-from ...results import Decomposition
+from ...results.parts import Decomposition
 from ...sight.prepared import PreparedShape
 from ...sight.visibility import Visibility
 from ...steps.progress import Progress, Steps, within, within_turn
