@@ -79,4 +79,3 @@ def decompose_in_steps(
 def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:
     """Return parts with the pairs among them that are mirror images of each other."""
     return replace(found, pairs=(yield from mirror_pairs(memo, found.labels)))
-
