@@ -16,7 +16,6 @@ from .parts.find import find_parts
 from .parts.pairs import mirror_pairs
 from .parts.part_memo import PartMemo
 from .results.parts import Decomposition
-from .sight.prepared import PreparedShape
 from .steps.progress import Steps, within
 
 # Progress at the end of the stages surface, lines of sight and parts. With further

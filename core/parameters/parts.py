@@ -216,7 +216,7 @@ class Parameters:
             "Levels",
             "Each level after the first splits the parts again, with all samples on one"
             " part at a time, which takes several times as long. Parts is the number of"
-            " parts on the first level. 0 is Auto: if Parts is Auto too, only parts that"
+            " parts on the first level. 0 is Auto: if Parts is Auto too, parts that"
             " hide details are split again, such as an arm with fingers",
             low=0,
             high=4,

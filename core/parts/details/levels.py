@@ -34,8 +34,8 @@ _WORTH_SPLITTING = 0.25
 _MOST_RANK = 0.8
 _MOST_AREA = 0.25
 _FEWEST_PRONGS = 2
-# A hand has five, and a body with fingers and toes twenty. More of them on a part, or on
-# all of these parts, are a texture, such as fur or feathers, and would take too long.
+# A hand has five, and a body with fingers and toes twenty. More of them on a part, or
+# on all such parts, are a texture, such as fur or feathers, and would take too long.
 _MOST_OF_PART, _MOST_PRONGS = 12, 24
 # There are so many further levels, such as arm, hand and finger, and each part is seen
 # by so many samples and split into so many pieces at most.

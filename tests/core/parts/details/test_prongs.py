@@ -47,7 +47,7 @@ def test_a_part_that_is_not_asked_for_or_has_no_seam_has_no_tips():
 
 
 def test_what_is_not_connected_to_a_seam_has_no_tips():
-    loose = replace(comb(3, 4), vertices=comb(3, 4).vertices + [0, 20, 0])
+    loose = replace(comb(3, 4), vertices=comb(3, 4).vertices + np.array([0, 20, 0]))
     tips, centers = tips_beyond(shapes.joined(comb(3, 4), loose), 2)
     assert len(tips) == 3
     assert (centers[tips, 1] < 20).all()
