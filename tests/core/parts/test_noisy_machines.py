@@ -1,5 +1,7 @@
 """Seams land on the rims of turned shapes, also where triangles are long and noisy."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import shapes
@@ -34,7 +36,7 @@ def rough(outline, seed):
     """Return an outline turned around z, in long triangles whose corners are noisy."""
     rng = np.random.default_rng(seed)
     line = [outline[0]]
-    for start, end in zip(outline, outline[1:], strict=False):
+    for start, end in pairwise(outline):
         shares = np.sort(rng.random(ROWS if start[0] == end[0] else 0))
         line += [*(np.outer(1 - shares, start) + np.outer(shares, end)), end]
     mesh = shapes.turned(*np.transpose(line), AROUND)
