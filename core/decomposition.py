@@ -11,17 +11,17 @@ from .cache import ShapeCache
 from .geometry.shape import Shape
 from .parameters.parts import Parameters
 from .parts.convex_whole import as_one_part, stays_whole
+from .parts.details.levels import finds_details, split_further
 from .parts.find import find_parts
-from .parts.levels import with_pieces
 from .parts.pairs import mirror_pairs
 from .parts.part_memo import PartMemo
 from .results.parts import Decomposition
-from .sight.prepared import PreparedShape
-from .steps.progress import Steps, within, within_turn
+from .steps.progress import Steps, within
 
 # Progress at the end of the stages surface, lines of sight and parts. With further
-# levels, these three are only the first quarter.
+# levels, these three are only the first quarter; with details, more.
 _ONE_LEVEL = (0.02, 0.8, 1.0)
+_DETAILS = (0.02, 0.7, 0.85)
 _LEVELS = (0.01, 0.15, 0.25)
 
 
@@ -57,7 +57,9 @@ def decompose_in_steps(
     ----------
     Asafi, Goren and Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight".
     """
-    ready, seen, done = _ONE_LEVEL if parameters.levels == 1 else _LEVELS
+    ready, seen, done = _LEVELS if parameters.levels > 1 else _ONE_LEVEL
+    if finds_details(parameters):
+        ready, seen, done = _DETAILS
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)
     prepared = prepared if members is None else prepared.part(members)
@@ -67,29 +69,12 @@ def decompose_in_steps(
     memo = yield from within(cache.see(prepared, parameters), ready, seen)
     # Section 4: embed, cluster, choose k by psi (eq. 5), cut the seams (eq. 4).
     found = yield from within(find_parts(memo, parameters), seen, done)
-    # Section 5: split the latest parts further, each seen by samples of its own.
-    latest, n_more = np.arange(found.n_parts), parameters.levels - 1
-    for level in range(n_more):
-        parts = {part: prepared.part(found.labels == part) for part in latest.tolist()}
-        steps = within_turn(_split_each(parts, parameters, cache), level, n_more)
-        pieces = yield from within(steps, done, 1.0)
-        found, latest = with_pieces(memo.visibility, found, pieces, parameters)
+    # Section 5: split parts further, each seen by samples of its own.
+    steps = split_further(prepared, memo, found, parameters, cache.see)
+    found = yield from within(steps, done, 1.0)
     return found if members is not None else (yield from _with_pairs(memo, found))
 
 
 def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:
     """Return parts with the pairs among them that are mirror images of each other."""
     return replace(found, pairs=(yield from mirror_pairs(memo, found.labels)))
-
-
-def _split_each(
-    parts: dict[int, PreparedShape], parameters: Parameters, cache: ShapeCache
-) -> Steps[dict[int, Decomposition]]:
-    """Return the pieces of each part, as many as raise psi."""
-    free, pieces = replace(parameters, parts=0, levels=1), {}
-    for turn, (number, part) in enumerate(parts.items()):
-        seeing = within(cache.see(part, free), 0.0, 0.8)
-        memo = yield from within_turn(seeing, turn, len(parts))
-        finding = within(find_parts(memo, free), 0.8, 1.0)
-        pieces[number] = yield from within_turn(finding, turn, len(parts))
-    return pieces

@@ -41,7 +41,7 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         psi_by_k = {int(k): psi for k, psi in result["psi_by_k"].items()}
         gains, best = gains_of(psi_by_k), result.get("best_k", result["k"])
         good = good_numbers(psi_by_k, best)
-        for text in (offer_of(good), reason_for(best, gains)):
+        for text in (offer_of(good), reason_for(best, gains), details_of(result)):
             if text:
                 paragraph(self.layout, text, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
@@ -57,8 +57,7 @@ def _draw_number(
     layout: bpy.types.UILayout, k: int, result: dict[str, Any], icon: str
 ) -> None:
     """Draw the button that chooses a number of parts."""
-    # With deeper levels, k counts the parts of all levels.
-    shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
+    shown = k == result["k"] and not has_details(result)
     button = layout.operator(
         "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
     )
@@ -79,6 +78,23 @@ def offer_of(good: Sequence[int]) -> str | None:
     if len(good) < 2:
         return None
     return f"Coarse to fine: {', '.join(map(str, good[:-1]))} or {good[-1]} parts."
+
+
+def has_details(result: Mapping[str, Any]) -> bool:
+    """Return whether parts were split further: then no bar tells their number."""
+    parameters, best = result["parameters"], result.get("best_k", result["k"])
+    levels = parameters.get("levels", 1)
+    if levels == 0:
+        return not parameters["parts"] and result["k"] > best
+    return bool(levels > 1)
+
+
+def details_of(result: Mapping[str, Any]) -> str | None:
+    """Return how many parts more there are because some of them hide details."""
+    if result["parameters"].get("levels", 1) or not has_details(result):
+        return None
+    more = result["k"] - result["best_k"]
+    return f"{result['best_k']} parts of the whole, and {more} more in their details."
 
 
 def reason_for(best: int, gains: Mapping[int, float]) -> str | None:

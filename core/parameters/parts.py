@@ -211,13 +211,14 @@ class Parameters:
         ),
     )
     levels: int = parameter(
-        1,
+        0,
         ParameterInfo(
             "Levels",
             "Each level after the first splits the parts again, with all samples on one"
-            " part at a time: more levels find small parts, such as fingers, and take"
-            " several times as long. Parts is the number of parts on the first level",
-            low=1,
+            " part at a time, which takes several times as long. Parts is the number of"
+            " parts on the first level. 0 is Auto: if Parts is Auto too, parts that"
+            " hide details are split again, such as an arm with fingers",
+            low=0,
             high=4,
             affects_sight=False,
         ),

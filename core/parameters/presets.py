@@ -86,6 +86,7 @@ PRESETS = (
             "containers": "HOLLOW",
             "alpha": 1.0,
             "refinement": "EMBEDDING",
+            "levels": 1,
         },
     ),
 )

@@ -123,18 +123,18 @@ def overlap() -> np.ndarray:
 
 
 def fingers() -> np.ndarray:
-    """Draw a whole person, and a hand with one level and with two (figs. 13c, 14)."""
+    """Draw a whole person, and a hand, on one level and by default (figs. 13c, 14)."""
     panels = []
-    for levels in (1, 2):
+    for levels, name in ((1, "Levels 1"), (0, "Levels Auto")):
         obj = shapes.figure()
         record = extension.decompose(obj, levels=levels)
-        if levels == 1:
-            text = "{k} parts, Levels 1"
-            panels.append(panel([obj], text.format(**record), 420, turn=0, elevation=5))
+        if levels == 0:
+            text = f"{record['k']} parts, {name}"
+            panels.insert(0, panel([obj], text, 420, turn=0, elevation=5))
         large = panel([obj], size=2400, turn=0, elevation=5)
         middle = 2400 // 2 - 440
         close = large[middle - 190 : middle + 190, 2010:2390]
-        panels.append(np.concatenate([close, caption(f"a hand, Levels {levels}", 380)]))
+        panels.append(np.concatenate([close, caption(f"a hand, {name}", 380)]))
     return beside(panels)
 
 

@@ -71,6 +71,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "no tolerance in the search for k": {},
     "no comparison with loose clusters": {},
     "bends kept": {"bends": "KEEP"},
+    "no details": {"levels": 1},
     "two levels": {"levels": 2},
     "preset of the paper": preset("PAPER").changes,
 }

@@ -129,7 +129,7 @@ def _cut(
         ),
         notes=found.notes,
     )
-    if parameters.levels > 1:  # each part was measured by samples of its own
+    if parameters.levels != 1:  # each part was measured by samples of its own
         after = replace(after, ranks=found.ranks[order])
     if len(labels) == n_wholes:
         return after, None

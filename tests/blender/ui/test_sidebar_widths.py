@@ -1,7 +1,12 @@
 """What the sidebar shows where there is not room for all."""
 
 import pytest
-from weak_convex_decomposition.ui.chart import gains_of, offer_of, reason_for
+from weak_convex_decomposition.ui.chart import (
+    details_of,
+    gains_of,
+    offer_of,
+    reason_for,
+)
 from weak_convex_decomposition.ui.edit_panel import fitting
 from weak_convex_decomposition.ui.hulls_panel import endings
 from weak_convex_decomposition.ui.parts_table import headings
@@ -69,6 +74,20 @@ def test_the_chart_says_why_the_longest_bar_is_not_the_best(best, gains, words):
 )
 def test_the_chart_tells_good_numbers(good, text):
     assert offer_of(good) == text
+
+
+@pytest.mark.parametrize(
+    ("levels", "k", "text"),
+    [
+        (0, 23, "8 parts of the whole, and 15 more in their details."),
+        (0, 8, None),
+        (1, 9, None),
+        (2, 23, None),
+    ],
+)
+def test_the_chart_tells_parts_of_details_from_others(levels, k, text):
+    parameters = {"parts": 0, "levels": levels}
+    assert details_of({"parameters": parameters, "k": k, "best_k": 8}) == text
 
 
 def test_bars_are_shares_of_the_largest_gain():

@@ -148,3 +148,38 @@ def test_halves_of_a_bar_are_one_limb_where_nothing_ends(name):
     halves = (partitioner.graph.centers[:, 2] > 2e-3).astype(np.int64)
     merged = run(LimbMerger(partitioner).merge(halves))
     assert merged.tolist() == (0 * halves if whole else halves).tolist()
+
+
+def paddle():
+    """Return a handle and a blade as thick as it, three times as wide, in one plane."""
+    mesh = shapes.blocks(
+        (18, 16, 2), ((6, 12), (0, 8), (0, 2)), ((0, 18), (8, 16), (0, 2))
+    )
+    return mesh, (graph_of(mesh).centers[:, 1] > 8).astype(np.int64)
+
+
+def junction():
+    """Return a bar in three pieces, and a branch from the middle one."""
+    mesh = shapes.blocks(
+        (24, 8, 2), ((0, 24), (0, 2), (0, 2)), ((11, 13), (2, 8), (0, 2))
+    )
+    x, y, _ = graph_of(mesh).centers.T
+    return mesh, np.where(y > 2, 3, np.digitize(x, [8, 16])).astype(np.int64)
+
+
+def collar():
+    """Return the two halves of a bar, with a thick block around all but one side."""
+    mesh = shapes.blocks(
+        (24, 9, 7), ((0, 24), (3, 6), (0, 3)), ((8, 16), (0, 9), (0, 7))
+    )
+    x, y, z = graph_of(mesh).centers.T
+    below = (z == 0) & (abs(y - 4.5) < 1.5)
+    bar = below | (x < 8) | (x > 16)
+    return mesh, np.where(bar, x > 12, 2).astype(np.int64)
+
+
+@pytest.mark.parametrize("make", [paddle, junction, collar])
+def test_parts_that_widen_branch_or_meet_beside_a_third_stay(make):
+    mesh, parts = make()
+    merged = run(LimbMerger(Partitioner(see(mesh, CUT), CUT)).merge(parts))
+    assert len(set(merged)) == len(set(parts))

@@ -61,17 +61,48 @@ def parts_by_levels(mesh, **values):
     return decompose(mesh, parameters)
 
 
+def parts_of_tips(mesh, tips, found):
+    columns = graph_of(mesh).centers[tips][:, 0] // 2
+    return [set(found.labels[tips][columns == c].tolist()) for c in range(3)]
+
+
+def test_fingers_of_a_large_body_come_apart_by_default():
+    mesh, tips = hand_on_a_cliff()
+    one, auto = (parts_by_levels(mesh, **values) for values in ({"levels": 1}, {}))
+    assert len(set.union(*parts_of_tips(mesh, tips, one))) < 3
+    fingers = parts_of_tips(mesh, tips, auto)
+    assert [len(parts) for parts in fingers] == [1, 1, 1]
+    assert len(set.union(*fingers)) == 3
+    # Other parts are as they were.
+    hand = set(one.labels[tips].tolist())
+    others = ~np.isin(one.labels, list(hand))
+    assert all(len(set(one.labels[auto.labels == p])) == 1 for p in range(auto.n_parts))
+    assert len(set(auto.labels[others])) == len(set(one.labels[others]))
+    assert (auto.psi_by_k, auto.best_k) == (one.psi_by_k, one.best_k)
+    assert auto.psi > one.psi
+
+
+def test_details_are_not_looked_for_if_the_number_of_parts_is_given():
+    mesh, _ = hand_on_a_cliff()
+    assert parts_by_levels(mesh, parts=3).n_parts == 3
+
+
+def test_a_bent_arm_without_fingers_hides_no_detail():
+    # It sees itself badly, but another look would only divide it at its bends.
+    upper, lower = ((0, 1), (5, 9), (0, 1)), ((0, 6), (9, 10), (0, 1))
+    mesh = shapes.blocks((10, 10, 5), ((0, 10), (0, 5), (0, 5)), upper, lower)
+    one, auto = (parts_by_levels(mesh, **values) for values in ({"levels": 1}, {}))
+    assert one.ranks.min() < 0.8
+    assert auto.labels.tolist() == one.labels.tolist()
+
+
 def test_fingers_of_a_large_body_come_apart_at_the_second_level():
     mesh, tips = hand_on_a_cliff()
-    columns = graph_of(mesh).centers[tips][:, 0] // 2
     one, two = (parts_by_levels(mesh, levels=n) for n in (1, 2))
-
-    def parts_of_tips(found):
-        return [set(found.labels[tips][columns == c].tolist()) for c in range(3)]
-
-    assert len(set.union(*parts_of_tips(one))) < 3
-    assert [len(parts) for parts in parts_of_tips(two)] == [1, 1, 1]
-    assert len(set.union(*parts_of_tips(two))) == 3
+    assert len(set.union(*parts_of_tips(mesh, tips, one))) < 3
+    fingers = parts_of_tips(mesh, tips, two)
+    assert [len(parts) for parts in fingers] == [1, 1, 1]
+    assert len(set.union(*fingers)) == 3
     # Other parts are as they were, and none reaches over what was a boundary.
     assert all(len(set(one.labels[two.labels == p])) == 1 for p in range(two.n_parts))
     assert (np.diff(two.areas) <= 0).all()

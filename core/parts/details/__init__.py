@@ -1,0 +1,1 @@
+"""Parts of parts: what the samples of the whole shape are too few to show."""
