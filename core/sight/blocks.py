@@ -26,7 +26,7 @@ from .ray_march import RayMarcher
 from .viewpoints import Viewpoints
 
 # Pairs of each sample that are cast in the first round, as far as they face each other.
-_FIRST_PAIRS = 25
+_FIRST_PAIRS = 28
 # The rounds that follow: the share of all pairs that may have been cast after each, and
 # the mean answer of a block, from −1 for hidden to 1 for visible, between which it is
 # doubtful.
