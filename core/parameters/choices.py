@@ -8,9 +8,9 @@ SIGHT = (
     Choice(
         "BLOCKS",
         "Blocks",
-        "Group samples that are close and face the same way, test a few pairs of every"
-        " two groups, and test all their pairs only where the few disagree: several"
-        " times fewer rays than All Pairs, and parts as good",
+        "Test a few pairs of every sample, and more only where pairs of samples near"
+        " these, which face the same way, disagree: several times fewer rays than All"
+        " Pairs, and parts as good",
     ),
     Choice(
         "ALL_PAIRS",

@@ -1,54 +1,61 @@
 """Lines of sight in blocks: few of all pairs are cast, the others follow from them.
 
-Samples that are close and face the same way see much the same. So samples are grouped,
-and a random pair of every two groups is cast: the first probe of this block of the LoS
-matrix. Where a block differs from its neighbors, more probes are cast. Where probes of
-a block differ from each other, all of its pairs are cast. In the other blocks, all
-pairs take the answer of the probes. Pairs that do not face each other need no ray, and
-count nowhere.
+Samples that are close and face the same way see much the same. So each pair of samples
+has a block of pairs around it: those between the neighbors of one sample and the
+neighbors of the other. A few pairs are cast, spread evenly over the LoS matrix. Then,
+round by round, more of the pairs are cast whose blocks disagree: they lie along the
+borders of what a sample sees. In the end, all other pairs take the answer of their
+blocks. Pairs that do not face each other need no ray, and count nowhere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import fields, replace
-from typing import Any, TypeVar
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
+from scipy.spatial import cKDTree
 
+from ..geometry.frames import with_normals
 from ..geometry.sampling import Samples
-from ..steps.progress import Progress, Steps, within
-from .all_pairs import facing_pairs
-from .lines import RayBudget, cast_lines
+from ..steps.progress import Progress, Steps, within, within_turn
+from .lines import RayBudget, cast_lines, faces_inside
 from .pair_visibility import PairVisibility
 from .ray_march import RayMarcher
-from .sample_groups import group_samples
 from .viewpoints import Viewpoints
 
-# Probes of a block, and of a block that differs from its neighbors.
-_FIRST_PROBES, _MOST_PROBES = 1, 6
-# Neighbors of a block are those of the groups nearest to either of its groups.
-_NEAREST = 4
-# There are so many groups that first probes take at most half of so many rays a sample:
-# 300 groups of 1200 samples.
-_RAYS_FOR_GROUPS = 75
+# Pairs of each sample that are cast in the first round, as far as they face each other.
+_FIRST_PAIRS = 28
+# The rounds that follow: the share of all pairs that may have been cast after each, and
+# the mean answer of a block, from −1 for hidden to 1 for visible, between which it is
+# doubtful.
+_ROUNDS = (
+    (0.30, -0.5, 0.6),
+    (0.50, -0.3, 0.4),
+    (0.75, -0.2, 0.3),
+    (1.00, -0.2, 0.2),
+)
+# A pair is visible if the mean answer of its block is above this in the end. Just above
+# 0, since narrow hidden stretches are overlooked more often than visible ones.
+_VISIBLE_FROM = 0.09
+# Neighbors of a sample, and itself.
+_NEAREST = 14
+# Distance that normals one unit apart add, in diagonals.
+_WEIGHT_OF_NORMALS = 0.05
+# Weight of a sample itself. That of a neighbor is half of it at this distance, in mean
+# distances of the three nearest. Sums of weights of blocks are exact in 16 bits.
+_WEIGHT, _HALF_WEIGHT_AT = 12, 0.6
 # Most rays a sample if the user sets no limit. Only shapes of many shells need more.
 _MOST_RAYS = 200
-# Entries of the matrix that are looked at in one step, about 20 ms.
-_ENTRIES_PER_STEP = 2**18
-# What is known of a pair of samples.
-_HIDDEN, _VISIBLE, _UNKNOWN = np.arange(3, dtype=np.uint8)
-
-Rows = TypeVar("Rows", Samples, Viewpoints)
+# Entries of the matrix that are looked at in one step, about 10 ms.
+_ENTRIES_PER_STEP = 2**19
+# A low-discrepancy sequence in two dimensions, as 16-bit fractions (Roberts 2018).
+_STRIDES = np.array([49472, 37345], dtype=np.uint16)
 
 
 def see_blocks(
-    marcher: RayMarcher,
-    samples: Samples,
-    views: Viewpoints,
-    n_rays: int,
-    rng: np.random.Generator,
+    marcher: RayMarcher, samples: Samples, views: Viewpoints, n_rays: int
 ) -> Steps[PairVisibility]:
     """Compute the LoS matrix of all pairs of samples (eq. 3) from rays between some.
 
@@ -62,45 +69,39 @@ def see_blocks(
         Viewpoints of `samples`.
     n_rays : int
         Most rays a sample. 0 casts as many as the blocks need.
-    rng : numpy.random.Generator
-        Draws the pairs that are cast.
 
     Returns
     -------
     Steps of PairVisibility
         A dense matrix (N, N). Every sample sees itself.
     """
-    per_sample = min(n_rays or _RAYS_FOR_GROUPS, _RAYS_FOR_GROUPS)
-    n_groups = max(1, int(np.sqrt(per_sample * len(samples) / _FIRST_PROBES)))
-    groups, nearest = group_samples(samples, marcher.diagonal, n_groups, _NEAREST)
-    # Samples of a group follow each other, so that blocks are blocks of the matrix.
-    order = np.argsort(groups, kind="stable")
-    looking = marcher, _taken(samples, order), _taken(views, order)
-    blocks = _Blocks(*looking, groups[order], nearest, rng)
-    most = (n_rays or _MOST_RAYS) * len(samples)
-    probing = RayBudget(most / 2)
-    yield from within(blocks.cast_probes(probing), 0.0, 0.5)
-    rest = RayBudget(most - probing.n_rays, probing.n_lines, probing.n_rays)
-    yield from within(blocks.cast_mixed(rest), 0.5, 0.9)
-    los = np.empty((len(samples), len(samples)), dtype=np.float32)
-    for rows in blocks.slices():
-        yield Progress("Lines of sight", 0.9)
-        seen = blocks.known[rows] | blocks.known[:, rows].T
-        los[np.ix_(order[rows], order)] = seen
+    budget = RayBudget((n_rays or _MOST_RAYS) * len(samples))
+    blocks = _Blocks(marcher, samples, views, budget)
+    yield from within(blocks.find_facing(), 0.0, 0.1)
+    first = min(1.0, 2 * _FIRST_PAIRS / len(samples))
+    # A few lines tell how many rays a line takes.
+    yield from within(blocks.cast(first / 8, 0.5), 0.1, 0.15)
+    yield from within(blocks.cast(first, 0.5), 0.15, 0.3)
+    for turn, (share, *doubtful) in enumerate(_ROUNDS):
+        last = turn + 1 == len(_ROUNDS)
+        steps = blocks.cast(max(first, share), 1.0 if last else 0.5, doubtful)
+        yield from within(within_turn(steps, turn, len(_ROUNDS)), 0.3, 0.9)
+    answers = yield from within(blocks.infer(), 0.9, 1.0)
+    los = (answers > 0).astype(np.float32)
     np.fill_diagonal(los, 1.0)
-    n_inferred = int(blocks.n_facing.sum()) - rest.n_lines
-    return PairVisibility(los, None, rest.n_lines, n_inferred)
+    n_inferred = int(blocks.facing.sum()) - budget.n_lines
+    return PairVisibility(los, None, budget.n_lines, n_inferred)
 
 
 class _Blocks:
-    """The LoS matrix while it is filled. Samples are sorted by group.
+    """The LoS matrix while it is filled.
 
     Attributes
     ----------
-    known : (N, N) uint8
-        What is known of each pair. Only entries above the diagonal are used.
-    n_facing, n_cast, n_seen : (G²,) int
-        Pairs of each block that face each other, those cast, and those visible of them.
+    facing : (N, N) bool
+        Which pairs face each other: entries above the diagonal.
+    answers : (N, N) int16
+        1 for a visible pair, −1 for a hidden one, 0 if it is not known. Symmetric.
     """
 
     def __init__(
@@ -108,128 +109,127 @@ class _Blocks:
         marcher: RayMarcher,
         samples: Samples,
         views: Viewpoints,
-        groups: NDArray[np.int64],
-        nearest: NDArray[np.int64],
-        rng: np.random.Generator,
+        budget: RayBudget,
     ) -> None:
         self._marcher, self._samples, self._views = marcher, samples, views
-        self._groups, self._nearest, self._rng = groups, nearest, rng
-        self._n_groups = int(groups[-1]) + 1
-        self.known = np.full((len(groups), len(groups)), _HIDDEN)
-        self.n_facing, self.n_cast, self.n_seen = np.zeros(
-            (3, self._n_groups**2), dtype=np.int64
-        )
+        self._budget = budget
+        self._weights = _weights_of_neighbors(samples, marcher.diagonal)
+        self.facing = np.zeros((len(samples), len(samples)), dtype=bool)
+        self.answers = np.zeros(self.facing.shape, dtype=np.int16)
 
-    def slices(self) -> Iterator[slice]:
-        """Yield rows of the matrix, some groups at a time: every block is in one."""
-        ends = np.flatnonzero(np.diff(self._groups, append=self._n_groups)) + 1
-        start, rows = 0, max(1, _ENTRIES_PER_STEP // len(self._groups))
-        while start < len(self._groups):
-            last = np.searchsorted(ends, start + rows, side="right") - 1
-            stop = int(max(ends[last], ends[np.searchsorted(ends, start + 1)]))
-            yield slice(start, stop)
+    def _slices(self) -> Iterator[tuple[float, slice, slice]]:
+        """Yield some rows at a time, with the columns from the diagonal on.
+
+        The share of the entries that come before is yielded too.
+        """
+        n_samples, start = len(self.facing), 0
+        while start < n_samples:
+            stop = start + max(1, _ENTRIES_PER_STEP // n_samples)
+            done = 1 - (1 - start / n_samples) ** 2
+            yield done, slice(start, min(stop, n_samples)), slice(start, n_samples)
             start = stop
 
-    def cast_probes(self, budget: RayBudget) -> Steps[None]:
-        """Find the pairs that face each other, and cast some of each block."""
-        probes = []
-        for rows in self.slices():
-            yield Progress("Lines of sight", 0.0)
-            first, second = facing_pairs(
-                self._marcher,
-                self._samples,
-                self._views,
-                np.arange(rows.start, rows.stop),
-            )
-            self.known[first, second] = _UNKNOWN
-            blocks = self._blocks_of(first, second)
-            self.n_facing += np.bincount(blocks, minlength=len(self.n_facing))
-            order = self._rng.permutation(len(blocks))
-            order = order[np.argsort(_small(blocks)[order], kind="stable")]
-            turns = _places_in_runs(blocks[order])
-            early = turns < _MOST_PROBES
-            probes.append((first[order[early]], second[order[early]], turns[early]))
-        first, second, turns = map(np.concatenate, zip(*probes, strict=True))
-        now = turns < _FIRST_PROBES
-        yield from within(self._cast(first[now], second[now], budget), 0.1, 0.5)
-        now = ~now & self._differing()[self._blocks_of(first, second)]
-        yield from within(self._cast(first[now], second[now], budget), 0.5, 1.0)
+    def find_facing(self) -> Steps[None]:
+        """Find the pairs that face each other."""
+        every = np.arange(len(self.facing))
+        for done, rows, columns in self._slices():
+            yield Progress("Lines of sight", done)
+            pairs = every[rows, None], every[None, columns]
+            facing = faces_inside(self._marcher, self._samples, self._views, *pairs)
+            self.facing[rows, columns] = np.triu(facing, 1)
 
-    def _differing(self) -> NDArray[np.bool_]:
-        """Return which blocks differ from a neighbor, or within themselves, (G²,)."""
-        cast = self.n_cast.reshape(self._n_groups, -1)
-        seen = self.n_seen.reshape(self._n_groups, -1)
-        any_seen, any_hidden = seen > 0, seen < cast
-        found = []
-        for some in (any_seen | any_seen.T, any_hidden | any_hidden.T):
-            around = [
-                some[self._nearest].any(axis=1),
-                some[:, self._nearest].any(axis=2),
-            ]
-            found.append(around[0] | around[1])
-        return (found[0] & found[1]).ravel()
-
-    def cast_mixed(self, budget: RayBudget) -> Steps[None]:
-        """Cast the blocks whose probes differ; infer all pairs that are left."""
-        mixed = (self.n_seen > 0) & (self.n_seen < self.n_cast)
-        n_wanted = int((self.n_facing - self.n_cast)[mixed].sum())
-        share = budget.lines_left / max(n_wanted, 1)
-        # A block without probes, since the budget was too small, is like the others.
-        usual = 2 * int(self.n_seen.sum()) >= int(self.n_cast.sum())
-        for rows in self.slices():
-            blocks = self._groups[rows, None] * self._n_groups + self._groups
-            unknown = self.known[rows] == _UNKNOWN
-            first, second = np.nonzero(unknown & mixed[blocks])
-            if share < 1:
-                chosen = self._rng.random(len(first)) < share
-                first, second = first[chosen], second[chosen]
-            done, end = (
-                1 - (1 - row / len(self._groups)) ** 2
-                for row in (rows.start, rows.stop)
-            )
-            steps = self._cast(first + rows.start, second, budget)
-            yield from within(steps, done, end)
-            visible = 2 * self.n_seen >= self.n_cast
-            visible[self.n_cast == 0] = usual
-            answers = np.where(visible, _VISIBLE, _HIDDEN)
-            unknown = self.known[rows] == _UNKNOWN
-            self.known[rows][unknown] = answers[blocks[unknown]]
-
-    def _cast(
-        self, first: NDArray[np.int64], second: NDArray[np.int64], budget: RayBudget
+    def cast(
+        self, share: float, of_budget: float, doubtful: Sequence[float] = ()
     ) -> Steps[None]:
-        """Cast lines between pairs, as far as the budget goes, and note the answers."""
-        seen = yield from cast_lines(self._marcher, self._views, first, second, budget)
+        """Cast pairs that are not known yet.
+
+        Parameters
+        ----------
+        share : float
+            Only this share of all pairs is looked at, spread evenly over the matrix.
+        of_budget : float
+            Most rays to cast, as a share of those that are left.
+        doubtful : (2,) float, optional
+            Least and largest mean answer of the blocks whose pairs are cast, beside
+            those of which nothing is known. By default all are.
+        """
+        found, cast = [], np.abs(self.answers)
+        for done, rows, columns in self._slices():
+            yield Progress("Lines of sight", 0.3 * done)
+            turns = _turns(rows, columns)
+            wanted = self.facing[rows, columns] & (cast[rows, columns] == 0)
+            wanted &= turns < share * 2**16
+            if doubtful:
+                votes, n_votes = self._votes(cast, rows, columns)
+                least, most = (np.float32(mean) * n_votes for mean in doubtful)
+                wanted &= (least <= votes) & (votes <= most)
+            first, second = np.nonzero(wanted)
+            found.append((first + rows.start, second + columns.start, turns[wanted]))
+        first, second, turns = map(np.concatenate, zip(*found, strict=True))
+        n_most = max(int(of_budget * self._budget.lines_left), 1)
+        if len(turns) > n_most:
+            chosen = np.sort(np.argsort(turns, kind="stable")[:n_most])
+            first, second = first[chosen], second[chosen]
+        steps = cast_lines(self._marcher, self._views, first, second, self._budget)
+        seen = yield from within(steps, 0.3, 1.0)
         first, second = first[: len(seen)], second[: len(seen)]
-        self.known[first, second] = np.where(seen, _VISIBLE, _HIDDEN)
-        blocks, n_blocks = self._blocks_of(first, second), len(self.n_cast)
-        self.n_cast += np.bincount(blocks, minlength=n_blocks)
-        self.n_seen += np.bincount(blocks[seen], minlength=n_blocks)
+        found_now = np.where(seen, 1, -1)
+        self.answers[first, second] = self.answers[second, first] = found_now
 
-    def _blocks_of(
-        self, first: NDArray[np.int64], second: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
-        """Return the number of each pair's block."""
-        return self._groups[first] * self._n_groups + self._groups[second]
+    def infer(self) -> Steps[NDArray[np.int16]]:
+        """Return `answers`, with one for each pair that faces each other."""
+        n_facing, n_known = int(np.count_nonzero(self.facing)), 0
+        while True:
+            found, cast = np.zeros_like(self.answers), np.abs(self.answers)
+            for done, rows, columns in self._slices():
+                yield Progress("Lines of sight", done)
+                votes, n_votes = self._votes(cast, rows, columns)
+                likely = np.where(votes > np.float32(_VISIBLE_FROM) * n_votes, 1, -1)
+                likely[n_votes == 0] = 0
+                answers = self.answers[rows, columns]
+                answers = np.where(answers == 0, likely, answers)
+                found[rows, columns] = answers * self.facing[rows, columns]
+            before, n_known = n_known, int(np.count_nonzero(found))
+            if n_known == n_facing:
+                return found + found.T
+            if n_known == before:  # no ray was cast anywhere near the rest
+                found[self.facing & (found == 0)] = 1 if found.sum() >= 0 else -1
+            self.answers = found + found.T  # blocks spread into pairs without a vote
+
+    def _votes(
+        self, cast: NDArray[np.int16], rows: slice, columns: slice
+    ) -> tuple[NDArray[np.int16], NDArray[np.int16]]:
+        """Return the sums of the answers in blocks, and how many there may be.
+
+        Answers count by the weights of the two neighbors. `cast` is 1 where there is
+        an answer.
+        """
+        sides = self._weights[rows], self._weights[columns]
+        sums, counts = ((sides[1] @ (sides[0] @ m).T).T for m in (self.answers, cast))
+        return sums, counts
 
 
-def _small(numbers: NDArray[np.int64]) -> NDArray[Any]:
-    """Return numbers from 0, in a small type: 16 bits are sorted ten times faster."""
-    if len(numbers) == 0:
-        return numbers
-    from_zero = numbers - numbers.min()
-    return from_zero.astype(np.min_scalar_type(from_zero.max()))
+def _turns(rows: slice, columns: slice) -> NDArray[np.uint16]:
+    """Return numbers whose pairs below any bound are spread evenly over the matrix."""
+    down, across = (
+        np.arange(each.start, each.stop).astype(np.uint16) * stride
+        for each, stride in zip((rows, columns), _STRIDES, strict=True)
+    )
+    turns: NDArray[np.uint16] = np.add.outer(down, across)
+    return turns
 
 
-def _places_in_runs(values: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the place of each of some sorted values among its equals, from 0."""
-    starts = np.flatnonzero(np.diff(values, prepend=-1))
-    lengths = np.diff(starts, append=len(values))
-    return np.arange(len(values)) - np.repeat(starts, lengths)
-
-
-def _taken(rows: Rows, order: NDArray[np.int64]) -> Rows:
-    """Return some samples or viewpoints, in an order."""
-    return replace(
-        rows, **{field.name: getattr(rows, field.name)[order] for field in fields(rows)}
+def _weights_of_neighbors(samples: Samples, diagonal: float) -> sparse.csr_array:
+    """Return the weights of the neighbors of each sample, and of itself, (N, N)."""
+    positions, n_samples = samples.positions / diagonal, len(samples)
+    # Rounded, or NumPy's version would decide between equal distances.
+    places = with_normals(positions, samples.normals, _WEIGHT_OF_NORMALS).round(6)
+    n_nearest = min(_NEAREST, n_samples)
+    distances, nearest = cKDTree(places).query(places, np.arange(1, n_nearest + 1))
+    usual = distances[:, 1:4].mean() if n_samples > 1 else 1.0
+    nearness = distances / (_HALF_WEIGHT_AT * max(usual, np.finfo(float).tiny))
+    weights = np.maximum(np.round(_WEIGHT / (1 + nearness**2)), 1).astype(np.int16)
+    starts = np.arange(0, nearest.size + 1, n_nearest)
+    return sparse.csr_array(
+        (weights.ravel(), nearest.ravel(), starts), shape=(n_samples, n_samples)
     )

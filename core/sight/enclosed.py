@@ -33,6 +33,8 @@ _ENCLOSED = 0.75
 # It also holds the connected outside cells with at least this share. None is farther
 # than two cells from a cell of which this share of the first rays hits.
 _OPENING = 0.6
+# Numbers of the directions.
+_TURNS = np.arange(_DIRECTIONS)
 # Kinds of cells.
 INSIDE, ENCLOSED_OUTSIDE, OPEN = np.arange(3, dtype=np.uint8)
 
@@ -79,29 +81,31 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     shape = np.maximum(np.ceil((high - low) / size), 1).astype(np.int64)
     low = (low + high - shape * size) / 2
     centers = low + (np.indices(shape).reshape(3, -1).T + 0.5) * size
-    directions = cone_directions(np.array([[0.0, 0.0, 1.0]]), _DIRECTIONS, 2 * np.pi)[0]
-    turns = np.arange(_DIRECTIONS)
-    few, first, rest = turns % _FEW == 0, turns % _FIRST == 0, turns % _FIRST > 0
     # Try every second cell of each row first: most shapes enclose nothing.
     some = (np.indices(shape) % 2 == (shape // 2 % 2)[:, None, None, None]).all(axis=0)
-    hits = _Hits(marcher, centers)
-    yield from within(hits.cast(some.ravel(), directions[first]), 0, 0.1)
-    if not hits.hidden(_MAY_ENCLOSE).any():
-        return Grid(low - size, size, np.full(shape + 2, OPEN))
+    hits, some = _Hits(marcher, centers), some.ravel()
+    yield from within(hits.cast(some, _TURNS % _FIRST == 0), 0, 0.1)
+    nothing = Grid(low - size, size, np.full(shape + 2, OPEN))
+    likely = hits.hidden(_MAY_ENCLOSE).reshape(shape)
+    if not likely.any():
+        return nothing
     near = _grown(hits.hidden(_OPENING).reshape(shape))
-    # What is enclosed is decided there; averages also need cells a little farther away.
-    others, around = ~some.ravel(), _grown(near).ravel()
-    near = near.ravel()
-    yield from within(hits.cast(others & around, directions[few]), 0.1, 0.3)
-    yield from within(hits.cast(others & near, directions[first & ~few]), 0.3, 0.5)
-    # Most cells are decided by now: they are inside, or clearly open.
-    doubtful = near & hits.hidden(_CLEARLY_OPEN)
-    yield from within(hits.cast(doubtful, directions[rest]), 0.5, 0.8)
+    # A few rays of one cell say little: look around such cells first.
+    likely = _grown(likely).ravel()
+    steps = hits.cast_around(likely, likely, some, np.zeros_like(some))
+    yield from within(steps, 0.1, 0.2)
+    shares = np.where(likely, hits.shares, 0.0).reshape(shape)
+    if not _enclosed((likely & hits.outside).reshape(shape), shares).any():
+        return nothing
+    # What is enclosed is decided near hidden cells; averages need others around them.
+    around, near = _grown(near).ravel(), near.ravel()
+    yield from within(hits.cast_around(near, around, some, likely), 0.2, 0.8)
     shares = np.where(near, hits.shares, 0.0).reshape(shape)
     enclosed = _enclosed(hits.outside.reshape(shape), shares)
     if not enclosed.any():
-        return Grid(low - size, size, np.full(shape + 2, OPEN))
-    yield from within(hits.cast(others & ~around, directions[few]), 0.8, 1.0)
+        return nothing
+    others = ~(some | likely | around)
+    yield from within(hits.cast(others, _TURNS % _FEW == 0), 0.8, 1.0)
     kinds = np.where(hits.outside.reshape(shape), OPEN, INSIDE)
     kinds[enclosed] = ENCLOSED_OUTSIDE
     return Grid(low - size, size, np.pad(kinds, 1, constant_values=OPEN))
@@ -123,6 +127,8 @@ class _Hits:
 
     def __init__(self, marcher: RayMarcher, points: NDArray[np.float64]) -> None:
         self._marcher, self._points = marcher, points
+        upwards = np.array([[0.0, 0.0, 1.0]])
+        self._directions = cone_directions(upwards, _DIRECTIONS, 2 * np.pi)[0]
         self.front, self.back, self.n_cast = np.zeros((3, len(points)), dtype=np.int64)
 
     @property
@@ -139,10 +145,28 @@ class _Hits:
         """Return the points outside from which at least this share hits the shape."""
         return self.outside & (self.shares >= share)
 
-    def cast(
-        self, chosen: NDArray[np.bool_], directions: NDArray[np.float64]
+    def cast_around(
+        self,
+        cells: NDArray[np.bool_],
+        around: NDArray[np.bool_],
+        begun: NDArray[np.bool_],
+        done: NDArray[np.bool_],
     ) -> Steps[None]:
-        """Cast rays from the chosen points, one in each direction."""
+        """Cast few rays around some cells, more from them, and all that may matter.
+
+        The first rays of `begun` cells are cast already, and all rays of `done` ones.
+        """
+        few, first = _TURNS % _FEW == 0, _TURNS % _FIRST == 0
+        fresh = ~(begun | done)
+        yield from within(self.cast(around & fresh, few), 0.0, 0.2)
+        yield from within(self.cast(cells & fresh, first & ~few), 0.2, 0.5)
+        # Most cells are decided by now: they are inside, or clearly open.
+        doubtful = cells & ~done & self.hidden(_CLEARLY_OPEN)
+        yield from within(self.cast(doubtful, ~first), 0.5, 1.0)
+
+    def cast(self, chosen: NDArray[np.bool_], turns: NDArray[np.bool_]) -> Steps[None]:
+        """Cast rays from the chosen points, one in each chosen direction."""
+        directions = self._directions[turns]
         chosen_rows = np.flatnonzero(chosen)
         for number, direction in enumerate(directions):
             for start in range(0, len(chosen_rows), RAYS_PER_STEP):

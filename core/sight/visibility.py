@@ -137,7 +137,7 @@ def find_lines_of_sight(
         in_cones = yield from within(steps, 0.2, 1.0)
         return LinesOfSight(samples, in_cones, drawn or in_cones)
     if parameters.sight == "BLOCKS":
-        steps = see_blocks(*looking, n_rays, rng)
+        steps = see_blocks(*looking, n_rays)
     elif 0 < 2 * n_rays < len(samples):
         n_pairs = n_rays * len(samples)
         steps = see_uniform_pairs(*looking, rng, n_pairs, RayBudget(n_pairs))
