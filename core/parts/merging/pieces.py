@@ -98,14 +98,18 @@ def _joins_of_small(
 
 
 def merge_to(
-    n_parts: int, tally: PairTally, touching: NDArray[np.bool_], alpha: float
+    n_parts: int,
+    tally: PairTally,
+    touching: NDArray[np.bool_],
+    alpha: float,
+    saved: NDArray[np.float64] | None = None,
 ) -> NDArray[np.int64]:
     """Merge pairs of parts, always the pair that loses least psi, down to `n_parts`.
 
     Parameters
     ----------
     n_parts : int
-        Number of parts to keep.
+        Number of parts to keep, at most.
     tally : PairTally
         Counts of visible and known pairs of samples in K parts.
     touching : (K, K) bool
@@ -113,24 +117,35 @@ def merge_to(
         only if no two parts touch.
     alpha : float
         Weight of hidden pairs in psi (eq. 5).
+    saved : (K, K) float, optional
+        What the border of each two parts costs, in psi. Pairs are then merged further
+        while that saves more than psi loses.
 
     Returns
     -------
     merged : (K,) int
-        New part of each old part, in 0…`n_parts` − 1.
+        New part of each old part, in 0…K' − 1; K' is `n_parts` unless borders cost.
     """
     merged = np.arange(len(touching))
-    touching = touching.copy()
-    while len(touching) > max(n_parts, 1):
-        gains = tally.merge_gains(alpha)
+    touching, priced = touching.copy(), saved is not None
+    saved = np.zeros(touching.shape) if saved is None else saved.copy()
+    while len(touching) > 1:
+        gains = tally.merge_gains(alpha) + saved
         if touching.any():
             gains[~touching] = -np.inf
+        if len(touching) <= n_parts and not (priced and gains.max() > 0):
+            break
         kept, gone = sorted(divmod(int(gains.argmax()), len(gains)))
         tally = tally.merged(kept, gone)
         touching[kept] |= touching[gone]
         touching[:, kept] |= touching[:, gone]
         touching[kept, kept] = False
-        touching = np.delete(np.delete(touching, gone, axis=0), gone, axis=1)
+        saved[kept] += saved[gone]
+        saved[:, kept] += saved[:, gone]
+        touching, saved = (
+            np.delete(np.delete(each, gone, axis=0), gone, axis=1)
+            for each in (touching, saved)
+        )
         merged[merged == gone] = kept
         merged[merged > gone] -= 1
     return merged
