@@ -71,9 +71,9 @@ class CreaseParts:
         merged = merge_to(
             by.parameters.max_parts,
             by.tally(pieces),
-            borders > 0,
+            borders,
             by.parameters.alpha,
-            _SEAM_PRICE / np.sqrt(area) * borders,
+            _SEAM_PRICE / np.sqrt(area),
         )
         return merged[pieces]
 
@@ -105,9 +105,7 @@ class CreaseParts:
         return _SEAM_PRICE * saved - (by.psi_seen(rivals) - by.psi_seen(parts))
 
 
-def crease_pieces(
-    graph: FaceGraph, creased: float = _CREASED
-) -> NDArray[np.int64]:
+def crease_pieces(graph: FaceGraph, creased: float = _CREASED) -> NDArray[np.int64]:
     """Return the pieces that are left when a surface is cut along all of its creases.
 
     A crease that ends somewhere on the surface divides nothing. Shells that touch are

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -100,9 +102,9 @@ def _joins_of_small(
 def merge_to(
     n_parts: int,
     tally: PairTally,
-    touching: NDArray[np.bool_],
+    borders: NDArray[Any],
     alpha: float,
-    saved: NDArray[np.float64] | None = None,
+    price: float = 0.0,
 ) -> NDArray[np.int64]:
     """Merge pairs of parts, always the pair that loses least psi, down to `n_parts`.
 
@@ -112,40 +114,34 @@ def merge_to(
         Number of parts to keep, at most.
     tally : PairTally
         Counts of visible and known pairs of samples in K parts.
-    touching : (K, K) bool
-        Symmetric: whether two parts have a common border. Parts without one are merged
-        only if no two parts touch.
+    borders : (K, K) float or bool
+        Symmetric: the length of the border of each two parts, or whether they have one.
+        Parts without one are merged only if no two parts touch.
     alpha : float
         Weight of hidden pairs in psi (eq. 5).
-    saved : (K, K) float, optional
-        What the border of each two parts costs, in psi. Pairs are then merged further
-        while that saves more than psi loses.
+    price : float, optional
+        What borders cost, in psi. Above 0, pairs are merged further while that saves
+        more than psi loses.
 
     Returns
     -------
     merged : (K,) int
-        New part of each old part, in 0…K' − 1; K' is `n_parts` unless borders cost.
+        New part of each old part, in 0…K' − 1. K' is `n_parts` if there is no price.
     """
-    merged = np.arange(len(touching))
-    touching, priced = touching.copy(), saved is not None
-    saved = np.zeros(touching.shape) if saved is None else saved.copy()
-    while len(touching) > 1:
-        gains = tally.merge_gains(alpha) + saved
-        if touching.any():
-            gains[~touching] = -np.inf
-        if len(touching) <= n_parts and not (priced and gains.max() > 0):
+    merged = np.arange(len(borders))
+    borders = borders.astype(np.float64)
+    while len(borders) > 1:
+        gains = tally.merge_gains(alpha) + price * borders
+        if borders.any():
+            gains[borders == 0] = -np.inf
+        if len(borders) <= n_parts and (price == 0 or gains.max() <= 0):
             break
         kept, gone = sorted(divmod(int(gains.argmax()), len(gains)))
         tally = tally.merged(kept, gone)
-        touching[kept] |= touching[gone]
-        touching[:, kept] |= touching[:, gone]
-        touching[kept, kept] = False
-        saved[kept] += saved[gone]
-        saved[:, kept] += saved[:, gone]
-        touching, saved = (
-            np.delete(np.delete(each, gone, axis=0), gone, axis=1)
-            for each in (touching, saved)
-        )
+        borders[kept] += borders[gone]
+        borders[:, kept] += borders[:, gone]
+        borders[kept, kept] = 0.0
+        borders = np.delete(np.delete(borders, gone, axis=0), gone, axis=1)
         merged[merged == gone] = kept
         merged[merged > gone] -= 1
     return merged
