@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-ablation \
+.PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-outlines bench-ablation \
   bench-clouds bench-cuts bench-objects bench-speed bench-window contact-sheet clean psb stress venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
@@ -112,6 +112,10 @@ bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=di
 
 bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=directory
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
+
+bench-outlines: venv ## Measure quality of flat shapes: OUTLINES=directory of the 2D Shape Structure Dataset
+	@[ -n "$(OUTLINES)" ] || { echo "Name the directory of outlines: OUTLINES=directory"; exit 1; }
+	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/outlines.py "$(OUTLINES)" $(BENCH)
 
 bench-cuts: development ## Cut the faces of random meshes, and check what must stay: CUTS=200
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/cut_faces.py $(CUTS)

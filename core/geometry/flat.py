@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from ..steps.progress import Steps, within
-from .connectivity import sort_edges
+from .connectivity import shared_edges, sort_edges
 from .face_graph import FaceGraph, face_graph
-from .frames import frames
+from .frames import frames, unit
 from .mesh import TriangleMesh
 
 # Greatest extent of a flat mesh along its normal, in diagonals.
@@ -64,7 +64,25 @@ class FlatMesh:
         graph = yield from within(face_graph(self.faces, edges), 0.4, 1.0)
         lengths = self.walls.areas / _HEIGHT
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)
-        return replace(graph, outline=outline.astype(np.float64))
+        # Between two concave corners of the outline is a crease: people cut there.
+        sides = shared_edges(self.faces, edges)[1]
+        ends = sides, sides + np.where(sides % 3 < 2, 1, -2)
+        corners = self.faces.welded_triangles.ravel()
+        bends = self._concave_angles()[corners[np.stack(ends)]].min(axis=0)
+        return replace(graph, outline=outline.astype(np.float64), bends=bends)
+
+    def _concave_angles(self) -> NDArray[np.float64]:
+        """Return by how much the outline turns inwards at each vertex, in radians."""
+        corners = self.faces.welded_triangles
+        places = self.faces.vertices[self.faces.triangles]
+        ahead, behind = (
+            unit((np.roll(places, n, axis=1) - places).reshape(-1, 3)) for n in (-1, 1)
+        )
+        angles = np.arccos(np.clip((ahead * behind).sum(axis=1), -1.0, 1.0))
+        inner = np.bincount(corners.ravel(), angles)
+        turns = inner - np.pi
+        turns[inner > 2 * np.pi - 1e-3] = 0.0
+        return np.maximum(turns, 0.0)
 
     @property
     def notes(self) -> tuple[str, ...]:

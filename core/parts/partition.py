@@ -240,8 +240,8 @@ class Partitioner:
 
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Merge parts (P,) where psi loses least, until `n_parts` are left."""
-        touching = self.graph.borders(parts, count_parts(parts)).toarray() > 0
-        merged = merge_to(n_parts, self.tally(parts), touching, self.parameters.alpha)
+        borders = self.graph.borders(parts, count_parts(parts)).toarray()
+        merged = merge_to(n_parts, self.tally(parts), borders, self.parameters.alpha)
         return merged[parts]
 
 

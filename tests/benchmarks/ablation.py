@@ -27,6 +27,7 @@ from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import preset
 from weak_convex_decomposition.core.parts import part_count, part_memo, partition
+from weak_convex_decomposition.core.parts.merging.creases import CreaseParts
 from weak_convex_decomposition.core.sight import visibility
 from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
 from weak_convex_decomposition.core.sight.prepared import PreparedShape
@@ -64,6 +65,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "balance alpha = 1": {"alpha": 1.0},
     "eigenvectors of equal length": {},
     "no likely pairs": {},
+    "no loops of creases": {},
     "no psi-raising moves": {},
     "no psi in moves and seams": {"refinement": "EMBEDDING"},
     "no graph cut": {"smoothness": 0.0},
@@ -81,6 +83,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (part_memo, "embed", lambda *given: of_equal_length(embed(*given)))
     ],
     "no likely pairs": [(visibility, "likely_pairs", by_sight_alone)],
+    "no loops of creases": [(CreaseParts, "beat", lambda *_: False)],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],

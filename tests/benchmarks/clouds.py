@@ -14,6 +14,7 @@ import sys
 from dataclasses import dataclass
 from itertools import groupby
 
+import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 from computed import decompose
 from over_models import add_jobs, measured, parse, parser

@@ -6,6 +6,7 @@ pin on it. People cut where a crease runs around the pin, however much psi that 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -14,15 +15,16 @@ from numpy.typing import NDArray
 from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ..partition import Partitioner, count_parts
-from .pieces import connected_parts
+from .pieces import connected_parts, merge_to
 
-# Least concave angle of a crease, in radians.
+# Least concave angle of a crease, in radians, and of the corners of an outline.
 _CREASED = 0.3
+_CORNER = 0.15
 # Pieces with a smaller share of the area are not counted.
 _LEAST_PIECE = 0.01
 # Psi that pieces may lack, for each unit that their seams cost less. Machines and
 # tables need up to 0.07; from 0.4 on, animals would be cut at creases alone.
-_SEAM_PRICE = 0.12
+_SEAM_PRICE = 0.15
 
 
 class CreaseParts:
@@ -42,11 +44,38 @@ class CreaseParts:
     def parts(self) -> NDArray[np.int64]:
         """(P,) piece of each node, small ones merged; 0 for all if none is proposed."""
         graph = self._partitioner.graph
+        if graph.outline is not None:
+            return self._between_corners(graph)
         if not self._partitioner.visibility.is_guessed:
             return np.zeros(graph.n_polygons, dtype=np.int64)
         return connected_parts(
             graph, crease_pieces(graph), _LEAST_PIECE * graph.areas.sum()
         )
+
+    def _between_corners(self, graph: FaceGraph) -> NDArray[np.int64]:
+        """Return the pieces (P,) of a flat shape between its concave corners.
+
+        There are many. So neighbors are merged while their seam costs more than they
+        gain in psi.
+        """
+        by, area = self._partitioner, graph.areas.sum()
+        # A small piece has little of both the area and the outline.
+        shares = np.maximum(graph.areas / area, graph.weights)
+        pieces = connected_parts(
+            replace(graph, areas=shares),
+            crease_pieces(graph, _CORNER),
+            by.parameters.smallest_part,
+        )
+        costs = replace(graph, lengths=graph.seam_costs)
+        borders = costs.borders(pieces, count_parts(pieces)).toarray()
+        merged = merge_to(
+            by.parameters.max_parts,
+            by.tally(pieces),
+            borders,
+            by.parameters.alpha,
+            _SEAM_PRICE / np.sqrt(area),
+        )
+        return merged[pieces]
 
     def resized(self, n_parts: int) -> NDArray[np.int64]:
         """Return the pieces (P,), split or merged so that there are `n_parts`."""
@@ -76,7 +105,7 @@ class CreaseParts:
         return _SEAM_PRICE * saved - (by.psi_seen(rivals) - by.psi_seen(parts))
 
 
-def crease_pieces(graph: FaceGraph) -> NDArray[np.int64]:
+def crease_pieces(graph: FaceGraph, creased: float = _CREASED) -> NDArray[np.int64]:
     """Return the pieces that are left when a surface is cut along all of its creases.
 
     A crease that ends somewhere on the surface divides nothing. Shells that touch are
@@ -85,13 +114,15 @@ def crease_pieces(graph: FaceGraph) -> NDArray[np.int64]:
     Parameters
     ----------
     graph : FaceGraph
+    creased : float, optional
+        Least concave angle of a crease, in radians.
 
     Returns
     -------
     (P,) int
         Piece of each polygon, in 0…K − 1.
     """
-    smooth = graph.neighbors[graph.bends <= _CREASED]
+    smooth = graph.neighbors[graph.bends <= creased]
     ties = np.concatenate([smooth, graph.links])
     return components_at_once(ties, graph.n_polygons)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -98,39 +100,48 @@ def _joins_of_small(
 
 
 def merge_to(
-    n_parts: int, tally: PairTally, touching: NDArray[np.bool_], alpha: float
+    n_parts: int,
+    tally: PairTally,
+    borders: NDArray[Any],
+    alpha: float,
+    price: float = 0.0,
 ) -> NDArray[np.int64]:
     """Merge pairs of parts, always the pair that loses least psi, down to `n_parts`.
 
     Parameters
     ----------
     n_parts : int
-        Number of parts to keep.
+        Number of parts to keep, at most.
     tally : PairTally
         Counts of visible and known pairs of samples in K parts.
-    touching : (K, K) bool
-        Symmetric: whether two parts have a common border. Parts without one are merged
-        only if no two parts touch.
+    borders : (K, K) float or bool
+        Symmetric: the length of the border of each two parts, or whether they have one.
+        Parts without one are merged only if no two parts touch.
     alpha : float
         Weight of hidden pairs in psi (eq. 5).
+    price : float, optional
+        What borders cost, in psi. Above 0, pairs are merged further while that saves
+        more than psi loses.
 
     Returns
     -------
     merged : (K,) int
-        New part of each old part, in 0…`n_parts` − 1.
+        New part of each old part, in 0…K' − 1. K' is `n_parts` if there is no price.
     """
-    merged = np.arange(len(touching))
-    touching = touching.copy()
-    while len(touching) > max(n_parts, 1):
-        gains = tally.merge_gains(alpha)
-        if touching.any():
-            gains[~touching] = -np.inf
+    merged = np.arange(len(borders))
+    borders = borders.astype(np.float64)
+    while len(borders) > 1:
+        gains = tally.merge_gains(alpha) + price * borders
+        if borders.any():
+            gains[borders == 0] = -np.inf
+        if len(borders) <= n_parts and (price == 0 or gains.max() <= 0):
+            break
         kept, gone = sorted(divmod(int(gains.argmax()), len(gains)))
         tally = tally.merged(kept, gone)
-        touching[kept] |= touching[gone]
-        touching[:, kept] |= touching[:, gone]
-        touching[kept, kept] = False
-        touching = np.delete(np.delete(touching, gone, axis=0), gone, axis=1)
+        borders[kept] += borders[gone]
+        borders[:, kept] += borders[:, gone]
+        borders[kept, kept] = 0.0
+        borders = np.delete(np.delete(borders, gone, axis=0), gone, axis=1)
         merged[merged == gone] = kept
         merged[merged > gone] -= 1
     return merged

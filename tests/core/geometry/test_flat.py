@@ -10,6 +10,7 @@ import shapes
 from computed import decompose, graph_of, lines_of_sight, measure
 from weak_convex_decomposition.core.geometry.flat import flat_mesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.progress import run
 
 L = flats.filled(flats.L, spacing=0.25)
 COMB = flats.filled(flats.comb(4), spacing=0.5)
@@ -189,3 +190,17 @@ def test_samples_on_faces_work():
     y = graph_of(COMB).centers[:, 1]
     assert found.n_parts == 5
     assert len(set(found.labels[y < 0.7])) == 1
+
+
+def test_edges_between_concave_corners_are_creases():
+    """The edge below the square on a bar has two such corners, those in a ring none."""
+    corners = [(0, 0), (3, 0), (3, 1), (2, 1), (2, 2), (1, 2), (1, 1), (0, 1)]
+    faces = [(0, 1, 7), (1, 6, 7), (1, 3, 6), (1, 2, 3), (3, 4, 6), (4, 5, 6)]
+    mesh = shapes.TriangleMesh(
+        np.pad(corners, ((0, 0), (0, 1))), np.array(faces), np.arange(6)
+    )
+    graph = run(flat_mesh(mesh.normalized()).graph())
+    creased = graph.neighbors[graph.bends > 0]
+    assert np.sort(creased).tolist() == [[2, 4]]
+    assert graph.bends.max() == pytest.approx(np.pi / 2)
+    assert not run(flat_mesh(RING.normalized()).graph()).bends.any()

@@ -56,3 +56,32 @@ def test_parts_follow_loops_that_cost_little_psi(seed):
 def test_other_numbers_and_limits_are_kept(number):
     assert decompose(pins(), Parameters(parts=number)).n_parts == number
     assert decompose(pins(), Parameters(min_parts=4, max_parts=6)).n_parts >= 4
+
+
+def ears():
+    """Return a flat disc with two small square ears, fanned from its center."""
+    angles = np.linspace(0.0, 2 * np.pi, 48, endpoint=False)
+    disc = 2 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    faces = [(48, n, (n + 1) % 48) for n in range(48)]
+    vertices = [*disc, (0.0, 0.0)]
+    for foot in (5, 17):
+        outwards = 0.25 * disc[[foot, foot + 1]].mean(axis=0) / 2
+        first = len(vertices)
+        vertices += list(disc[[foot, foot + 1]] + outwards)
+        faces += [(foot + 1, foot, first), (foot + 1, first, first + 1)]
+    triangles = np.array(faces)
+    return shapes.TriangleMesh(
+        np.pad(vertices, ((0, 0), (0, 1))), triangles, np.arange(len(triangles))
+    )
+
+
+def test_seams_between_concave_corners_divide_flat_shapes():
+    """By psi alone, what so small an ear hides is too little to count."""
+    found = decompose(ears(), Parameters())
+    disc, one, other = found.labels[:48], found.labels[48:50], found.labels[50:]
+    assert found.n_parts == 3
+    assert [len(set(part)) for part in (disc, one, other)] == [1, 1, 1]
+
+
+def test_pieces_of_flat_shapes_are_merged_to_the_number_allowed():
+    assert decompose(ears(), Parameters(max_parts=2)).n_parts == 2
