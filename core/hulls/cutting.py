@@ -115,18 +115,21 @@ def _cheapest(
     cell: Cell, planes: NDArray[np.float64]
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
-    best, least = None, np.inf
-    solid_volume = cell.solid.volume
+    cuts, solid_volume = [], cell.solid.volume
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
-        if not all(side.on_surface.any() for side in sides):
-            continue
-        if least_cost_of_sides(*sides, solid_volume) >= least:
-            continue
+        if all(side.on_surface.any() for side in sides):
+            bound = least_cost_of_sides(*sides, solid_volume)
+            cuts.append((bound, len(cuts), sides))
+    best, least = None, (np.inf, 0)
+    for bound, turn, sides in sorted(cuts):
+        if bound > least[0]:
+            break
+        yield Progress("Cutting", 1.0)
         cost = cost_of_sides(*sides, solid_volume)
-        if cost < least:
-            best, least = sides, cost
+        if (cost, turn) < least:
+            best, least = sides, (cost, turn)
     return best
 
 
