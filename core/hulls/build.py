@@ -22,7 +22,7 @@ from .cutting import cut_until_close
 from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .measure.uncovered import uncovered
-from .piece import Piece, piece_of_part, whole
+from .piece import Cell, Piece, piece_of_part, whole
 from .solid import Solid, solid_of
 
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.
@@ -181,13 +181,37 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
         start = [
             piece_of_part(solid, fit.of_part(k), parts == k) for k in np.unique(parts)
         ]
-        return (yield from join_pieces(start, 0.0, most))
+        return (yield from join_pieces(start, 0.0, most, {}))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    surplus = _SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS)
-    steps = cut_until_close(whole(solid, fit), int(surplus * most))
-    cells = yield from within(steps, 0.0, 0.9)
-    return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
+    return (yield from _close_pieces(whole(solid, fit), most))
+
+
+def _close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
+    """Cut a piece and join neighbors, until all are close or `most` are reached.
+
+    Errors are estimated at first. If there is room for more pieces after joining, those
+    that are not surely close are cut again.
+    """
+    kind, max_error = cell.fit.parameters.shape, cell.fit.max_error
+    most_cells = int(_SURPLUS.get(kind, _OTHER_SURPLUS) * most)
+    far, pieces, tried, joints = [cell], list[Piece](), {cell}, {}
+    while far:
+        steps = cut_until_close(far, most_cells - len(pieces))
+        pieces += yield from within(steps, 0.0, 0.7)
+        steps = join_pieces(pieces, max_error, most_cells, joints)
+        pieces = yield from within(steps, 0.7, 0.8)
+        if len(pieces) >= most:
+            break
+        far = []
+        for piece in pieces:
+            yield Progress("Measuring", 0.8)
+            if isinstance(piece, Cell) and piece not in tried and not piece.is_close:
+                far.append(piece)
+        tried.update(far)
+        pieces = [piece for piece in pieces if piece not in far]
+    steps = join_pieces(pieces, max_error, most, joints)
+    return (yield from within(steps, 0.8, 1.0))
 
 
 def _parts_of_triangles(

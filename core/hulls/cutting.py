@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,15 +27,15 @@ _ROUND = ("SPHERE", "CYLINDER", "CAPSULE")
 _LOWER = 0.9
 
 
-def cut_until_close(cell: Cell, most: int) -> Steps[list[Cell]]:
-    """Cut the piece of largest error repeatedly, until the errors of all are allowed.
+def cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
+    """Cut the piece of largest error repeatedly, until what is known of all is allowed.
 
     If `most` pieces are too few for that, cuts of convex pieces that do not lower the
     error are undone: small spheres in a row stray as far as a large one.
 
     Parameters
     ----------
-    cell : Cell
+    cells : sequence of Cell
     most : int
         Largest number of pieces.
 
@@ -43,31 +43,26 @@ def cut_until_close(cell: Cell, most: int) -> Steps[list[Cell]]:
     -------
     Steps of list of Cell
     """
-    cells, largest = [cell], cell.fit.max_error
-    done: list[Cell] = []
+    left, done = list(cells), list[Cell]()
     sides_of: dict[Cell, tuple[Cell, Cell]] = {}
-    while cells and len(cells) + len(done) < most:
-        share = (len(cells) + len(done)) / most
-        far: list[Cell] = []
-        for surely in (False, True):  # estimates are quick, bounds are not
-            for one in cells if not far else []:
-                yield Progress("Cutting", share)
-                is_close = one.is_close if surely else one.error <= largest
-                far += [] if is_close else [one]
-        if not far:
-            return done + cells
-        worst = max(far, key=lambda one: round(one.error, 6))
-        cells.remove(worst)
+    while left and len(left) + len(done) < most:
+        share = (len(left) + len(done)) / most
+        worst = max(left, key=lambda one: round(one.known_error, 6))
+        if worst.known_error <= worst.fit.max_error:
+            return done + left
+        left.remove(worst)
         sides = yield from within(best_cut(worst), share, share + 1 / most)
         if sides:
             sides_of[worst] = sides
-        cells += sides or ()
+        left += sides or ()
         done += () if sides else (worst,)
-    return _worthwhile(cell, sides_of)
+    return _worthwhile(cells, sides_of)
 
 
-def _worthwhile(whole: Cell, sides_of: dict[Cell, tuple[Cell, Cell]]) -> list[Cell]:
-    """Return the pieces of a cut one, without cuts of convex pieces in vain.
+def _worthwhile(
+    cells: Sequence[Cell], sides_of: dict[Cell, tuple[Cell, Cell]]
+) -> list[Cell]:
+    """Return the pieces of cut ones, without cuts of convex pieces in vain.
 
     `sides_of` has both sides of each piece that was cut, in the order of the cuts.
     """
@@ -77,7 +72,7 @@ def _worthwhile(whole: Cell, sides_of: dict[Cell, tuple[Cell, Cell]]) -> list[Ce
         error = max(one.known_error for one in small)
         in_vain = _is_convex(cell) and error > _LOWER * cell.known_error
         pieces[cell] = [cell] if in_vain else small
-    return pieces.get(whole, [whole])
+    return [one for cell in cells for one in pieces.get(cell, [cell])]
 
 
 def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
