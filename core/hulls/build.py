@@ -20,7 +20,7 @@ from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull, offset
 from .cutting import cut_until_close
 from .fitting import Fit, fit_for
-from .joining import join_pieces
+from .joining import Joints, join_pieces
 from .measure.uncovered import uncovered
 from .piece import Cell, Piece, piece_of_part, whole
 from .solid import Solid, solid_of
@@ -28,10 +28,11 @@ from .solid import Solid, solid_of
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.
 _SAME_VOLUME = 1e-9
 # Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
-# best at their turn only. Shapes other than hulls take longer to fit, and spheres
-# around two neighbors are seldom close.
-_SURPLUS = {"HULL": 2.0, "SPHERE": 1.0}
-_OTHER_SURPLUS = 1.5
+# best at their turn only. Spheres around two neighbors are seldom close.
+_SURPLUS, _SURPLUS_OF_SPHERES = 1.5, 1.0
+# Pieces whose error is above this share of the largest are cut again even if there are
+# too many: joins would raise smaller errors anyway.
+_FAR = 1.2
 
 
 def build_hulls_in_steps(
@@ -190,28 +191,26 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
 def _close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
     """Cut a piece and join neighbors, until all are close or `most` are reached.
 
-    Errors are estimated at first. If there is room for more pieces after joining, those
-    that are not surely close are cut again.
+    Errors are estimated at first. Pieces whose bounds turn out to be above the largest
+    error after joining are cut again.
     """
     kind, max_error = cell.fit.parameters.shape, cell.fit.max_error
-    most_cells = int(_SURPLUS.get(kind, _OTHER_SURPLUS) * most)
-    far, pieces, tried, joints = [cell], list[Piece](), {cell}, {}
+    most_cells = int((_SURPLUS_OF_SPHERES if kind == "SPHERE" else _SURPLUS) * most)
+    far, tried = [cell], set[Cell]()
+    pieces, joints = list[Piece](), Joints()
     while far:
+        tried.update(far)
         steps = cut_until_close(far, most_cells - len(pieces))
         pieces += yield from within(steps, 0.0, 0.7)
-        steps = join_pieces(pieces, max_error, most_cells, joints)
-        pieces = yield from within(steps, 0.7, 0.8)
-        if len(pieces) >= most:
-            break
-        far = []
+        joining = join_pieces(pieces, max_error, most_cells, joints)
+        pieces = yield from within(joining, 0.7, 0.8)
+        allowed, far = max_error * (_FAR if len(pieces) >= most else 1.0), []
         for piece in pieces:
             yield Progress("Measuring", 0.8)
-            if isinstance(piece, Cell) and piece not in tried and not piece.is_close:
-                far.append(piece)
-        tried.update(far)
+            if isinstance(piece, Cell) and piece not in tried:
+                far += [] if piece.is_within(allowed) else [piece]
         pieces = [piece for piece in pieces if piece not in far]
-    steps = join_pieces(pieces, max_error, most, joints)
-    return (yield from within(steps, 0.8, 1.0))
+    return (yield from within(join_pieces(pieces, max_error, most, joints), 0.8, 1.0))
 
 
 def _parts_of_triangles(

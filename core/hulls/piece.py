@@ -104,6 +104,10 @@ class Piece:
         largest = self.fit.max_error
         return self.error <= largest and self._measured[0] <= largest
 
+    def is_within(self, error: float) -> bool:
+        """Return whether the error of the shape is surely within one."""
+        return self.is_close or self.stated_error <= error
+
     @property
     def all_witnesses(self) -> NDArray[np.float64]:
         """Witnesses, with the far point that was found when the piece was measured."""
