@@ -18,21 +18,15 @@ from ..results import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull, offset
-from .cutting import cut_until_close
+from .cutting import close_pieces
 from .fitting import Fit, fit_for
-from .joining import Joints, join_pieces
+from .joining import join_pieces
 from .measure.uncovered import uncovered
-from .piece import Cell, Piece, piece_of_part, whole
+from .piece import Piece, piece_of_part, whole
 from .solid import Solid, solid_of
 
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.
 _SAME_VOLUME = 1e-9
-# Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
-# best at their turn only. Spheres around two neighbors are seldom close.
-_SURPLUS, _SURPLUS_OF_SPHERES = 1.5, 1.0
-# Pieces whose error is above this share of the largest are cut again even if there are
-# too many: joins would raise smaller errors anyway.
-_FAR = 1.2
 
 
 def build_hulls_in_steps(
@@ -185,32 +179,7 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
         return (yield from join_pieces(start, 0.0, most, {}))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    return (yield from _close_pieces(whole(solid, fit), most))
-
-
-def _close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
-    """Cut a piece and join neighbors, until all are close or `most` are reached.
-
-    Errors are estimated at first. Pieces whose bounds turn out to be above the largest
-    error after joining are cut again.
-    """
-    kind, max_error = cell.fit.parameters.shape, cell.fit.max_error
-    most_cells = int((_SURPLUS_OF_SPHERES if kind == "SPHERE" else _SURPLUS) * most)
-    far, tried = [cell], set[Cell]()
-    pieces, joints = list[Piece](), Joints()
-    while far:
-        tried.update(far)
-        steps = cut_until_close(far, most_cells - len(pieces))
-        pieces += yield from within(steps, 0.0, 0.7)
-        joining = join_pieces(pieces, max_error, most_cells, joints)
-        pieces = yield from within(joining, 0.7, 0.8)
-        allowed, far = max_error * (_FAR if len(pieces) >= most else 1.0), []
-        for piece in pieces:
-            yield Progress("Measuring", 0.8)
-            if isinstance(piece, Cell) and piece not in tried:
-                far += [] if piece.is_within(allowed) else [piece]
-        pieces = [piece for piece in pieces if piece not in far]
-    return (yield from within(join_pieces(pieces, max_error, most, joints), 0.8, 1.0))
+    return (yield from close_pieces(whole(solid, fit), most))
 
 
 def _parts_of_triangles(

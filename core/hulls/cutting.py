@@ -11,8 +11,14 @@ from ..steps.progress import Progress, Steps, within
 from .cost import cost_of_sides, least_cost_of_sides
 from .cut_planes import ranked_planes
 from .enclosing import roughly_around
-from .piece import Cell, cut
+from .joining import Joints, join_pieces
+from .piece import Cell, Piece, cut
 
+# Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
+# best at their turn only. Shapes other than hulls take longer to fit, and spheres
+# around two neighbors are seldom close.
+_SURPLUS = {"HULL": 2.0, "SPHERE": 1.0}
+_OTHER_SURPLUS = 1.5
 # Number of planes that are cut with, to compare the exact costs of both sides.
 _TRIES = 8
 # Two planes count as the same above this cosine between their normals and below this
@@ -27,8 +33,38 @@ _ROUND = ("SPHERE", "CYLINDER", "CAPSULE")
 _LOWER = 0.9
 
 
-def cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
-    """Cut the piece of largest error repeatedly, until what is known of all is allowed.
+def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
+    """Cut a piece until all are close, and join neighbors.
+
+    If joining leaves room for more pieces, those that are not close yet are cut again.
+
+    Parameters
+    ----------
+    cell : Cell
+    most : int
+        Largest number of pieces to return.
+
+    Returns
+    -------
+    Steps of list of Piece
+    """
+    fit, pieces, joints = cell.fit, list[Piece](), Joints()
+    most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
+    far, tried = [cell], {cell}
+    while far:
+        room = most_cells - len(pieces)
+        pieces += yield from within(_cut_until_close(far, room), 0.0, 0.9)
+        joining = join_pieces(pieces, fit.max_error, most, joints)
+        pieces = yield from within(joining, 0.9, 1.0)
+        cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
+        far = [one for one in cells if not one.is_close] if len(pieces) < most else []
+        tried.update(far)
+        pieces = [one for one in pieces if one not in far]
+    return pieces
+
+
+def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
+    """Cut the piece of largest error repeatedly, until the errors of all are allowed.
 
     If `most` pieces are too few for that, cuts of convex pieces that do not lower the
     error are undone: small spheres in a row stray as far as a large one.
@@ -43,13 +79,19 @@ def cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     -------
     Steps of list of Cell
     """
-    left, done = list(cells), list[Cell]()
+    left, done, largest = list(cells), list[Cell](), cells[0].fit.max_error
     sides_of: dict[Cell, tuple[Cell, Cell]] = {}
     while left and len(left) + len(done) < most:
         share = (len(left) + len(done)) / most
-        worst = max(left, key=lambda one: round(one.known_error, 6))
-        if worst.known_error <= worst.fit.max_error:
+        far: list[Cell] = []
+        for surely in (False, True):  # estimates are quick, bounds are not
+            for one in left if not far else []:
+                yield Progress("Cutting", share)
+                is_close = one.is_close if surely else one.error <= largest
+                far += [] if is_close else [one]
+        if not far:
             return done + left
+        worst = max(far, key=lambda one: round(one.error, 6))
         left.remove(worst)
         sides = yield from within(best_cut(worst), share, share + 1 / most)
         if sides:

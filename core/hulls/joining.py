@@ -17,7 +17,7 @@ _NEAR = 0.03
 # Cost, numbers of two pieces, the joined piece, and whether the cost is by its stated
 # error. No piece while the cost is a bound.
 _Joint = tuple[float, int, int, Piece | None, bool]
-
+# The joined piece of each pair that was tried.
 Joints = dict[tuple[Piece, Piece], Piece]
 
 

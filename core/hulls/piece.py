@@ -70,17 +70,11 @@ class Piece:
         inside = self.volume if shape.kind == "HULL" else self.solid.volume_in(shape)
         return shape.volume - inside
 
-    @property
-    def volume_error(self) -> float:
-        """Radius of a ball of the added volume, times k (R_v of CoACD)."""
-        return volume_error(self.added_volume)
-
     @cached_property
     def least_error(self) -> float:
         """The terms of `error` that take least time."""
-        n_planes = len(self.hull.planes)
-        depth = estimated_depth(self.rough_shape, self.boundary, n_planes)
-        return max(self.volume_error, depth)
+        depth = estimated_depth(self.rough_shape, self.boundary)
+        return max(volume_error(self.added_volume), depth)
 
     @cached_property
     def error(self) -> float:
@@ -103,10 +97,6 @@ class Piece:
         """Whether the error of the shape is surely within the largest one allowed."""
         largest = self.fit.max_error
         return self.error <= largest and self._measured[0] <= largest
-
-    def is_within(self, error: float) -> bool:
-        """Return whether the error of the shape is surely within one."""
-        return self.is_close or self.stated_error <= error
 
     @property
     def all_witnesses(self) -> NDArray[np.float64]:
@@ -223,9 +213,8 @@ def join(one: Piece, other: Piece) -> Piece:
     ----------
     one, other : Piece
     """
-    boundary, counts = np.unique(
-        np.concatenate([one.boundary, other.boundary]), axis=0, return_counts=True
-    )
+    both = np.concatenate([one.boundary, other.boundary])
+    boundary, counts = np.unique(both, axis=0, return_counts=True)
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
         boundary[counts == 1],

@@ -67,20 +67,21 @@ def estimated_error(
     return float(max(least, outside, away))
 
 
-def estimated_depth(
-    shape: CollisionShape, boundary: NDArray[np.float64], n_planes: int
-) -> float:
+def estimated_depth(shape: CollisionShape, boundary: NDArray[np.float64]) -> float:
     """Return about how deep below the surface of a shape that of its piece is.
 
     Parameters
     ----------
     shape : CollisionShape
     boundary : (N, 3) float
-        Samples of the surface of the piece, and of the faces that cuts made.
-    n_planes : int
-        Number of faces of its hull.
+        As for `estimated_error`.
+
+    Returns
+    -------
+    float
     """
-    some = boundary[:: -(-len(boundary) * n_planes // _MOST_HEIGHTS) or 1]
+    n_heights = len(boundary) * len(shape.hull.planes)
+    some = boundary[:: max(-(-n_heights // _MOST_HEIGHTS), 1)]
     return float(-shape.heights(some).min(initial=0.0))
 
 

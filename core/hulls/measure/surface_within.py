@@ -55,7 +55,7 @@ def surface_within(
     places = places.reshape(-1)
     of_large = np.all(_held(shape, large), axis=1).take(places)
     targets = np.where(of_large[:, None, None], large[places], near[whole])
-    pieces = _pieces_within(shape, near[cut], solid.grain / 2)
+    pieces = _pieces_within(shape, near[cut], solid.grain / 4)
     return np.concatenate([near[whole], pieces]), np.concatenate([targets, pieces])
 
 
