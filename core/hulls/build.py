@@ -18,7 +18,7 @@ from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull, offset
-from .cutting import cut_until_close
+from .cutting import close_pieces
 from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .measure.uncovered import uncovered
@@ -27,11 +27,6 @@ from .solid import Solid, solid_of
 
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.
 _SAME_VOLUME = 1e-9
-# Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
-# best at their turn only. Shapes other than hulls take longer to fit, and spheres
-# around two neighbors are seldom close.
-_SURPLUS = {"HULL": 2.0, "SPHERE": 1.0}
-_OTHER_SURPLUS = 1.5
 
 
 def build_hulls_in_steps(
@@ -181,13 +176,10 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
         start = [
             piece_of_part(solid, fit.of_part(k), parts == k) for k in np.unique(parts)
         ]
-        return (yield from join_pieces(start, 0.0, most))
+        return (yield from join_pieces(start, 0.0, most, {}))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    surplus = _SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS)
-    steps = cut_until_close(whole(solid, fit), int(surplus * most))
-    cells = yield from within(steps, 0.0, 0.9)
-    return (yield from within(join_pieces(cells, fit.max_error, most), 0.9, 1.0))
+    return (yield from close_pieces(whole(solid, fit), most))
 
 
 def _parts_of_triangles(

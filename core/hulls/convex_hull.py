@@ -139,8 +139,9 @@ def _hull(points: NDArray[np.float64]) -> Hull:
     found = ConvexHull(points)
     rows = np.full(len(points), -1)
     rows[found.vertices] = np.arange(len(found.vertices))
-    a, b, c = np.moveaxis(points[found.simplices], 1, 0)
-    normals = np.cross(b - a, c - a)
+    a, b, c = points[found.simplices].transpose(1, 2, 0)
+    (x, y, z), (u, v, w) = b - a, c - a
+    normals = np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=1)
     inwards = np.einsum("fd,fd->f", normals, found.equations[:, :3]) < 0
     triangles = found.simplices.astype(np.int64)
     triangles[inwards] = triangles[inwards, ::-1]

@@ -41,10 +41,10 @@ def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
 
 
 def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return a lower bound of `cost_of_sides`, found from volumes alone.
+    """Return a lower bound of `cost_of_sides`, found from volumes and depths.
 
-    The other term of the errors, the Hausdorff distance, takes as long to compute as
-    everything else together.
+    The other term of the errors, how far points on the hulls are from the surface,
+    takes as long to compute as everything else together.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
     -------
     float
     """
-    errors = np.hypot(one.volume_error, other.volume_error)
+    errors = np.hypot(one.least_error, other.least_error)
     return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 

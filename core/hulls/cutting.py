@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +11,14 @@ from ..steps.progress import Progress, Steps, within
 from .cost import cost_of_sides, least_cost_of_sides
 from .cut_planes import ranked_planes
 from .enclosing import roughly_around
-from .piece import Cell, cut
+from .joining import Joints, join_pieces
+from .piece import Cell, Piece, cut
 
+# Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
+# best at their turn only. Shapes other than hulls take longer to fit, and spheres
+# around two neighbors are seldom close.
+_SURPLUS = {"HULL": 2.0, "SPHERE": 1.0}
+_OTHER_SURPLUS = 1.5
 # Number of planes that are cut with, to compare the exact costs of both sides.
 _TRIES = 8
 # Two planes count as the same above this cosine between their normals and below this
@@ -27,7 +33,37 @@ _ROUND = ("SPHERE", "CYLINDER", "CAPSULE")
 _LOWER = 0.9
 
 
-def cut_until_close(cell: Cell, most: int) -> Steps[list[Cell]]:
+def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
+    """Cut a piece until all are close, and join neighbors.
+
+    If joining leaves room for more pieces, those that are not close yet are cut again.
+
+    Parameters
+    ----------
+    cell : Cell
+    most : int
+        Largest number of pieces to return.
+
+    Returns
+    -------
+    Steps of list of Piece
+    """
+    fit, pieces, joints = cell.fit, list[Piece](), Joints()
+    most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
+    far, tried = [cell], {cell}
+    while far:
+        room = most_cells - len(pieces)
+        pieces += yield from within(_cut_until_close(far, room), 0.0, 0.9)
+        joining = join_pieces(pieces, fit.max_error, most, joints)
+        pieces = yield from within(joining, 0.9, 1.0)
+        cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
+        far = [one for one in cells if not one.is_close] if len(pieces) < most else []
+        tried.update(far)
+        pieces = [one for one in pieces if one not in far]
+    return pieces
+
+
+def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     """Cut the piece of largest error repeatedly, until the errors of all are allowed.
 
     If `most` pieces are too few for that, cuts of convex pieces that do not lower the
@@ -35,7 +71,7 @@ def cut_until_close(cell: Cell, most: int) -> Steps[list[Cell]]:
 
     Parameters
     ----------
-    cell : Cell
+    cells : sequence of Cell
     most : int
         Largest number of pieces.
 
@@ -43,31 +79,32 @@ def cut_until_close(cell: Cell, most: int) -> Steps[list[Cell]]:
     -------
     Steps of list of Cell
     """
-    cells, largest = [cell], cell.fit.max_error
-    done: list[Cell] = []
+    left, done, largest = list(cells), list[Cell](), cells[0].fit.max_error
     sides_of: dict[Cell, tuple[Cell, Cell]] = {}
-    while cells and len(cells) + len(done) < most:
-        share = (len(cells) + len(done)) / most
+    while left and len(left) + len(done) < most:
+        share = (len(left) + len(done)) / most
         far: list[Cell] = []
         for surely in (False, True):  # estimates are quick, bounds are not
-            for one in cells if not far else []:
+            for one in left if not far else []:
                 yield Progress("Cutting", share)
                 is_close = one.is_close if surely else one.error <= largest
                 far += [] if is_close else [one]
         if not far:
-            return done + cells
+            return done + left
         worst = max(far, key=lambda one: round(one.error, 6))
-        cells.remove(worst)
+        left.remove(worst)
         sides = yield from within(best_cut(worst), share, share + 1 / most)
         if sides:
             sides_of[worst] = sides
-        cells += sides or ()
+        left += sides or ()
         done += () if sides else (worst,)
-    return _worthwhile(cell, sides_of)
+    return _worthwhile(cells, sides_of)
 
 
-def _worthwhile(whole: Cell, sides_of: dict[Cell, tuple[Cell, Cell]]) -> list[Cell]:
-    """Return the pieces of a cut one, without cuts of convex pieces in vain.
+def _worthwhile(
+    cells: Sequence[Cell], sides_of: dict[Cell, tuple[Cell, Cell]]
+) -> list[Cell]:
+    """Return the pieces of cut ones, without cuts of convex pieces in vain.
 
     `sides_of` has both sides of each piece that was cut, in the order of the cuts.
     """
@@ -77,7 +114,7 @@ def _worthwhile(whole: Cell, sides_of: dict[Cell, tuple[Cell, Cell]]) -> list[Ce
         error = max(one.known_error for one in small)
         in_vain = _is_convex(cell) and error > _LOWER * cell.known_error
         pieces[cell] = [cell] if in_vain else small
-    return pieces.get(whole, [whole])
+    return [one for cell in cells for one in pieces.get(cell, [cell])]
 
 
 def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
@@ -115,18 +152,21 @@ def _cheapest(
     cell: Cell, planes: NDArray[np.float64]
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
-    best, least = None, np.inf
-    solid_volume = cell.solid.volume
+    cuts, solid_volume = [], cell.solid.volume
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
-        if not all(side.on_surface.any() for side in sides):
-            continue
-        if least_cost_of_sides(*sides, solid_volume) >= least:
-            continue
+        if all(side.on_surface.any() for side in sides):
+            bound = least_cost_of_sides(*sides, solid_volume)
+            cuts.append((bound, len(cuts), sides))
+    best, least = None, (np.inf, 0)
+    for bound, turn, sides in sorted(cuts):
+        if bound > least[0]:
+            break
+        yield Progress("Cutting", 1.0)
         cost = cost_of_sides(*sides, solid_volume)
-        if cost < least:
-            best, least = sides, cost
+        if (cost, turn) < least:
+            best, least = sides, (cost, turn)
     return best
 
 

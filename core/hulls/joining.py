@@ -17,10 +17,12 @@ _NEAR = 0.03
 # Cost, numbers of two pieces, the joined piece, and whether the cost is by its stated
 # error. No piece while the cost is a bound.
 _Joint = tuple[float, int, int, Piece | None, bool]
+# The joined piece of each pair that was tried.
+Joints = dict[tuple[Piece, Piece], Piece]
 
 
 def join_pieces(
-    pieces: Sequence[Piece], max_error: float, max_pieces: int
+    pieces: Sequence[Piece], max_error: float, max_pieces: int, known: Joints
 ) -> Steps[list[Piece]]:
     """Join neighbors whose common error is small, and more if there are too many.
 
@@ -34,14 +36,16 @@ def join_pieces(
         Largest error of a joined piece; exceeded while there are too many pieces.
     max_pieces : int
         Largest number of pieces to return.
+    known : dict
+        Joined pieces of pairs that were tried before, and from now on.
 
     Returns
     -------
     Steps of list of Piece
     """
-    joined = yield from _join(pieces, max_error, max_pieces, _touch)
+    joined = yield from _join(pieces, max_error, max_pieces, known, _touch)
     if len(joined) > max_pieces:
-        joined = yield from _join(joined, 0.0, max_pieces, lambda *_: True)
+        joined = yield from _join(joined, 0.0, max_pieces, known, lambda *_: True)
     return joined
 
 
@@ -49,6 +53,7 @@ def _join(
     pieces: Sequence[Piece],
     max_error: float,
     max_pieces: int,
+    known: Joints,
     may: Callable[[Piece, Piece], bool],
 ) -> Steps[list[Piece]]:
     """Join the pairs of pieces that `may` allows, the cheapest first."""
@@ -59,7 +64,7 @@ def _join(
         _add(piece, len(alive), alive, queue, may, solid_volume)
         yield Progress("Joining", 0.0)
     for number in count(len(pieces)):
-        steps = _next_joint(alive, queue, max_error, max_pieces, solid_volume)
+        steps = _next_joint(alive, queue, max_error, max_pieces, known, solid_volume)
         found = yield from within(steps, 1 - len(alive) / (len(pieces) + 1), 1.0)
         if found is None:
             break
@@ -90,6 +95,7 @@ def _next_joint(
     queue: list[_Joint],
     max_error: float,
     max_pieces: int,
+    known: Joints,
     solid_volume: float,
 ) -> Steps[tuple[int, int, Piece] | None]:
     """Return the numbers of the two pieces to join next, and the joined piece.
@@ -104,7 +110,8 @@ def _next_joint(
             continue
         if joint is None:
             yield Progress("Joining", 0.0)
-            joint = join(alive[one], alive[other])
+            pair = alive[one], alive[other]
+            joint = known[pair] = known.get(pair) or join(*pair)
             error = joint.error
         elif joint.error <= max_error and joint.is_close:
             return one, other, joint

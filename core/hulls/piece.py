@@ -15,7 +15,7 @@ from .convex_hull import THIN, convex_hull
 from .cross_section import cross_section, meeting_points
 from .fitting import Fit
 from .measure.error_bound import error_bound
-from .measure.estimate import estimated_error, volume_error
+from .measure.estimate import estimated_depth, estimated_error, volume_error
 from .solid import Solid
 
 
@@ -70,15 +70,16 @@ class Piece:
         inside = self.volume if shape.kind == "HULL" else self.solid.volume_in(shape)
         return shape.volume - inside
 
-    @property
-    def volume_error(self) -> float:
-        """Radius of a ball of the added volume, times k (R_v of CoACD)."""
-        return volume_error(self.added_volume)
+    @cached_property
+    def least_error(self) -> float:
+        """The terms of `error` that take least time."""
+        depth = estimated_depth(self.rough_shape, self.boundary)
+        return max(volume_error(self.added_volume), depth)
 
     @cached_property
     def error(self) -> float:
         """The error of the shape, estimated from samples: cheap, and often too low."""
-        rest = self.boundary, self.witnesses, self.volume_error
+        rest = self.boundary, self.witnesses, self.least_error
         return estimated_error(self.solid, self.rough_shape, self.hull, *rest)
 
     @property
@@ -212,9 +213,8 @@ def join(one: Piece, other: Piece) -> Piece:
     ----------
     one, other : Piece
     """
-    boundary, counts = np.unique(
-        np.concatenate([one.boundary, other.boundary]), axis=0, return_counts=True
-    )
+    both = np.concatenate([one.boundary, other.boundary])
+    boundary, counts = np.unique(both, axis=0, return_counts=True)
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
         boundary[counts == 1],

@@ -25,7 +25,7 @@ _TOLD_APART = 0.5
 # The bound exceeds the error by this share at most, where there is time for it.
 _TOLERANCE = 0.03
 # Longest edge of the first patches; the longest side of the shape is 2.
-_COARSE = 0.2
+_COARSE = 0.1
 # Patches left over in one round; with more, their bounds stand as they are.
 _MOST_PATCHES = 60_000
 # Fewer patches are halved again before they are looked at, so many times more: a round

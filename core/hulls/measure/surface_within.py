@@ -12,6 +12,8 @@ from .fragments import edge_lengths, halved, reach_of
 
 # The surface is within a shape that it is outside of by less: hulls are simplified.
 _WITHIN = THIN / 10
+# Number of times that the part of an edge is halved in which it leaves a shape.
+_BISECTIONS = 5
 
 
 def surface_within(
@@ -62,21 +64,50 @@ def _pieces_within(
 ) -> NDArray[np.float64]:
     """Return what of triangles is within a shape, in pieces (N, 3, 3).
 
-    Of pieces with edges no longer than `longest`, it is the corners within.
+    Pieces with edges no longer than `longest` are clipped, if a corner is within.
     """
     found = [corners[:0]]
     while len(corners):
         held = _held(shape, corners)
-        done = held.all(axis=1) | (edge_lengths(corners).max(axis=1) <= longest)
-        taken = done & held.any(axis=1)
-        order = np.argsort(~held[taken], axis=1, kind="stable")
-        within = np.take_along_axis(held[taken], order, axis=1)
-        chosen = np.where(within, order, order[:, :1])
-        found.append(np.take_along_axis(corners[taken], chosen[..., None], axis=1))
+        done = edge_lengths(corners).max(axis=1) <= longest
+        whole = held.all(axis=1)
+        clipped = held.any(axis=1) & done & ~whole
+        found += [corners[whole], _clipped(shape, corners[clipped], held[clipped])]
         centers, radii = reach_of(corners)
         beyond = shape.heights(centers) > _WITHIN + radii
-        corners = halved(corners[~done & ~beyond])
+        corners = halved(corners[~done & ~whole & ~beyond])
     return np.concatenate(found)
+
+
+def _clipped(
+    shape: CollisionShape, corners: NDArray[np.float64], held: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Return triangles within a shape, of triangles with one or two corners there.
+
+    They have the corners within, and points where edges leave the shape.
+    """
+    # The corner alone on its side comes first.
+    lone = held.sum(axis=1) == 1
+    first = np.where(lone[:, None], held, ~held).argmax(axis=1)
+    turn = (first[:, None] + np.arange(3)) % 3
+    corners = np.take_along_axis(corners, turn[..., None], axis=1)
+    alone, others = corners[:, :1].repeat(2, axis=1), corners[:, 1:]
+    within = np.where(lone[:, None, None], alone, others)
+    way = np.where(lone[:, None, None], others, alone) - within
+    share, step = np.zeros(way.shape[:2]), 1.0
+    for _ in range(_BISECTIONS):
+        step /= 2
+        places = within + (share + step)[..., None] * way
+        share += step * (shape.heights(places.reshape(-1, 3)).reshape(-1, 2) <= _WITHIN)
+    ends = within + share[..., None] * way
+    rest = ~lone
+    return np.concatenate(
+        [
+            np.concatenate([within[:, :1], ends], axis=1)[lone],
+            np.concatenate([others, ends[:, :1]], axis=1)[rest],
+            np.concatenate([others[:, 1:], ends], axis=1)[rest],
+        ]
+    )
 
 
 def _held(shape: CollisionShape, corners: NDArray[np.float64]) -> NDArray[np.bool_]:

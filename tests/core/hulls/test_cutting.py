@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import build_hulls
+from weak_convex_decomposition.core.hulls import cutting
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
 
@@ -18,3 +19,17 @@ def test_a_cube_is_cut_where_that_lowers_the_error(kind, n_shapes, error):
     assert found.n_hulls == n_shapes
     assert found.errors.max() == pytest.approx(error, rel=0.05, abs=1e-6)
     assert bool(found.notes) == (kind != "BOX")
+
+
+def test_pieces_are_cut_again_while_joining_leaves_room(monkeypatch):
+    rounds, cut_until_close = [], cutting._cut_until_close
+
+    def hasty(cells, most):
+        rounds.append(cells)
+        return cut_until_close(cells, most if len(rounds) > 1 else 2)
+
+    monkeypatch.setattr(cutting, "_cut_until_close", hasty)
+    found = build_hulls(shapes.comb(), HullParameters(max_hulls=8))
+    assert len(rounds) > 1
+    assert 2 < found.n_hulls <= 8
+    assert found.errors.max() <= 0.05
