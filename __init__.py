@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from .core.geometry.point_cloud import PointCloud
     from .core.parameters.hulls import HullParameters
     from .core.parameters.parts import Parameters
-    from .core.results import Decomposition, HullDecomposition, Measurement
+    from .core.results.hulls import HullDecomposition
+    from .core.results.parts import Decomposition, Measurement
     from .core.steps.progress import run
     from .operators.bridge.rays.choice import choose_ray_caster
     from .operators.scripting import build_hulls, decompose, measure
@@ -49,11 +50,11 @@ __all__ = [
 
 # Module that each public name comes from. `core` has its own table of where.
 _HOMES = {
-    "Decomposition": "core.results",
+    "Decomposition": "core.results.parts",
     "DecompositionError": "core.errors",
-    "HullDecomposition": "core.results",
+    "HullDecomposition": "core.results.hulls",
     "HullParameters": "core.parameters.hulls",
-    "Measurement": "core.results",
+    "Measurement": "core.results.parts",
     "Parameters": "core.parameters.parts",
     "PointCloud": "core.geometry.point_cloud",
     "ShapeCache": "core",

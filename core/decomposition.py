@@ -15,7 +15,7 @@ from .parts.find import find_parts
 from .parts.levels import with_pieces
 from .parts.pairs import mirror_pairs
 from .parts.part_memo import PartMemo
-from .results import Decomposition
+from .results.parts import Decomposition
 from .sight.prepared import PreparedShape
 from .steps.progress import Steps, within, within_turn
 

@@ -11,7 +11,7 @@ from .cache import ShapeCache
 from .errors import DecompositionError
 from .geometry.shape import Shape
 from .parameters.parts import Parameters
-from .results import Measurement
+from .results.parts import Measurement
 from .sight.prepared import PreparedShape
 from .sight.visibility import find_lines_of_sight
 from .steps.progress import Steps, within

@@ -11,7 +11,7 @@ from scipy import sparse
 
 from .parameters.parts import Parameters
 from .parts.part_memo import PartMemo
-from .results import Picture
+from .results.views import Picture
 
 Pixels: TypeAlias = NDArray[np.float64]
 

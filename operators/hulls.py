@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import bpy
 
-from ..core.results import HullDecomposition
+from ..core.results.hulls import HullDecomposition
 from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import erase_hulls, hulls_of, write_hulls
 from .bridge.hulls.looks import look_like

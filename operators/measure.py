@@ -9,7 +9,7 @@ import bpy
 
 from ..core.errors import DecompositionError
 from ..core.parameters.parts import Parameters
-from ..core.results import Measurement
+from ..core.results.parts import Measurement
 from ..core.steps.progress import Steps
 from .bridge.mesh.selection import selected_faces
 from .bridge.refusals import measure_refusal, selection_refusal

@@ -14,7 +14,8 @@ from ..core.errors import DecompositionError
 from ..core.geometry.array_checks import described
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
-from ..core.results import Decomposition, HullDecomposition, Measurement
+from ..core.results.hulls import HullDecomposition
+from ..core.results.parts import Decomposition, Measurement
 from ..core.steps.progress import Progress, Steps, mapped, run
 from .bridge.rays.choice import choose_ray_caster
 from .bridge.read.arrays import labels_of, mesh_of, scene_unit_of, shape_of

@@ -8,7 +8,7 @@ import bpy
 
 from ..core.parameters.choices import PICTURES
 from ..core.parameters.parameter import Choice
-from ..core.results import Picture
+from ..core.results.views import Picture
 from ..core.steps.progress import Steps
 from .bridge.parts.images import write_image
 from .bridge.refusals import picture_refusal

@@ -14,7 +14,8 @@ from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import PRESETS
-from weak_convex_decomposition.core.results import Decomposition, HullDecomposition
+from weak_convex_decomposition.core.results.hulls import HullDecomposition
+from weak_convex_decomposition.core.results.parts import Decomposition
 
 DOCS = ROOT / "docs"
 PAGES = {path: path.read_text(encoding="utf-8") for path in sorted(DOCS.glob("*.md"))}

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 
+from ..core.results.psi import good_numbers
 from .panels import WCD_PT_parts, paragraph
 from .sidebar import Sidebar, result_of
 
@@ -37,23 +38,25 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw a row for each number of parts, and say which are good and why."""
         result = result_of(context.active_object)
-        gains = gains_of(result["psi_by_k"])
-        good = result.get("good_k", ())  # records of former versions have none
-        for text in (offer_of(good), reason_for(result.get("best_k"), gains)):
+        psi_by_k = {int(k): psi for k, psi in result["psi_by_k"].items()}
+        gains, best = gains_of(psi_by_k), result.get("best_k", result["k"])
+        good = good_numbers(psi_by_k, best)
+        for text in (offer_of(good), reason_for(best, gains)):
             if text:
                 paragraph(self.layout, text, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
         column.scale_y = _HEIGHT
         for k, gain in gains.items():
             split = column.split(factor=_NUMBER, align=True)
-            _draw_number(split, k, result)
+            icon = "SOLO_ON" if k == best else "SOLO_OFF" if k in good else "NONE"
+            _draw_number(split, k, result, icon)
             split.progress(factor=gain, text=f"{gain:.0%}")
 
 
-def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> None:
-    """Draw the button that chooses a number of parts; stars mark the best and good."""
-    icon = "SOLO_OFF" if k in result.get("good_k", ()) else "NONE"
-    icon = "SOLO_ON" if k == result.get("best_k") else icon
+def _draw_number(
+    layout: bpy.types.UILayout, k: int, result: dict[str, Any], icon: str
+) -> None:
+    """Draw the button that chooses a number of parts."""
     # With deeper levels, k counts the parts of all levels.
     shown = k == result["k"] and result["parameters"].get("levels", 1) == 1
     button = layout.operator(
@@ -62,12 +65,12 @@ def _draw_number(layout: bpy.types.UILayout, k: int, result: dict[str, Any]) -> 
     button.parts = k
 
 
-def gains_of(psi_by_k: Mapping[str, float]) -> dict[int, float]:
+def gains_of(psi_by_k: Mapping[int, float]) -> dict[int, float]:
     """Return the length of each bar: 0 for the lowest psi, 1 for the highest."""
     low, high = min(psi_by_k.values()), max(psi_by_k.values())
     return {
-        int(k): (psi - low) / (high - low) if high > low else 1.0
-        for k, psi in sorted(psi_by_k.items(), key=lambda item: int(item[0]))
+        k: (psi - low) / (high - low) if high > low else 1.0
+        for k, psi in sorted(psi_by_k.items())
     }
 
 
@@ -78,10 +81,10 @@ def offer_of(good: Sequence[int]) -> str | None:
     return f"Coarse to fine: {', '.join(map(str, good[:-1]))} or {good[-1]} parts."
 
 
-def reason_for(best: int | None, gains: Mapping[int, float]) -> str | None:
+def reason_for(best: int, gains: Mapping[int, float]) -> str | None:
     """Return why the best number of parts has not the longest bar, if it has not."""
     longest = max(gains, key=gains.__getitem__)
-    if best is None or best not in gains or gains[longest] <= gains[best]:
+    if best not in gains or gains[longest] <= gains[best]:
         return None
     lead = gains[longest] - gains[best]
     more = f"{lead:.0%}"

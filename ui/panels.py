@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..core.sight.pair_tally import quality_word
+from ..core.results.psi import quality_word
 from ..operators.bridge.parts.rows import noted_refusal
 from ..operators.bridge.read.shown_mesh import differs
 from ..operators.bridge.work.libraries import load_while_idle

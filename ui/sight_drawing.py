@@ -13,7 +13,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..core.geometry.frames import frames
-from ..core.results import View
+from ..core.results.views import View
 from ..operators.viewport import sight_overlay
 
 _SEEN = (0.1, 0.85, 0.25, 1.0)

@@ -14,7 +14,7 @@ from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.shape import Shape
 from ..parameters.hulls import HullParameters
-from ..results import HullDecomposition
+from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull, offset

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..parameters.parts import Parameters
-from ..results import Decomposition
+from ..results.parts import Decomposition
 from ..sight.prepared import PreparedShape
 
 # The search never tries fewer. With more, the user wants to hear of what it tried.
@@ -55,6 +55,5 @@ def as_one_part(shape: PreparedShape) -> Decomposition:
         psi=1.0,
         psi_by_k={1: 1.0},
         best_k=1,
-        good_k=(1,),
         notes=shape.notes,
     )

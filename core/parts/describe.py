@@ -9,8 +9,7 @@ from ..clusters.moves import MoveGains
 from ..geometry.face_graph import FaceGraph
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
-from ..results import Decomposition
-from ..sight.pair_tally import good_numbers
+from ..results.parts import Decomposition
 from ..sight.visibility import Visibility
 from .partition import count_parts
 
@@ -43,7 +42,7 @@ def describe(
     psi_by_k : dict of int to float
         Psi for the numbers of parts that were tried, stored as it is.
     best_k : int
-        The number of parts that a search chooses, stored as it is, with good ones.
+        The number of parts that a search chooses, stored as it is.
 
     Returns
     -------
@@ -68,7 +67,6 @@ def describe(
         normals=visibility.shape.normals,
         pairs_cast=pairs.n_cast,
         pairs_inferred=pairs.n_inferred,
-        good_k=good_numbers(psi_by_k, best_k),
     )
 
 

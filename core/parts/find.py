@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..parameters.parts import Parameters
-from ..results import Decomposition
+from ..results.parts import Decomposition
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on

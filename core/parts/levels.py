@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..parameters.parts import Parameters
-from ..results import Decomposition
+from ..results.parts import Decomposition
 from ..sight.visibility import Visibility
 from .describe import by_size, describe
 

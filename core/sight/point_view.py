@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..geometry.sampling import Samples, sample_surface
 from ..parameters.parts import Parameters
-from ..results import View
+from ..results.views import View
 from ..steps.progress import Progress, Steps, run
 from .lines import see_pairs
 from .prepared import PreparedShape

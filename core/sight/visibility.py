@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from .likely_pairs import likely_pairs
 from .lines import RayBudget
 from .pair_visibility import Matrix, PairVisibility
 from .prepared import PreparedShape
+from .ray_march import PASS
 from .viewpoints import viewpoints
 
 # Most samples whose matrix of all pairs fits into memory.
@@ -83,6 +85,16 @@ class Visibility:
     def is_guessed(self) -> bool:
         """Whether likely pairs were guessed from more than lines of sight."""
         return self.likely_pairs is not self.psi_pairs
+
+    @cached_property
+    def thickness(self) -> NDArray[np.float64]:
+        """Length inside the shape of a ray straight inwards from each sample, (N,)."""
+        marcher, samples = self.shape.marcher, self.samples
+        inwards = -samples.normals
+        starts = samples.positions + PASS * marcher.diagonal * inwards
+        around = marcher.closed[samples.triangles].astype(np.int64)
+        far = np.full(len(samples), 2 * marcher.diagonal)
+        return marcher.march(starts, inwards, far, around)[1]
 
 
 def find_lines_of_sight(

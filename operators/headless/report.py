@@ -13,6 +13,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from ...core.results.psi import good_numbers
 from ..bridge.stored.notes import version
 from ..bridge.stored.versions import MEASURED_ON, PAST
 from .atomic import explaining, replacing
@@ -110,9 +111,11 @@ def _object_entry(result: ObjectResult) -> dict[str, Any]:
 
 
 def _shown_record(record: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a record without what only undo and the next run look at."""
+    """Return a record with good numbers of parts, without what undo and reruns need."""
     shown = {key: value for key, value in record.items() if key != PAST}
     if "parts" in shown:
+        psi_by_k = {int(k): psi for k, psi in shown["psi_by_k"].items()}
+        shown["good_k"] = good_numbers(psi_by_k, shown["best_k"])
         shown["parts"] = [
             {key: value for key, value in part.items() if key != MEASURED_ON}
             for part in shown["parts"]

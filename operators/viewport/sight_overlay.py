@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.results import View
+from ...core.results.views import View
 from .viewports import redraw
 
 

@@ -68,10 +68,16 @@ def test_a_new_cut_is_that_of_a_new_run(cache, decomposed, name):
 
 
 def test_lines_of_sight_are_kept_for_what_does_not_affect_them(cache):
-    for name in CHANGES.keys() - {"levels", "bends"}:  # these look at parts anew
+    for name in CHANGES.keys() - {"levels", "bends"}:  # these look at the shape
         after = replace(BEFORE, **{name: CHANGES[name]})
         run(decompose_in_steps(shapes.comb(), BEFORE, cache))
         assert sees_anew(cache, shapes.comb(), after) == (name not in OF_THE_CUT), name
+
+
+def test_thickness_is_looked_at_once(cache):
+    bent = replace(BEFORE, bends="KEEP")
+    run(decompose_in_steps(shapes.comb(), bent, cache))
+    assert not sees_anew(cache, shapes.comb(), replace(bent, parts=3))
 
 
 def test_rays_are_cast_once_for_a_shape_and_its_parts(monkeypatch):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ...cache import ShapeCache
 from ...geometry.mesh import TriangleMesh
 from ...parameters.hulls import HullParameters
-from ...results import HullDecomposition
+from ...results.hulls import HullDecomposition
 from ...steps.progress import Progress, Steps, within
 from ..convex_hull import THIN, convex_hull
 from ..fitting import fit_for

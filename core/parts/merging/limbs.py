@@ -16,8 +16,6 @@ from scipy.spatial import cKDTree
 from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ...geometry.frames import unit
-from ...sight.lines import RAYS_PER_STEP
-from ...sight.ray_march import PASS
 from ...steps.progress import Progress, Steps
 from ..partition import Partitioner, count_parts
 
@@ -60,7 +58,6 @@ class LimbMerger:
         self._visibility = partitioner.visibility
         self._samples = partitioner.visibility.samples
         self._transfer = partitioner.transfer
-        self._thickness: NDArray[np.float64] | None = None
 
     def merge(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
         """Return the parts after neighbors are merged that only a bend divides.
@@ -83,7 +80,7 @@ class LimbMerger:
 
     def _bends(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
         """Return the pairs (B, 2) of parts of one limb."""
-        thickness = yield from self._thicknesses(parts)
+        thickness = self._thicknesses(parts)
         flat = self._transfer.graph.outline is not None
         labels = self._transfer.to_samples(parts) if flat else parts
         ends = np.sort(labels[self._surface.neighbors], axis=1)
@@ -191,28 +188,11 @@ class LimbMerger:
         turns = (across * (normal - other_normal)).sum(axis=1)
         return turns, np.bincount(rows, other, len(edges)) > 0
 
-    def _thicknesses(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.float64]]:
+    def _thicknesses(self, parts: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the median thickness of each part, (K,), nan if it is unknown."""
-        if self._thickness is None:
-            self._thickness = yield from self._cast()
-        labels = self._transfer.to_samples(parts)
-        known = np.isfinite(self._thickness)
+        labels, thickness = self._transfer.to_samples(parts), self._visibility.thickness
+        known = np.isfinite(thickness)
         medians = np.full(count_parts(parts), np.nan)
         for part in np.unique(labels[known]):
-            medians[part] = np.median(self._thickness[known & (labels == part)])
+            medians[part] = np.median(thickness[known & (labels == part)])
         return medians
-
-    def _cast(self) -> Steps[NDArray[np.float64]]:
-        """Return the thickness at each sample, (N,): one ray goes straight inwards."""
-        marcher, samples = self._visibility.shape.marcher, self._samples
-        inwards = -samples.normals
-        starts = samples.positions + PASS * marcher.diagonal * inwards
-        around = marcher.closed[samples.triangles].astype(np.int64)
-        far = np.full(len(samples), 2 * marcher.diagonal)
-        thickness = np.empty(len(samples))
-        for start in range(0, len(samples), RAYS_PER_STEP):
-            yield Progress("Seams", 0.0)
-            rows = slice(start, start + RAYS_PER_STEP)
-            rays = starts[rows], inwards[rows], far[rows], around[rows]
-            thickness[rows] = marcher.march(*rays)[1]
-        return thickness

@@ -14,7 +14,7 @@ from ....core.errors import DecompositionError
 from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
-from ....core.results import HullDecomposition
+from ....core.results.hulls import HullDecomposition
 from ..parts.identities import usual_identities
 from ..parts.materials import discard_unused, is_ours, own_materials
 from ..parts.read import find_parts_on, part_materials

@@ -12,7 +12,7 @@ from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
-from ....core.results import HullDecomposition
+from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .... import core
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
 from ..mesh.attributes import read_floats
 from ..mesh.points import is_cloud

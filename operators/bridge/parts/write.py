@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
 from ..mesh.corners import vertices_by_label
 from ..mesh.layers import flush_edits, layers_of

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ..mesh.attributes import read_floats, read_ints, write_ints
 from ..mesh.corners import triangles_of
 from ..stored.record import EVALUATED, ORIGINAL

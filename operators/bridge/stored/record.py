@@ -12,7 +12,8 @@ import bpy
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition, HullDecomposition, Measurement
+from ....core.results.hulls import HullDecomposition
+from ....core.results.parts import Decomposition, Measurement
 from .identity import Identity
 from .names import RESULT
 from .notes import parse_json, read_note, version, write_note
@@ -113,7 +114,6 @@ def write_result(
         "psi_before": _number(decomposition.psi_before),
         "psi_by_k": {str(k): float(v) for k, v in decomposition.psi_by_k.items()},
         "best_k": decomposition.best_k,
-        "good_k": list(decomposition.good_k),
         "pairs_cast": decomposition.pairs_cast,
         "pairs_inferred": decomposition.pairs_inferred,
         "parts": _entries(decomposition, identities, materials, measured_on),

@@ -25,7 +25,6 @@ _OF_PARTS = (
     "psi_before",
     "psi_by_k",
     "best_k",
-    "good_k",
     "parts",
     "notes",
 )

@@ -16,7 +16,9 @@ from ....core.errors import DecompositionError
 from ....core.geometry.shape import Shape
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition, HullDecomposition, Measurement, Picture
+from ....core.results.hulls import HullDecomposition
+from ....core.results.parts import Decomposition, Measurement
+from ....core.results.views import Picture
 from ....core.steps.processes import Processes
 from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ....core.steps.progress import Progress, Steps, within
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ..parts.figures import figures_of
 from ..parts.present_parts import faces_by_hand
 from ..parts.write import write_parts

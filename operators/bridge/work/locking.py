@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..parts.continuing import face_areas
 from ..parts.present_parts import PresentParts, present_parts

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from .... import core
 from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
-from ....core.results import Decomposition
+from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..cuts.new_faces import NewFaces
 from ..parts.identities import identities_after, with_sides

@@ -12,7 +12,7 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
-from ....core.results import HullDecomposition
+from ....core.results.hulls import HullDecomposition
 from ...bridge.hulls.hull_objects import write_hulls
 from ...bridge.hulls.placed import placed
 from ...bridge.read.shape import have_equal_shapes

@@ -10,7 +10,7 @@ from contextlib import suppress
 import bpy
 
 from ....core.errors import DecompositionError
-from ....core.results import HullDecomposition
+from ....core.results.hulls import HullDecomposition
 from ....core.steps.processes import Processes
 from ....core.steps.progress import Steps
 from ...bridge.work.computing import build_hulls_of

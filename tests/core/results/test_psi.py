@@ -1,12 +1,9 @@
-"""Psi of counted pairs, the word for it, and good numbers of parts by it."""
+"""The word for psi, and good numbers of parts by it."""
 
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.sight.pair_tally import (
-    PairTally,
-    good_numbers,
-    quality_word,
-)
+from weak_convex_decomposition.core.results.psi import good_numbers, quality_word
+from weak_convex_decomposition.core.sight.pair_tally import PairTally
 
 # Two blobs of 10 samples that see nothing of each other: half of all pairs are visible.
 APART = PairTally(np.diag([100.0, 100.0]), np.full((2, 2), 100.0))

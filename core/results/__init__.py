@@ -1,0 +1,1 @@
+"""What comes back: types of all results, and what their numbers say."""
