@@ -152,7 +152,8 @@ def _cheapest(
     cell: Cell, planes: NDArray[np.float64]
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
-    cuts, solid_volume = [], cell.solid.volume
+    cuts: list[tuple[float, int, tuple[Cell, Cell]]] = []
+    solid_volume = cell.solid.volume
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
