@@ -31,7 +31,8 @@ See: TypeAlias = Callable[[PreparedShape, Parameters], Steps[PartMemo]]
 _WORTH_SPLITTING = 0.25
 # With levels chosen automatically, these parts are looked at again: the samples on them
 # do not see each other well, they have a small share of the area, and several prongs.
-_MOST_RANK = 0.8
+# Parts of a whole shape that see even less of themselves are hollow or crumpled.
+_LEAST_RANK, _MOST_RANK = 0.3, 0.8
 _MOST_AREA = 0.25
 _FEWEST_PRONGS = 2
 # A hand has five, and a body with fingers and toes twenty. More of them on a part, or
@@ -155,7 +156,7 @@ def _tips_of(memo: PartMemo, found: Decomposition) -> Steps[NDArray[np.bool_]]:
     """Return which polygons are the tips of prongs of small parts, (P,)."""
     tips = np.zeros(len(found.labels), dtype=bool)
     chosen = found.areas < _MOST_AREA * found.areas.sum()
-    chosen &= found.ranks < _MOST_RANK
+    chosen &= (found.ranks > _LEAST_RANK) & (found.ranks < _MOST_RANK)
     shape = memo.visibility.shape
     if shape.plane is not None or not chosen.any():
         return tips

@@ -21,7 +21,7 @@ _LONG = 0.4
 # Least length of a prong, as a share of the largest distance from the part's seams, and
 # number of its nodes: smaller ones are roughness.
 _LEAST_LENGTH = 0.03
-_LEAST_NODES = 4
+_LEAST_NODES = 6
 
 
 def find_tips(

@@ -36,6 +36,7 @@ STAGE_OF = {
     "Containers": "lines_of_sight",
     "Patches": "clusters",
     "Number of parts": "clusters",
+    "Details": "clusters",
     "Symmetry": "clusters",
     "Seams": "seams",
 }
