@@ -121,12 +121,12 @@ def test_a_given_number_is_met_by_what_is_kept_whole(agreement):
 
 
 def test_bends_are_cut_where_a_given_number_asks_for_it():
-    found = decompose(ring(), replace(KEEP, parts=4))
+    found = decompose(ring(), replace(KEEP, parts=3))
     assert (
         found.labels.tolist()
-        == decompose(ring(), replace(CUT, parts=4)).labels.tolist()
+        == decompose(ring(), replace(CUT, parts=3)).labels.tolist()
     )
-    assert (found.n_parts, found.best_k) == (4, 1)
+    assert (found.n_parts, found.best_k) == (3, 1)
 
 
 HEIGHTS = np.linspace(-3, 3, 25)
