@@ -112,7 +112,8 @@ def test_parts_on_patches_are_those_on_faces_but_for_seams(agreement):
     areas = dumbbell()[0].graph.areas
     on_faces, on_patches = found_with(10_000), found_with(600)
     assert on_patches.n_parts == on_faces.n_parts > 1
-    assert agreement(on_patches.labels, on_faces.labels, areas) > 0.99
+    # A row of faces along a seam has about 1 % of the area.
+    assert agreement(on_patches.labels, on_faces.labels, areas) > 0.98
     assert on_patches.areas.sum() == pytest.approx(on_faces.areas.sum())
     assert (on_patches.face_counts == np.bincount(on_patches.labels)).all()
 
