@@ -22,6 +22,9 @@ def bone(x=0.0):
     faces = [c[at:] + c[:at] for c, at in zip(corners, starts, strict=True)]
     mesh = bpy.data.meshes.new("Bone")
     mesh.from_pydata([vertex.co for vertex in bm.verts], [], sorted(faces))
+    bm.clear()
+    bm.from_mesh(mesh)
+    bm.to_mesh(mesh)  # or Blender 5.0 crashes: it loads the edges without flags
     bm.free()
     obj = bpy.data.objects.new("Bone", mesh)
     obj.location.x = x
