@@ -78,6 +78,11 @@ def _select(elements: Any, chosen: BoolArray, extend: bool) -> None:
     """Select vertices, edges or polygons of a mesh in Object Mode."""
     if extend:
         chosen = chosen | read_flags(elements, "select")
+    mesh = elements.id_data
+    flags = mesh.attributes.get(".select_edge")
+    if elements == mesh.edges and flags is not None:
+        # Blender 5.0 crashes if it writes to those that it loaded from a file.
+        mesh.attributes.remove(flags)
     write_flags(elements, "select", chosen)
 
 
