@@ -31,6 +31,8 @@ LEAST = 0.002
 # The lines that say what is inside: in an open mesh, others say otherwise.
 LINES = [Vector(axis) for axis in AXES]
 STEP = 1e-5
+# From a point to one beside it.
+BESIDE = np.array([7e-4, -5e-4, 3e-4])
 
 
 def mesh_files(folder):
@@ -71,6 +73,13 @@ class Ruler:
         ways = [way for line in LINES for way in (line, -line)]
         return 2 * sum(self.surfaces_left(point, way) > 0 for way in ways) > len(ways)
 
+    def is_outside(self, point):
+        """Return whether a point and one beside it are outside.
+
+        A ray through an edge may slip between its two faces.
+        """
+        return not (self.is_inside(point) or self.is_inside(point + BESIDE))
+
     def surfaces_left(self, point, way):
         """Return how many more surfaces a ray leaves than it enters."""
         place, count = Vector(point), 0
@@ -106,7 +115,7 @@ class Ruler:
             away = np.maximum(away, rough - 0.02)
         far = 0.0
         for row in np.argsort(-away):
-            if away[row] < LEAST or not self.is_inside(places[row]):
+            if away[row] < LEAST or self.is_outside(places[row]):
                 far = away[row]
                 break
         error = max(far, -heights.min(), LEAST)
