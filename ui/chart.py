@@ -13,6 +13,7 @@ from typing import Any
 import bpy
 
 from ..core.results.psi import good_numbers
+from ..operators.bridge.stored.versions import psi_by_k_of
 from .panels import WCD_PT_parts, paragraph
 from .sidebar import Sidebar, result_of
 
@@ -38,7 +39,7 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw a row for each number of parts, and say which are good and why."""
         result = result_of(context.active_object)
-        psi_by_k = {int(k): psi for k, psi in result["psi_by_k"].items()}
+        psi_by_k = psi_by_k_of(result)
         gains, best = gains_of(psi_by_k), result.get("best_k", result["k"])
         good = good_numbers(psi_by_k, best)
         for text in (offer_of(good), reason_for(best, gains), details_of(result)):

@@ -15,7 +15,7 @@ from typing import Any
 
 from ...core.results.psi import good_numbers
 from ..bridge.stored.notes import version
-from ..bridge.stored.versions import MEASURED_ON, PAST
+from ..bridge.stored.versions import MEASURED_ON, PAST, psi_by_k_of
 from .atomic import explaining, replacing
 from .request.options import Request
 from .request.outputs import STANDARD_STREAM
@@ -114,8 +114,7 @@ def _shown_record(record: Mapping[str, Any]) -> dict[str, Any]:
     """Return a record with good numbers of parts, without what undo and reruns need."""
     shown = {key: value for key, value in record.items() if key != PAST}
     if "parts" in shown:
-        psi_by_k = {int(k): psi for k, psi in shown["psi_by_k"].items()}
-        shown["good_k"] = good_numbers(psi_by_k, shown["best_k"])
+        shown["good_k"] = good_numbers(psi_by_k_of(shown), shown["best_k"])
         shown["parts"] = [
             {key: value for key, value in part.items() if key != MEASURED_ON}
             for part in shown["parts"]

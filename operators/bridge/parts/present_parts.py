@@ -14,7 +14,7 @@ from ..mesh.layers import flush_edits, layers_of
 from ..stored.identity import Identity
 from ..stored.names import HAND_LAYER, PART_LAYER
 from ..stored.record import noted_parameters, record_of
-from ..stored.versions import identities_of
+from ..stored.versions import identities_of, psi_by_k_of
 from .figures import figures_of
 
 
@@ -72,7 +72,7 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
         by_hand=faces_by_hand(obj, len(figures.found.labels)),
         parameters=noted_parameters(obj) or Parameters(),
         ranks=figures.ranks,
-        psi_by_k={int(k): psi for k, psi in record.get("psi_by_k", {}).items()},
+        psi_by_k=psi_by_k_of(record),
         best_k=record.get("best_k", len(figures.identities)),
         asleep=identities_of(record_of(obj)) if obj.mode == "EDIT" else None,
     )

@@ -71,6 +71,11 @@ def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
     )
 
 
+def psi_by_k_of(record: dict[str, Any]) -> dict[int, float]:
+    """Return psi by the number of parts; JSON makes these numbers texts."""
+    return {int(k): psi for k, psi in record.get("psi_by_k", {}).items()}
+
+
 def n_faces_of(record: dict[str, Any]) -> int:
     """Return how many faces, or points, had parts when they were noted."""
     return sum(part["faces"] for part in record.get("parts", ()))
