@@ -51,7 +51,7 @@ _MOST_RAYS = 120
 # Entries of the matrix that are looked at in one step, about 10 ms.
 _ENTRIES_PER_STEP = 2**19
 # A low-discrepancy sequence in two dimensions, as 16-bit fractions (Roberts 2018).
-_STRIDES = np.array([49472, 37345], dtype=np.uint16)
+_STRIDES = np.array([37345, 49472], dtype=np.uint16)
 
 
 def see_blocks(
@@ -99,7 +99,7 @@ class _Blocks:
     Attributes
     ----------
     facing : (N, N) bool
-        Which pairs face each other: entries above the diagonal.
+        Which pairs face each other: entries below the diagonal.
     answers : (N, N) int16
         1 for a visible pair, −1 for a hidden one, 0 if it is not known. Symmetric.
     """
@@ -118,15 +118,15 @@ class _Blocks:
         self.answers = np.zeros(self.facing.shape, dtype=np.int16)
 
     def _slices(self) -> Iterator[tuple[float, slice, slice]]:
-        """Yield some rows at a time, with the columns from the diagonal on.
+        """Yield some columns at a time, with the rows from the diagonal on.
 
-        The share of the entries that come before is yielded too.
+        The share of the entries that come before is yielded first.
         """
         n_samples, start = len(self.facing), 0
         while start < n_samples:
             stop = start + max(1, _ENTRIES_PER_STEP // n_samples)
             done = 1 - (1 - start / n_samples) ** 2
-            yield done, slice(start, min(stop, n_samples)), slice(start, n_samples)
+            yield done, slice(start, n_samples), slice(start, min(stop, n_samples))
             start = stop
 
     def find_facing(self) -> Steps[None]:
@@ -136,7 +136,7 @@ class _Blocks:
             yield Progress("Lines of sight", done)
             pairs = every[rows, None], every[None, columns]
             facing = faces_inside(self._marcher, self._samples, self._views, *pairs)
-            self.facing[rows, columns] = np.triu(facing, 1)
+            self.facing[rows, columns] = np.tril(facing, -1)
 
     def cast(
         self, share: float, of_budget: float, doubtful: Sequence[float] = ()
@@ -158,13 +158,14 @@ class _Blocks:
             yield Progress("Lines of sight", 0.3 * done)
             turns = _turns(rows, columns)
             wanted = self.facing[rows, columns] & (cast[rows, columns] == 0)
-            wanted &= turns < share * 2**16
+            wanted &= turns <= np.uint16(share * (2**16 - 1))
             if doubtful:
                 votes, n_votes = self._votes(cast, rows, columns)
                 least, most = (np.float32(mean) * n_votes for mean in doubtful)
                 wanted &= (least <= votes) & (votes <= most)
-            first, second = np.nonzero(wanted)
-            found.append((first + rows.start, second + columns.start, turns[wanted]))
+            second, first = np.divmod(np.flatnonzero(wanted), wanted.shape[1])
+            turns = turns[second, first]
+            found.append((first + columns.start, second + rows.start, turns))
         first, second, turns = map(np.concatenate, zip(*found, strict=True))
         n_most = max(int(of_budget * self._budget.lines_left), 1)
         if len(turns) > n_most:
@@ -184,11 +185,11 @@ class _Blocks:
             for done, rows, columns in self._slices():
                 yield Progress("Lines of sight", done)
                 votes, n_votes = self._votes(cast, rows, columns)
-                likely = np.where(votes > np.float32(_VISIBLE_FROM) * n_votes, 1, -1)
-                likely[n_votes == 0] = 0
-                answers = self.answers[rows, columns]
-                answers = np.where(answers == 0, likely, answers)
-                found[rows, columns] = answers * self.facing[rows, columns]
+                likely = (votes > np.float32(_VISIBLE_FROM) * n_votes).astype(np.int16)
+                likely += likely - (n_votes > 0)  # 1, −1, or 0 without a vote
+                likely *= self.facing[rows, columns]
+                likely *= 1 - cast[rows, columns]
+                found[rows, columns] = likely + np.tril(self.answers[rows, columns])
             before, n_known = n_known, int(np.count_nonzero(found))
             if n_known == n_facing:
                 return found + found.T
@@ -204,8 +205,8 @@ class _Blocks:
         Answers count by the weights of the two neighbors. `cast` is 1 where there is
         an answer.
         """
-        sides = self._weights[rows], self._weights[columns]
-        sums, counts = ((sides[1] @ (sides[0] @ m).T).T for m in (self.answers, cast))
+        one, other = self._weights[rows], self._weights[columns]
+        sums, counts = (one @ (other @ each).T for each in (self.answers, cast))
         return sums, counts
 
 
