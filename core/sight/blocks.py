@@ -26,15 +26,17 @@ from .ray_march import RayMarcher
 from .viewpoints import Viewpoints
 
 # Pairs of each sample that are cast in the first round, as far as they face each other.
-_FIRST_PAIRS = 28
+_FIRST_PAIRS = 14
 # The rounds that follow: the share of all pairs that may have been cast after each, and
 # the mean answer of a block, from −1 for hidden to 1 for visible, between which it is
 # doubtful.
 _ROUNDS = (
-    (0.30, -0.5, 0.6),
-    (0.50, -0.3, 0.4),
-    (0.75, -0.2, 0.3),
-    (1.00, -0.2, 0.2),
+    (0.10, -0.5, 0.6),
+    (0.20, -0.4, 0.5),
+    (0.35, -0.3, 0.4),
+    (0.50, -0.2, 0.3),
+    (0.70, -0.15, 0.2),
+    (1.00, -0.05, 0.12),
 )
 # A pair is visible if the mean answer of its block is above this in the end. Just above
 # 0, since narrow hidden stretches are overlooked more often than visible ones.
