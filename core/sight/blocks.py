@@ -49,7 +49,7 @@ _WEIGHT_OF_NORMALS = 0.05
 # distances of the three nearest. Sums of weights of blocks are exact in 16 bits.
 _WEIGHT, _HALF_WEIGHT_AT = 12, 0.6
 # Most rays a sample if the user sets no limit. Only shapes of many shells need more.
-_MOST_RAYS = 120
+_MOST_RAYS = 80
 # Entries of the matrix that are looked at in one step, about 10 ms.
 _ENTRIES_PER_STEP = 2**19
 # A low-discrepancy sequence in two dimensions, as 16-bit fractions (Roberts 2018).

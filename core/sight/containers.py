@@ -20,6 +20,8 @@ from .ray_march import RayMarcher
 _STRIDE = 0.5
 # Length at both ends of a segment that is not tested, in cells.
 _ENDS = 1.0
+# Points of a segment that are tested before those that ended are left out.
+_STRIDES_AT_ONCE = 8
 # Segments between two reports of progress.
 _SEGMENTS_PER_STEP = 2**16
 
@@ -96,15 +98,21 @@ def _run_through(
     inner = lengths[going] - 2 * _ENDS
     kinds = grid.kinds.ravel()
     steps = np.array([*grid.kinds.strides], dtype=np.int32)
+    enclosed, opened = np.zeros((2, len(going)), dtype=bool)
     for stride in range(int(np.ceil(inner.max(initial=0) / _STRIDE)) + 1):
-        x, y, z = (origins + np.minimum(stride * _STRIDE, inner) * units).astype(
-            np.int32
-        )
+        at = units * np.minimum(np.float32(stride * _STRIDE), inner)
+        at += origins
+        x, y, z = at.astype(np.int32)
         met = kinds[x * steps[0] + y * steps[1] + z]
-        through[going] |= met == ENCLOSED_OUTSIDE
-        # Drop segments at their first open cell; few are followed to their end.
-        through[going[met == OPEN]] = False
-        on = (met != OPEN) & (stride * _STRIDE < inner)
-        going, inner = going[on], inner[on]
+        enclosed |= met == ENCLOSED_OUTSIDE
+        opened |= met == OPEN
+        if stride % _STRIDES_AT_ONCE:
+            continue
+        # Drop segments that met an open cell: few are followed to their end.
+        ended = stride * _STRIDE >= inner
+        through[going[ended & enclosed & ~opened]] = True
+        on = ~(opened | ended)
+        going, inner, enclosed, opened = (a[on] for a in (going, inner, enclosed, opened))
         units, origins = units[:, on], origins[:, on]
+    through[going[enclosed & ~opened]] = True
     return through

@@ -212,13 +212,14 @@ class RayMarcher:
     def shells_around(
         self, points: NDArray[np.float64], directions: Sequence[NDArray[np.float64]]
     ) -> NDArray[np.int64]:
-        """Count the closed shells around points, by some rays from each.
+        """Count the closed shells around points, by two or three rays from each.
 
         Parameters
         ----------
         points : (M, 3) float
         directions : sequence of (M, 3) float
-            Unit vectors of the rays.
+            Unit vectors of three rays. The last ones are cast only where the counts of
+            the others differ.
 
         Returns
         -------
@@ -228,10 +229,17 @@ class RayMarcher:
         """
         if not self.closed.any():
             return np.zeros(len(points), dtype=np.int64)
-        far = np.full(len(points), 2 * self.diagonal)
         # Start with so many shells that no ray ends before its last crossing.
         bottom = np.full(len(points), _MOST_CROSSINGS + 1)
-        counts = [
-            bottom - self.march(points, each, far, bottom)[2] for each in directions
-        ]
-        return np.maximum(np.median(counts, axis=0), 0).astype(np.int64)
+        far = np.full(len(points), 2 * self.diagonal)
+
+        def count(rows: NDArray[np.int64], turn: int) -> NDArray[np.int64]:
+            rays = points[rows], directions[turn][rows], far[rows], bottom[rows]
+            return bottom[rows] - self.march(*rays)[2]
+
+        every = np.arange(len(points))
+        counts = np.array([count(every, turn) for turn in (0, 1)])
+        differ = np.flatnonzero(counts[0] != counts[1])
+        last = count(differ, 2)
+        counts[0, differ] = np.median([*counts[:, differ], last], axis=0)
+        return np.maximum(counts[0], 0)

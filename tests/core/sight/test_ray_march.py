@@ -13,7 +13,7 @@ def scene_of(mesh):
 
 def march(mesh, origin, reach=100.0):
     scene, origins = scene_of(mesh), np.array([origin], dtype=float)
-    around = scene.shells_around(origins, [np.array([[-0.36, 0.48, 0.8]])])
+    around = scene.shells_around(origins, [np.array([[-0.36, 0.48, 0.8]])] * 3)
     exits, distances, depths = scene.march(origins, X, np.array([reach]), around)
     return exits[0], distances[0], depths[0]
 
@@ -93,6 +93,16 @@ def test_surfaces_along_keep_track_of_which_ray_is_which():
 @pytest.mark.parametrize("direction", [(1, 0, 0), (-0.6, 0, 0.8), (0.36, 0.48, 0.8)])
 def test_shells_around_a_point_are_counted(point, count, direction):
     counts = scene_of(OVERLAP).shells_around(
-        np.array([point], dtype=float), [np.array([direction], dtype=float)]
+        np.array([point], dtype=float), [np.array([direction], dtype=float)] * 3
     )
     assert counts.tolist() == [count]
+
+
+@pytest.mark.parametrize("slips", [0, 1, 2])
+def test_one_ray_that_slips_through_does_not_count(slips):
+    points, directions = np.array([INSIDE] * 2), [np.repeat(-X, 2, axis=0)] * 3
+    directions[slips] = np.array([(0.0, 0.0, 1.0), (0.0, 1.0, 0.0)])
+    marcher = marcher_of(BOX)
+    top = marcher.normals[:, 2] > 0.5
+    marcher.closed[top] = False  # as if rays upwards slipped through
+    assert marcher.shells_around(points, directions).tolist() == [1, 1]
