@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import BoolArray, IntArray, read_floats, read_ints
+from .attributes import BoolArray, FloatArray, IntArray, read_floats, read_ints
 
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
@@ -33,14 +33,15 @@ def triangles_of(
     faces : (T,) int
     """
     mesh.calc_loop_triangles()
-    if (read_ints(mesh.polygons, "loop_total") == 3).all():  # quicker than to ask
-        corners = np.arange(3 * len(mesh.polygons), dtype=np.int32).reshape(-1, 3)
+    faces = read_ints(mesh.loop_triangle_polygons, "value")
+    if np.array_equal(faces, np.arange(len(mesh.polygons))):  # quicker than to ask
+        corners = np.arange(3 * len(faces), dtype=np.int32).reshape(-1, 3)
     else:
         corners = read_ints(mesh.loop_triangles, "loops", 3)
     arrays = (
-        read_floats(mesh.vertices, "co", 3).astype(np.float64),
+        _positions(mesh).astype(np.float64),
         corner_vertices(mesh).astype(np.int64)[corners],
-        read_ints(mesh.loop_triangle_polygons, "value").astype(np.int64),
+        faces.astype(np.int64),
     )
     for array in arrays:
         array.flags.writeable = False  # a shape need not copy it
@@ -54,7 +55,8 @@ def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
 
 def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
     """Return the face of each corner, (C,)."""
-    sizes = read_ints(mesh.polygons, "loop_total")
+    starts = read_ints(mesh.polygons, "loop_start")  # a third faster than sizes
+    sizes = np.diff(starts, append=len(mesh.loops))
     return np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
 
 
@@ -127,6 +129,14 @@ def vertices_by_label(
         members = np.zeros(n_vertices, dtype=bool)
         members[vertices[labels == label]] = True
         yield np.flatnonzero(members).astype(np.int32)
+
+
+def _positions(mesh: bpy.types.Mesh) -> FloatArray:
+    """Return the positions of the vertices, (V, 3)."""
+    places = mesh.attributes.get("position")
+    if places is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_floats(mesh.vertices, "co", 3)
+    return read_floats(places.data, "vector", 3)  # a hundred times faster
 
 
 def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:
