@@ -112,7 +112,9 @@ def _run_through(
         ended = stride * _STRIDE >= inner
         through[going[ended & enclosed & ~opened]] = True
         on = ~(opened | ended)
-        going, inner, enclosed, opened = (a[on] for a in (going, inner, enclosed, opened))
+        going, inner, enclosed, opened = (
+            a[on] for a in (going, inner, enclosed, opened)
+        )
         units, origins = units[:, on], origins[:, on]
     through[going[enclosed & ~opened]] = True
     return through
