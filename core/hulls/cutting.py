@@ -83,12 +83,8 @@ def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     sides_of: dict[Cell, tuple[Cell, Cell]] = {}
     while left and len(left) + len(done) < most:
         share = (len(left) + len(done)) / most
-        far: list[Cell] = []
-        for surely in (False, True):  # estimates are quick, bounds are not
-            for one in left if not far else []:
-                yield Progress("Cutting", share)
-                is_close = one.is_close if surely else one.error <= largest
-                far += [] if is_close else [one]
+        yield Progress("Cutting", share)
+        far = [one for one in left if one.known_error > largest]
         if not far:
             return done + left
         worst = max(far, key=lambda one: round(one.error, 6))

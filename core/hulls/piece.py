@@ -214,10 +214,12 @@ def join(one: Piece, other: Piece) -> Piece:
     one, other : Piece
     """
     both = np.concatenate([one.boundary, other.boundary])
-    boundary, counts = np.unique(both, axis=0, return_counts=True)
+    both = both[np.lexsort(both.T)]
+    same = (both[1:] == both[:-1]).all(axis=1)
+    twice = np.r_[False, same] | np.r_[same, False]
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
-        boundary[counts == 1],
+        both[~twice],
         one.volume + other.volume,
         one.solid,
         one.fit,
