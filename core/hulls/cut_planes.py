@@ -54,16 +54,17 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     """
     sketch = _sketch_of(cell)
     planes, added, gains = [], [], []
-    for direction in _directions(cell):
-        yield Progress("Cutting", 0.0)
-        ordered, *heights = sketch.along(direction)
-        low, high = heights[0][[0, -1]]
+    directions = _directions(cell)
+    for turn, direction in enumerate(directions):
+        yield Progress("Cutting", turn / len(directions))
+        ordered, heights, chords = sketch.along(direction)
+        low, high = heights[[0, -1]]
         offsets = np.linspace(low, high, _PLANES + 2)[1:-1]
-        first = ordered.added_volumes(*heights, offsets)
+        first = ordered.added_volumes(heights, chords, offsets)
         # Rounded, so that noise does not decide between equal planes. Flat faces may
         # lie between the evenly spaced planes, so their levels are tried too.
         best = offsets[np.round(first, _DIGITS).argmin()]
-        yield Progress("Cutting", 0.5)
+        yield Progress("Cutting", turn / len(directions))
         step = (high - low) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)
         near = levels[np.abs(levels - best) < step][:_MOST_LEVELS]
@@ -71,7 +72,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         others = np.sort(np.concatenate(steps))
         offsets = np.concatenate([offsets, others])
         planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
-        added += [first, ordered.added_volumes(*heights, others)]
+        added += [first, ordered.added_volumes(heights, chords, others)]
         # By how much planes shorten the longer side, as a square: ties end so.
         gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat

@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull

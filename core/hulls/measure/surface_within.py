@@ -12,13 +12,11 @@ from ..solid import Solid
 
 # The surface is within a shape that it is outside of by less: hulls are simplified.
 _WITHIN = THIN / 10
-# Heights below this are rounding.
+# Heights up to this are rounding.
 _ABOVE = 1e-9
 
 
-def surface_within(
-    solid: Solid, shape: CollisionShape
-) -> NDArray[np.float64]:
+def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
     """Return what of the triangles of a solid is within a shape.
 
     Round shapes count as polyhedra that are a little smaller.
@@ -52,7 +50,8 @@ def _below_all(
     found = [corners[:0]]
     while len(corners):
         heights = corners @ planes[:, :3].T + planes[:, 3]
-        near = np.flatnonzero(~(heights > _ABOVE).all(axis=1).any(axis=1))
+        lowest = heights.min(axis=1).max(axis=1)  # above one plane with all corners
+        near = np.flatnonzero(lowest <= _ABOVE)
         highest = heights[near].max(axis=1)
         plane, rows = highest.argmax(axis=1), np.arange(len(near))
         left = highest[rows, plane] > _ABOVE
@@ -68,7 +67,8 @@ def _below(
 
     `heights` (N, 3) are those of the corners: one or two of each are above.
     """
-    under = heights <= 0
+    under = heights <= _ABOVE
+    heights = np.where(under, np.minimum(heights, 0.0), heights)
     # The corner alone on its side comes first.
     lone = under.sum(axis=1) == 1
     first = np.where(lone[:, None], under, ~under).argmax(axis=1)
@@ -86,4 +86,3 @@ def _below(
             np.concatenate([others[:, 1:], ends], axis=1)[rest],
         ]
     )
-
