@@ -45,12 +45,31 @@ class Hull:
         -------
         (M,) float
         """
-        highest = np.empty(len(points))
+        return self._highest(points[:, None])
+
+    def heights_of_patches(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return a height that triangles reach everywhere: above one of the planes.
+
+        Parameters
+        ----------
+        corners : (M, 3, 3) float
+
+        Returns
+        -------
+        (M,) float
+        """
+        return self._highest(corners)
+
+    def _highest(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the largest height above a plane of the lowest corner, (M,)."""
+        m, c = corners.shape[:2]
+        highest = np.empty(m)
         normals, offsets = np.ascontiguousarray(self.planes[:, :3]), self.planes[:, 3:]
-        step = max(_HEIGHTS_AT_ONCE // len(normals), 1)
-        for start in range(0, len(points), step):
-            some = slice(start, start + step)
-            highest[some] = (normals @ points[some].T + offsets).max(axis=0)
+        step = max(_HEIGHTS_AT_ONCE // (c * len(normals)), 1)
+        for start in range(0, m, step):
+            some = corners[start : start + step].reshape(-1, 3)
+            heights = (normals @ some.T + offsets).reshape(len(normals), -1, c)
+            highest[start : start + step] = heights.min(axis=2).max(axis=0)
         return highest
 
     @cached_property

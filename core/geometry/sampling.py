@@ -210,3 +210,19 @@ def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
         for axis in range(3):
             codes |= ((cells[:, axis] >> bit) & 1) << (3 * bit + axis)
     return codes
+
+
+def single(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the points that occur once only, sorted.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+
+    Returns
+    -------
+    (M, 3) float
+    """
+    points = points[np.lexsort(points.T)]
+    same = (points[1:] == points[:-1]).all(axis=1)
+    return points[~(np.r_[False, same] | np.r_[same, False])]

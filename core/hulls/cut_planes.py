@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,32 +54,33 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     """
     sketch = _sketch_of(cell)
     planes, added, gains = [], [], []
-    for direction in _directions(cell):
-        yield Progress("Cutting", 0.0)
-        heights = sketch.points @ direction
-        offsets = np.linspace(heights.min(), heights.max(), _PLANES + 2)[1:-1]
-        planes += [np.r_[direction, -offset] for offset in offsets]
-        added += sketch.added_volumes(direction, offsets)
-        gains += _gains(heights, offsets)
-    # Rounded, so that noise does not decide between equal planes. Flat faces may lie
-    # between the evenly spaced planes, so their levels are tried too.
-    best = np.round(added, _DIGITS).reshape(-1, _PLANES).argmin(axis=1)
-    for row in best + _PLANES * np.arange(len(best)):
-        direction, offset = planes[row][:3], -planes[row][3]
-        heights = sketch.points @ direction
-        step = np.ptp(heights) / (_PLANES + 1)
+    directions = _directions(cell)
+    for turn, direction in enumerate(directions):
+        yield Progress("Cutting", turn / len(directions))
+        ordered, heights, chords = sketch.along(direction)
+        low, high = heights[[0, -1]]
+        offsets = np.linspace(low, high, _PLANES + 2)[1:-1]
+        first = ordered.added_volumes(heights, chords, offsets)
+        # Rounded, so that noise does not decide between equal planes. Flat faces may
+        # lie between the evenly spaced planes, so their levels are tried too.
+        best = offsets[np.round(first, _DIGITS).argmin()]
+        yield Progress("Cutting", turn / len(directions))
+        step = (high - low) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)
-        near = levels[np.abs(levels - offset) < step][:_MOST_LEVELS]
-        steps = [offset + _BETWEEN * step, near - _SKIM, near + _SKIM]
-        offsets = np.sort(np.concatenate(steps))
-        planes += [np.r_[direction, -offset] for offset in offsets]
-        added += sketch.added_volumes(direction, offsets)
-        gains += _gains(heights, offsets)
-        yield Progress("Cutting", 0.5)
+        near = levels[np.abs(levels - best) < step][:_MOST_LEVELS]
+        steps = [best + _BETWEEN * step, near - _SKIM, near + _SKIM]
+        others = np.sort(np.concatenate(steps))
+        offsets = np.concatenate([offsets, others])
+        planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
+        added += [first, ordered.added_volumes(heights, chords, others)]
+        # By how much planes shorten the longer side, as a square: ties end so.
+        gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
-        gains = [0.0] * len(added)
-    order = np.lexsort((-np.round(gains, _DIGITS), np.round(added, _DIGITS)))
-    return np.array(planes)[order[np.isfinite(added)[order]]]
+        gains = [np.zeros(len(each)) for each in gains]
+    volumes = np.concatenate(added)
+    shortened = np.round(np.concatenate(gains), _DIGITS)
+    order = np.lexsort((-shortened, np.round(volumes, _DIGITS)))
+    return np.concatenate(planes)[order[np.isfinite(volumes)[order]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,35 +106,51 @@ class _Sketch:
     reaches: NDArray[np.float64]
     scale: float
 
+    def along(
+        self, direction: NDArray[np.float64]
+    ) -> tuple[_Sketch, NDArray[np.float64], NDArray[np.float64]]:
+        """Return the sketch in order of the heights of points along a direction (3,).
+
+        The others are these heights, (N,), and those of the chords, (C,).
+        """
+        heights = self.points @ direction
+        order = np.argsort(heights)
+        ordered = replace(
+            self,
+            points=self.points[order],
+            rounded=self.rounded[order],
+            reaches=np.take(self.reaches, order, axis=1),
+        )
+        return ordered, heights[order], self.cell.chords @ direction
+
     def added_volumes(
-        self, direction: NDArray[np.float64], offsets: NDArray[np.float64]
-    ) -> list[float]:
+        self,
+        heights: NDArray[np.float64],
+        chords: NDArray[np.float64],
+        offsets: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
         """Return the volumes that the hulls of both sides of parallel planes add.
 
         Parameters
         ----------
-        direction : (3,) float
-            Unit normal of the planes.
+        heights, chords : (N,) and (C,) float
+            As `along` returns them with this sketch.
         offsets : (K,) float
-            Coordinate of each plane along `direction`, ascending.
+            Height of each plane, ascending.
 
         Returns
         -------
-        list of float, K
+        (K,) float
             `inf` for planes with too few points on one side.
         """
-        heights = self.points @ direction
-        order = np.argsort(heights)
-        ends = np.searchsorted(heights[order], offsets, side="right")
-        below, above = volumes_beside(
-            self.rounded[order], np.take(self.reaches, order, axis=1), ends
-        )
-        layer = np.searchsorted(offsets, self.cell.chords @ direction)
+        ends = np.searchsorted(heights, offsets, side="right")
+        below, above = volumes_beside(self.rounded, self.reaches, ends)
+        layer = np.searchsorted(offsets, chords)
         volumes = np.bincount(layer, self.cell.volumes, len(offsets) + 1)
         added = np.maximum(self.scale * below - np.cumsum(volumes)[:-1], 0)
         added += np.maximum(self.scale * above - np.cumsum(volumes[::-1])[-2::-1], 0)
-        added[np.minimum(ends, len(order) - ends) < _FEWEST_POINTS] = np.inf
-        return list(added)
+        added[np.minimum(ends, len(heights) - ends) < _FEWEST_POINTS] = np.inf
+        return added
 
 
 def _sketch_of(cell: Cell) -> _Sketch:
@@ -146,16 +163,6 @@ def _sketch_of(cell: Cell) -> _Sketch:
     widths = np.maximum(local.std(axis=0), _FLAT)
     rounded = local / widths
     return _Sketch(cell, points, rounded, reaches_of(rounded), float(np.prod(widths)))
-
-
-def _gains(heights: NDArray[np.float64], offsets: NDArray[np.float64]) -> list[float]:
-    """Return by how much planes shorten the longer side, as a square: ties end so.
-
-    Hulls of a convex piece add nothing, wherever it is cut; other shapes do.
-    """
-    low, high = heights.min(), heights.max()
-    longer = np.maximum(offsets - low, high - offsets)
-    return list((high - low) ** 2 - longer**2)
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -50,12 +50,14 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
     """
     fit, pieces, joints = cell.fit, list[Piece](), Joints()
     most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
-    far, tried = [cell], {cell}
+    far, tried, share = [cell], {cell}, 0.0
     while far:
-        room = most_cells - len(pieces)
-        pieces += yield from within(_cut_until_close(far, room), 0.0, 0.9)
-        joining = join_pieces(pieces, fit.max_error, most, joints)
-        pieces = yield from within(joining, 0.9, 1.0)
+        room, rest = most_cells - len(pieces), 1 - share
+        cutting, joining = share + 0.7 * rest, share + 0.8 * rest
+        pieces += yield from within(_cut_until_close(far, room), share, cutting)
+        joined = join_pieces(pieces, fit.max_error, most, joints)
+        pieces = yield from within(joined, cutting, joining)
+        share = joining
         cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
         far = [one for one in cells if not one.is_close] if len(pieces) < most else []
         tried.update(far)
@@ -81,8 +83,8 @@ def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     """
     left, done, largest = list(cells), list[Cell](), cells[0].fit.max_error
     sides_of: dict[Cell, tuple[Cell, Cell]] = {}
-    while left and len(left) + len(done) < most:
-        share = (len(left) + len(done)) / most
+    while left and (count := len(left) + len(done)) < most:
+        share = count / most
         far: list[Cell] = []
         for surely in (False, True):  # estimates are quick, bounds are not
             for one in left if not far else []:
@@ -93,7 +95,7 @@ def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
             return done + left
         worst = max(far, key=lambda one: round(one.error, 6))
         left.remove(worst)
-        sides = yield from within(best_cut(worst), share, share + 1 / most)
+        sides = yield from within(best_cut(worst), share, (count + 1) / most)
         if sides:
             sides_of[worst] = sides
         left += sides or ()

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from ..geometry.frames import cross
 from .convex_hull import directions
 
 # E unit vectors; extreme points are found along these and their opposites.
@@ -73,13 +74,13 @@ def volumes_beside(
         if start < end:
             layer = reaches[:, start:end]
             rows[k] = layer.argmax(axis=1), layer.argmin(axis=1)
-            farthest[k] = np.take_along_axis(layer, rows[k].T, axis=1).T
+            farthest[k] = layer[np.arange(len(layer)), rows[k]]
             farthest[k, 1] *= -1
             rows[k] += start
-    return (
-        _volumes_about(points[_running(rows[:-1], farthest[:-1])]),
-        _volumes_about(points[_running(rows[:0:-1], farthest[:0:-1])])[::-1],
-    )
+    before = _running(rows[:-1], farthest[:-1])
+    after = _running(rows[:0:-1], farthest[:0:-1])[::-1]
+    volumes = _volumes_about(points[np.concatenate([before, after])])
+    return volumes[: len(ends)], volumes[len(ends) :]
 
 
 def _running(
@@ -95,6 +96,6 @@ def _running(
 
 def _volumes_about(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the volumes enclosed by extreme points (K, 2 E, 3), (K,)."""
-    a, b, c = np.moveaxis(points[:, _TRIANGLES], 2, 0)
-    volumes: NDArray[np.float64] = np.einsum("kfd,kfd->k", np.cross(b, c), a) / 6
+    a, b, c = (points[:, corner] for corner in _TRIANGLES.T)
+    volumes: NDArray[np.float64] = np.einsum("kfd,kfd->k", cross(b, c), a) / 6
     return volumes

@@ -112,8 +112,9 @@ def _next_joint(
             yield Progress("Joining", 0.0)
             pair = alive[one], alive[other]
             joint = known[pair] = known.get(pair) or join(*pair)
-            error = joint.error
-        elif joint.error <= max_error and joint.is_close:
+            seems_close = _seems_within(joint, max_error)
+            error = joint.error if seems_close else joint.least_error
+        elif _seems_within(joint, max_error) and joint.is_close:
             return one, other, joint
         elif len(alive) <= max_pieces:
             continue
@@ -125,6 +126,11 @@ def _next_joint(
         cost = cost_of_joint(joint, error, solid_volume)
         heapq.heappush(queue, (cost, one, other, joint, sure))
     return None
+
+
+def _seems_within(joint: Piece, max_error: float) -> bool:
+    """Return whether the estimated error of a piece is at most `max_error`."""
+    return joint.least_error <= max_error and joint.error <= max_error
 
 
 def _touch(one: Piece, other: Piece) -> bool:

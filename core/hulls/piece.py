@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from ..geometry.frames import heights_above
 from ..geometry.primitives import CollisionShape, Hull
+from ..geometry.sampling import single
 from .convex_hull import THIN, convex_hull
 from .cross_section import cross_section, meeting_points
 from .fitting import Fit
@@ -213,11 +214,9 @@ def join(one: Piece, other: Piece) -> Piece:
     ----------
     one, other : Piece
     """
-    both = np.concatenate([one.boundary, other.boundary])
-    boundary, counts = np.unique(both, axis=0, return_counts=True)
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
-        boundary[counts == 1],
+        single(np.concatenate([one.boundary, other.boundary])),
         one.volume + other.volume,
         one.solid,
         one.fit,

@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
@@ -15,15 +14,12 @@ from ..geometry.sampling import sample_surface
 from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
-from .measure.fragments import edge_lengths, fragments_of, reach_of
 from .measure.inside import InsideTest
 
 # Number of samples on the surface.
 _SAMPLES = 6000
 # Number of chords that tell about how much of a shape is inside.
 _SOME_CHORDS = 20_000
-# Longest edge of the small triangles that errors are measured with.
-_GRAIN = 0.04
 # A volume below this is noise, such as that of a two-sided sheet, and counts as 0; the
 # longest side is 2.
 _NO_VOLUME = 1e-6
@@ -68,40 +64,9 @@ class Solid:
         return float(self.volumes.sum())
 
     @cached_property
-    def _fragments(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Small triangles, and the triangle that each is a piece of."""
-        return fragments_of(self.corners, _GRAIN)
-
-    @property
-    def fragments(self) -> NDArray[np.float64]:
-        """(F, 3, 3) corners of the triangles, cut into small ones."""
-        return self._fragments[0]
-
-    @property
-    def origins(self) -> NDArray[np.int64]:
-        """(F,) row of the triangle that each fragment is a piece of."""
-        return self._fragments[1]
-
-    @cached_property
-    def tree(self) -> cKDTree:
-        """Finds the fragment with the nearest center."""
-        return cKDTree(self.centers)
-
-    @cached_property
-    def centers(self) -> NDArray[np.float64]:
-        """(F, 3) centers of the fragments."""
-        centers: NDArray[np.float64] = self.fragments.mean(axis=1)
-        return centers
-
-    @cached_property
-    def grain(self) -> float:
-        """Longest edge of a fragment."""
-        return float(edge_lengths(self.fragments).max())
-
-    @cached_property
-    def reach(self) -> float:
-        """Largest distance of a fragment's corner from its center."""
-        return float(reach_of(self.fragments)[1].max())
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest coordinates of each triangle, (T, 3) each."""
+        return self.corners.min(axis=1), self.corners.max(axis=1)
 
     @cached_property
     def inside(self) -> InsideTest:

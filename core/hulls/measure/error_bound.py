@@ -33,9 +33,6 @@ _MOST_PATCHES = 60_000
 _FEW_PATCHES, _HALVINGS = 400, 2
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
-# Share by which distances may be too large where a rough one may do.
-_ROUGHLY = 0.5
-
 # Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
 _Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -78,12 +75,12 @@ def error_bound(
         A point of the shape that is far from the surface, if there is one.
     """
     enough, bound = largest * _TOLD_APART, uncovered(shape, hull)
-    near, targets = surface_within(solid, shape)
+    targets = surface_within(solid, shape)
     least = max(enough, bound)
-    depths = _largest(near, lambda c, _: _depths(shape, c), least, limit)[0]
+    depths = _largest(targets, lambda c, _: _depths(shape, c), least, limit)[0]
     bound, place = max(bound, depths), np.zeros((0, 3))
     if bound <= limit:
-        surface = (near, targets) if len(near) else (solid.fragments,) * 2
+        surface = targets if len(targets) else solid.corners
         away, place = _farthest(solid, shape, surface, max(enough, bound), limit)
         bound = max(bound, away)
     if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
@@ -94,15 +91,16 @@ def error_bound(
 def _farthest(
     solid: Solid,
     shape: CollisionShape,
-    surface: _Bounds,
+    surface: NDArray[np.float64],
     enough: float,
     limit: float,
 ) -> tuple[float, NDArray[np.float64]]:
     """Return a bound of the distance of points on a shape from a surface, and where.
 
-    The surface is as `surface_within` returns it.
+    The surface is triangles (T, 3, 3).
     """
-    small, targets = surface
+    small, origins = fragments_of(surface, _COARSE)
+    targets = surface[origins]
     # Building a balanced tree takes twice as long, and questions are few.
     tree = cKDTree(small.mean(axis=1), balanced_tree=False, compact_nodes=False)
     outline, gap = fine_outline(shape)
@@ -151,7 +149,9 @@ def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> _Bounds:
     """Return bounds of the depth of patches below the surface of a shape."""
     centers, radii = reach_of(corners)
     depths = -shape.heights(centers)
-    return depths, depths + radii
+    if shape.kind != "HULL":
+        return depths, depths + radii
+    return depths, -shape.hull.heights_of_patches(corners)
 
 
 def _distances(
@@ -164,29 +164,19 @@ def _distances(
     """Return bounds of the distance of patches outside a solid from targets."""
     centers, radii = reach_of(corners)
     places = np.concatenate([corners, centers[:, None]], axis=1)
-    rows = tree.query(centers, eps=_ROUGHLY)[1]
+    rows = tree.query(centers, min(_NEIGHBORS, len(targets)))[1]
     # The distance from a triangle is convex: it is largest at a corner of the patch.
-    away = _from_each(places, targets[rows][:, None])[..., 0]
-    high = np.minimum(away.max(axis=1), away[:, 3] + radii)
+    away = _from_each(places, targets[rows.reshape(len(centers), -1)])
+    nearest = away[:, 3].min(axis=1)
+    high = np.minimum(away.max(axis=1).min(axis=1), nearest + radii)
     low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
-    if len(hard) == 0:
-        return low, high
     inside, unbroken = solid.inside.holds_patches(
         corners[hard], centers[hard], radii[hard]
     )
+    low[hard[~inside]] = nearest[hard[~inside]]
     # A way from inside to a point outside crosses the surface, if through no hole.
     whole = hard[inside & unbroken]
-    most = float(radii.max()) + solid.reach
-    free = solid.tree.query(centers[whole], distance_upper_bound=most)[0]
-    free = np.maximum(np.minimum(free, most) - solid.reach, 0.0)
-    high[whole] = np.minimum(high[whole], np.maximum(radii[whole] - free, 0.0))
-    left = high[hard] > level
-    hard, inside = hard[left], inside[left]
-    if len(hard):
-        near = tree.query(centers[hard], min(_NEIGHBORS, len(targets)))[1]
-        away = _from_each(places[hard], targets[near.reshape(len(hard), -1)])
-        high[hard] = np.minimum(high[hard], away.max(axis=1).min(axis=1))
-        low[hard] = np.where(inside, 0.0, away[:, 3].min(axis=1))
+    high[whole] = np.minimum(high[whole], radii[whole])
     return low, high
 
 

@@ -83,11 +83,15 @@ def halved(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     (2 T, 3, 3) float
         One half of each triangle, then the other halves.
     """
-    rows = np.arange(len(corners))
+    n = len(corners)
     first = edge_lengths(corners).argmax(axis=1)
-    a, b, c = (corners[rows, (first + step) % 3] for step in range(3))
-    middle = (a + b) / 2
-    return np.concatenate([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
+    # Each triangle from the start of its longest edge on.
+    turn = (first[:, None] + np.arange(3)) % 3
+    turned = corners[np.arange(n)[:, None], turn]
+    middle = (turned[:, 0] + turned[:, 1]) / 2
+    halves = np.concatenate([turned, turned])
+    halves[:n, 1] = halves[n:, 0] = middle
+    return halves
 
 
 def distances_to(

@@ -7,19 +7,19 @@ from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
 from ..convex_hull import THIN
+from ..outline import outline_of
 from ..solid import Solid
-from .fragments import edge_lengths, halved, reach_of
 
 # The surface is within a shape that it is outside of by less: hulls are simplified.
 _WITHIN = THIN / 10
-# Number of times that the part of an edge is halved in which it leaves a shape.
-_BISECTIONS = 5
+# Heights up to this are rounding.
+_ABOVE = 1e-9
 
 
-def surface_within(
-    solid: Solid, shape: CollisionShape
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return triangles of the surface of a solid that are within a shape.
+def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
+    """Return what of the triangles of a solid is within a shape.
+
+    Round shapes count as polyhedra that are a little smaller.
 
     Parameters
     ----------
@@ -29,89 +29,60 @@ def surface_within(
 
     Returns
     -------
-    small : (N, 3, 3) float
-    targets : (N, 3, 3) float
-        Triangles within the shape that contain the small ones: the whole triangles of
-        the mesh, where possible.
+    (N, 3, 3) float
     """
-    low, high = shape.bounds
-    slack = _WITHIN + solid.grain
-    rows = np.arange(len(solid.centers))
+    (low, high), (lowest, highest) = shape.bounds, solid.bounds
+    rows = np.arange(len(solid.corners))
     for axis in range(3):  # at once takes ten times as long
-        along = solid.centers[rows, axis]
-        kept = (low[axis] - slack <= along) & (along <= high[axis] + slack)
+        kept = (lowest[rows, axis] <= high[axis]) & (highest[rows, axis] >= low[axis])
         rows = rows[kept]
-    if len(rows) == 0:
-        return np.zeros((0, 3, 3)), np.zeros((0, 3, 3))
-    near = solid.fragments[rows]
-    heights = shape.heights(solid.centers[rows])
-    whole = heights <= _WITHIN - solid.reach
-    unsure = np.flatnonzero(~whole & (heights <= _WITHIN + solid.reach))
-    whole[unsure] = _held(shape, near[unsure]).all(axis=1)
-    cut = unsure[~whole[unsure]]
-    # Large triangles that are within stand for their pieces.
-    numbers, places = np.unique(solid.origins[rows][whole], return_inverse=True)
-    large = solid.corners[numbers]
-    places = places.reshape(-1)
-    of_large = np.all(_held(shape, large), axis=1).take(places)
-    targets = np.where(of_large[:, None, None], large[places], near[whole])
-    pieces = _pieces_within(shape, near[cut], solid.grain / 4)
-    return np.concatenate([near[whole], pieces]), np.concatenate([targets, pieces])
+    planes = outline_of(shape).planes - [0, 0, 0, _WITHIN]
+    return _below_all(planes, solid.corners[rows])
 
 
-def _pieces_within(
-    shape: CollisionShape, corners: NDArray[np.float64], longest: float
+def _below_all(
+    planes: NDArray[np.float64], corners: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return what of triangles is within a shape, in pieces (N, 3, 3).
+    """Return what of triangles is below planes (P, 4), in triangles (N, 3, 3).
 
-    Pieces with edges no longer than `longest` are clipped, if a corner is within.
+    Each round cuts every triangle by the plane that it is farthest above.
     """
     found = [corners[:0]]
     while len(corners):
-        held = _held(shape, corners)
-        done = edge_lengths(corners).max(axis=1) <= longest
-        whole = held.all(axis=1)
-        clipped = held.any(axis=1) & done & ~whole
-        found += [corners[whole], _clipped(shape, corners[clipped], held[clipped])]
-        centers, radii = reach_of(corners)
-        beyond = shape.heights(centers) > _WITHIN + radii
-        corners = halved(corners[~done & ~whole & ~beyond])
+        heights = corners @ planes[:, :3].T + planes[:, 3]
+        lowest = heights.min(axis=1).max(axis=1)  # above one plane with all corners
+        near = np.flatnonzero(lowest <= _ABOVE)
+        highest = heights[near].max(axis=1)
+        plane, rows = highest.argmax(axis=1), np.arange(len(near))
+        left = highest[rows, plane] > _ABOVE
+        found.append(corners[near[~left]])
+        corners = _below(corners[near[left]], heights[near[left], :, plane[left]])
     return np.concatenate(found)
 
 
-def _clipped(
-    shape: CollisionShape, corners: NDArray[np.float64], held: NDArray[np.bool_]
+def _below(
+    corners: NDArray[np.float64], heights: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return triangles within a shape, of triangles with one or two corners there.
+    """Return what of triangles is below a plane each, in triangles (M, 3, 3).
 
-    They have the corners within, and points where edges leave the shape.
+    `heights` (N, 3) are those of the corners: one or two of each are above.
     """
+    under = heights <= _ABOVE
+    heights = np.where(under, np.minimum(heights, 0.0), heights)
     # The corner alone on its side comes first.
-    lone = held.sum(axis=1) == 1
-    first = np.where(lone[:, None], held, ~held).argmax(axis=1)
+    lone = under.sum(axis=1) == 1
+    first = np.where(lone[:, None], under, ~under).argmax(axis=1)
     turn = (first[:, None] + np.arange(3)) % 3
-    corners = np.take_along_axis(corners, turn[..., None], axis=1)
-    alone, others = corners[:, :1].repeat(2, axis=1), corners[:, 1:]
-    within = np.where(lone[:, None, None], alone, others)
-    way = np.where(lone[:, None, None], others, alone) - within
-    share, step = np.zeros(way.shape[:2]), 1.0
-    for _ in range(_BISECTIONS):
-        step /= 2
-        places = within + (share + step)[..., None] * way
-        share += step * (shape.heights(places.reshape(-1, 3)).reshape(-1, 2) <= _WITHIN)
-    ends = within + share[..., None] * way
+    rows = np.arange(len(corners))[:, None]
+    corners, heights = corners[rows, turn], heights[rows, turn]
+    alone, others = corners[:, :1], corners[:, 1:]
+    share = heights[:, :1] / (heights[:, :1] - heights[:, 1:])
+    ends = alone + share[..., None] * (others - alone)
     rest = ~lone
     return np.concatenate(
         [
-            np.concatenate([within[:, :1], ends], axis=1)[lone],
+            np.concatenate([alone, ends], axis=1)[lone],
             np.concatenate([others, ends[:, :1]], axis=1)[rest],
             np.concatenate([others[:, 1:], ends], axis=1)[rest],
         ]
     )
-
-
-def _held(shape: CollisionShape, corners: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which corners of triangles are within a shape, (N, 3)."""
-    heights = shape.heights(corners.reshape(-1, 3)).reshape(-1, 3)
-    held: NDArray[np.bool_] = heights <= _WITHIN
-    return held

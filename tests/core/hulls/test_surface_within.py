@@ -11,8 +11,10 @@ from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run
 
 
-@pytest.mark.parametrize(("kind", "area"), [("HULL", 0.5), ("SPHERE", np.pi / 4)])
-def test_triangles_at_the_rim_are_clipped(kind, area):
+@pytest.mark.parametrize(
+    ("kind", "area", "off"), [("HULL", 0.5, 0.01), ("SPHERE", np.pi / 4, 0.03)]
+)
+def test_triangles_at_the_rim_are_clipped(kind, area, off):
     mesh = shapes.sheet(2)  # 1 x 1
     solid = run(solid_of(mesh, 0, 1.0))
     middle = solid.vertices.mean(axis=0)
@@ -20,8 +22,8 @@ def test_triangles_at_the_rim_are_clipped(kind, area):
     corners = middle + np.concatenate([np.eye(3), -np.eye(3)]) / 2
     fit, _ = fit_for(mesh, HullParameters(shape=kind), 1.0)
     shape = fit.shape(convex_hull(corners, THIN))
-    small, targets = surface_within(solid, shape)
-    a, b, c = np.moveaxis(small, 1, 0)
+    found = surface_within(solid, shape)
+    a, b, c = np.moveaxis(found, 1, 0)
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    assert areas.sum() == pytest.approx(area, rel=0.01)
-    assert shape.heights(targets.reshape(-1, 3)).max() <= THIN
+    assert areas.sum() == pytest.approx(area, rel=off)
+    assert shape.heights(found.reshape(-1, 3)).max() <= THIN
