@@ -19,7 +19,7 @@ from ..partition import Partitioner, count_parts
 from .pieces import connected_parts, merge_to
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
-_CREASED = 0.3
+_CREASED = 0.25
 _CORNER = 0.15
 # Pieces with a smaller share of the area are not counted.
 _LEAST_PIECE = 0.01
