@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
+from ...sight.pair_visibility import sums_by_label
 from ..partition import Partitioner, count_parts
 from .pieces import connected_parts, merge_to
 
@@ -23,8 +24,10 @@ _CREASED = 0.25
 _CORNER = 0.15
 # Pieces with a smaller share of the area are not counted.
 _LEAST_PIECE = 0.01
-# What a seam as long as the square root of the area costs, in psi. With 0.12 some low
-# steps are missed; with 0.25 animals are cut at creases alone.
+# Pieces whose mean normal is longer than this are flat.
+_FLAT = 0.85
+# What a seam as long as the square root of the area costs, in psi. From 0.17 to 0.25
+# little changes. With 0.15 low steps are missed, with 0.3 birds lose their wings.
 _SEAM_PRICE = 0.2
 
 
@@ -49,9 +52,12 @@ class CreaseParts:
             return self._between_corners(graph)
         if not self._partitioner.visibility.is_guessed:
             return np.zeros(graph.n_polygons, dtype=np.int64)
-        return connected_parts(
-            graph, crease_pieces(graph), _LEAST_PIECE * graph.areas.sum()
-        )
+        least = _LEAST_PIECE * graph.areas.sum()
+        pieces = connected_parts(graph, crease_pieces(graph), least)
+        if count_parts(pieces) == 1:
+            return pieces
+        areas = np.where(_flat(graph, pieces)[pieces], 0.0, graph.areas)
+        return connected_parts(replace(graph, areas=areas), pieces, least / 2)
 
     def _between_corners(self, graph: FaceGraph) -> NDArray[np.int64]:
         """Return the pieces (P,) of a flat shape between its concave corners.
@@ -141,6 +147,14 @@ class CreaseParts:
 def _price(graph: FaceGraph) -> float:
     """Return what a seam costs per length, in psi."""
     return float(_SEAM_PRICE / np.sqrt(graph.areas.sum()))
+
+
+def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return whether each piece is as flat as the floor of a pocket or a dish, (K,)."""
+    areas = graph.areas_of(pieces)
+    normals = sums_by_label(graph.areas[:, None] * graph.normals, pieces, len(areas))
+    flat: NDArray[np.bool_] = np.linalg.norm(normals, axis=1) > _FLAT * areas
+    return flat
 
 
 def crease_pieces(graph: FaceGraph, creased: float = _CREASED) -> NDArray[np.int64]:

@@ -46,6 +46,15 @@ def test_a_low_step_is_a_seam(parts):
     assert set(found.labels[heights < 2]).isdisjoint(found.labels[heights > 2.05])
 
 
+def test_the_floor_of_a_pocket_is_no_part():
+    """A crease runs around it, as around the foot of a pin."""
+    corners, steps = range(6), np.linspace(0, 5, 31)
+    radii = np.interp(steps, corners, [0, 3, 3, 2, 2, 0])
+    mesh = shapes.turned(radii, np.interp(steps, corners, [0, 0, 2, 2, 1, 1]), 48)
+    assert len(set(crease_pieces(graph_of(mesh)))) == 2
+    assert decompose(mesh, Parameters()).n_parts == 1
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 def test_parts_follow_loops_that_cost_little_psi(seed):
     """Psi alone would cut a slice off a pin."""
