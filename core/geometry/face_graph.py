@@ -134,7 +134,8 @@ class FaceGraph:
         lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
         crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
         one, other = pairs[crossing].T
-        lengths = np.maximum(lengths[crossing], np.finfo(float).tiny)
+        lengths = lengths[crossing]
+        lengths = np.where(lengths == 0, np.finfo(float).tiny, lengths)
         borders = sparse.coo_array(
             (
                 np.concatenate([lengths, lengths]),

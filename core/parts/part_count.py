@@ -85,8 +85,8 @@ class PartCountSearch:
            no such k, take the smallest that is good enough.
         3. If the parts of a symmetric shape are not symmetric, prefer the first such k
            with symmetric parts, up to 1.5k. Its psi may be a little lower.
-        4. Prefer the pieces between closed loops of creases if their seams cost so much
-           less that it outweighs what they lack in psi.
+        4. Cut along closed loops of creases, too, or only there, if what that saves in
+           seams outweighs what is lost in psi.
 
         Returns
         -------
@@ -108,10 +108,10 @@ class PartCountSearch:
             others = [] if like else even
             best_k = (yield from within(steps, 0.9, 1.0)) or min(others, default=best_k)
         seams = yield from self._seams.cut(tried[best_k].parts)
-        if self._creases.beat(seams.parts, self._low, self._high):
-            seams = Seams(self._creases.parts)
-            best_k = count_parts(seams.parts)
-            psi_by_k |= {best_k: self._partitioner.psi_seen(seams.parts)}
+        parts = self._creases.better(seams.parts, self._low, self._high)
+        if parts is not seams.parts:
+            seams, best_k = Seams(parts), count_parts(parts)
+            psi_by_k |= {best_k: self._partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), best_k)
 
     def given(self, n_parts: int) -> Steps[Search]:
@@ -136,11 +136,10 @@ class PartCountSearch:
         made = min(n_parts, max(tried))
         seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 1.0)
         psi_by_k = self._psi_of_sight({made: tried[made]}) | searched.psi_by_k
-        if searched.seams.parts is self._creases.parts:
-            parts = self._creases.resized(made)
-            if self._creases.gain(seams.parts, parts) >= 0:
-                seams = Seams(parts)
-                psi_by_k |= {made: self._partitioner.psi_seen(parts)}
+        parts = self._creases.better(seams.parts, made, made)
+        if parts is not seams.parts:
+            seams = Seams(parts)
+            psi_by_k |= {made: self._partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:

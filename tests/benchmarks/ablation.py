@@ -83,7 +83,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (part_memo, "embed", lambda *given: of_equal_length(embed(*given)))
     ],
     "no likely pairs": [(visibility, "likely_pairs", by_sight_alone)],
-    "no loops of creases": [(CreaseParts, "beat", lambda *_: False)],
+    "no loops of creases": [(CreaseParts, "better", lambda _, rivals, *__: rivals)],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],

@@ -105,6 +105,8 @@ def merge_to(
     borders: NDArray[Any],
     alpha: float,
     price: float = 0.0,
+    *,
+    further: bool = False,
 ) -> NDArray[np.int64]:
     """Merge pairs of parts, always the pair that loses least psi, down to `n_parts`.
 
@@ -120,13 +122,14 @@ def merge_to(
     alpha : float
         Weight of hidden pairs in psi (eq. 5).
     price : float, optional
-        What borders cost, in psi. Above 0, pairs are merged further while that saves
-        more than psi loses.
+        What borders cost per length, in psi.
+    further : bool, optional
+        Merge further while borders save more than psi loses.
 
     Returns
     -------
     merged : (K,) int
-        New part of each old part, in 0…K' − 1. K' is `n_parts` if there is no price.
+        New part of each old part, in 0…K' − 1; K' is `n_parts` unless merged further.
     """
     merged = np.arange(len(borders))
     borders = borders.astype(np.float64)
@@ -134,7 +137,7 @@ def merge_to(
         gains = tally.merge_gains(alpha) + price * borders
         if borders.any():
             gains[borders == 0] = -np.inf
-        if len(borders) <= n_parts and (price == 0 or gains.max() <= 0):
+        if len(borders) <= n_parts and (not further or gains.max() <= 0):
             break
         kept, gone = sorted(divmod(int(gains.argmax()), len(gains)))
         tally = tally.merged(kept, gone)

@@ -5,10 +5,7 @@ import pytest
 import shapes
 from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.merging.creases import (
-    crease_pieces,
-    seam_cost,
-)
+from weak_convex_decomposition.core.parts.merging.creases import crease_pieces
 
 
 def pins():
@@ -33,12 +30,29 @@ def test_shells_that_touch_are_one_piece():
     assert len(set(crease_pieces(linked))) == 1
 
 
-def test_seams_in_creases_cost_less():
-    graph = graph_of(pins())
-    pieces = crease_pieces(graph)
-    halves = (graph.centers[:, 0] > 0).astype(int)
-    assert 0 < 20 * seam_cost(graph, pieces) < seam_cost(graph, halves)
-    assert seam_cost(graph, pieces) == pytest.approx(seam_cost(graph, 2 - pieces))
+def low_step():
+    """Return a short shaft with one low step."""
+    heights = [0, *np.linspace(0, 2, 6), *np.linspace(2, 3, 6), 3]
+    return shapes.turned([0, *[1.0] * 6, *[0.85] * 6, 0], heights, 48)
+
+
+@pytest.mark.parametrize("parts", [0, 2])
+def test_a_low_step_is_a_seam(parts):
+    """By psi alone, such a shaft would stay whole."""
+    mesh = low_step()
+    found = decompose(mesh, Parameters(parts=parts))
+    heights = graph_of(mesh).centers[:, 2]
+    assert found.n_parts == 2
+    assert set(found.labels[heights < 2]).isdisjoint(found.labels[heights > 2.05])
+
+
+def test_the_floor_of_a_pocket_is_no_part():
+    """A crease runs around it, as around the foot of a pin."""
+    corners, steps = range(6), np.linspace(0, 5, 31)
+    radii = np.interp(steps, corners, [0, 3, 3, 2, 2, 0])
+    mesh = shapes.turned(radii, np.interp(steps, corners, [0, 0, 2, 2, 1, 1]), 48)
+    assert len(set(crease_pieces(graph_of(mesh)))) == 2
+    assert decompose(mesh, Parameters()).n_parts == 1
 
 
 @pytest.mark.parametrize("seed", [0, 1])
