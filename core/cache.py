@@ -7,7 +7,7 @@ from dataclasses import fields
 from typing import NoReturn
 
 from .geometry.mesh import TriangleMesh
-from .geometry.shape import Shape, content_key
+from .geometry.shape import Shape, are_equal
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
 from .parts.find import find_parts
@@ -59,7 +59,7 @@ class ShapeCache:
 
     def forget(self) -> None:
         """Empty the cache, and so free its memory."""
-        self._shape: tuple[Hashable, PreparedShape] | None = None
+        self._shape: tuple[Shape, PreparedShape] | None = None
         self._seen: tuple[Hashable, PartMemo] | None = None
 
     def prepare(self, shape: Shape) -> Steps[PreparedShape]:
@@ -80,10 +80,9 @@ class ShapeCache:
         DecompositionError
             If the surface has no area, or is too large or too small to compute with.
         """
-        key = content_key(shape)
-        if self._shape is None or self._shape[0] != key:
+        if self._shape is None or not are_equal(self._shape[0], shape):
             prepared = yield from prepare_in_steps(shape, self._make_caster)
-            self._shape, self._seen = (key, prepared), None
+            self._shape, self._seen = (shape, prepared), None
         return self._shape[1]
 
     def see(self, shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:
@@ -117,12 +116,16 @@ class ShapeCache:
             self._seen = key, memo
         return memo
 
-    def find_ahead(self, parameters: Parameters) -> Steps[Decomposition] | None:
+    def find_ahead(
+        self, parameters: Parameters, rough: bool = False
+    ) -> Steps[Decomposition] | None:
         """Return steps that find parts which may be asked for later.
 
         Parameters
         ----------
         parameters : Parameters
+        rough : bool, optional
+            Whether a first look at the parts of a large mesh is enough.
 
         Returns
         -------
@@ -132,7 +135,7 @@ class ShapeCache:
         """
         if self._seen is None or self._seen[0] != _sight_key(parameters):
             return None
-        return find_parts(self._seen[1], parameters)
+        return find_parts(self._seen[1], parameters, rough)
 
 
 def _sight_key(parameters: Parameters) -> Hashable:

@@ -143,6 +143,25 @@ class PartCountSearch:
                 psi_by_k |= {made: self._partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 
+    def guessed(self, n_parts: int) -> Steps[Search]:
+        """Return about the parts that `given` returns, without a search.
+
+        Parameters
+        ----------
+        n_parts : int
+            There are fewer parts if the shape cannot be split into so many.
+
+        Returns
+        -------
+        Steps of Search
+            It has the psi of no other number, and 0 as `best_k`.
+        """
+        found = yield from within(self._candidate(n_parts), 0.0, 0.5)
+        made = count_parts(found.parts)
+        tried = yield from within(self._evened({made: found}), 0.5, 0.6)
+        seams = yield from within(self._seams.cut(tried[made].parts), 0.6, 1.0)
+        return Search(seams, self._psi_of_sight(tried), 0)
+
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
         """Return each k whose gain lacks at most a share, or the sampling error."""
         most, by = max(psi_by_k.values()), self._partitioner
