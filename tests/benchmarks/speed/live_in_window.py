@@ -16,11 +16,11 @@ from pathlib import Path
 
 import bpy
 from weak_convex_decomposition.operators import recut
-from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.bridge.stored.record import (
     is_rough,
     noted_parameters,
 )
+from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.running import ahead, refine
 from weak_convex_decomposition.operators.running import modal as running
 from weak_convex_decomposition.operators.settings import parameters_from

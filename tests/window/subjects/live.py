@@ -74,12 +74,14 @@ def steps(hands):
     yield lambda: running.current is None
     assert n_parts() == 6
     assert leftovers() == []
-    yield from large(hands, settings)
+    yield from large(hands)
 
 
-def large(hands, settings):
+def large(hands):
     """Change settings of a mesh of 126,000 faces, and undo while seams are rough."""
+    settings = bpy.context.scene.wcd  # undo has replaced the former ones
     settings.live = False
+    bpy.context.preferences.system.viewport_aa = "OFF"  # drawn once is enough
     hands.suzanne(4)
     with hands.context():
         bpy.ops.wcd.decompose(parts=4, samples=600)
@@ -91,7 +93,6 @@ def large(hands, settings):
         assert is_rough(bpy.context.active_object)
         with hands.context():
             assert not bpy.ops.wcd.explode.poll()
-            bpy.ops.ed.undo_push(message=f"{k} parts")
     yield lambda: not is_rough(bpy.context.active_object)
     hands.picture("seams")
     seven = labels()
