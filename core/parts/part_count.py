@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
+import numpy as np
+
 from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
@@ -82,7 +84,8 @@ class PartCountSearch:
         2. Take the smallest such k whose psi nearly reaches that of the k clusters of
            k-means. Clusters need not be connected, but parts are. If clusters have a
            higher psi, some of their pieces should be parts of their own. If there is
-           no such k, take the smallest that is good enough.
+           no such k, take the smallest that is good enough. More parts must not lower
+           psi.
         3. If the parts of a symmetric shape are not symmetric, prefer the first such k
            with symmetric parts, up to 1.5k. Its psi may be a little lower.
         4. Prefer the pieces between closed loops of creases if their seams cost so much
@@ -177,16 +180,21 @@ class PartCountSearch:
     def _first_like_clusters(
         self, tried: dict[int, Candidate], numbers: Sequence[int]
     ) -> Steps[int]:
-        """Return the first k whose parts nearly reach the psi of k clusters, or 0."""
-        by = self._partitioner
+        """Return the first k whose parts nearly reach the psi of k clusters, or 0.
+
+        More parts with a lower psi than the first number has are slivers.
+        """
+        by, least = self._partitioner, -np.inf
         for number, k in enumerate(numbers):
             # Usually the first k is taken: each reports half of the remaining progress.
             steps = self._seams.cut(tried[k].parts)
             cut = yield from within(steps, 1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1))
             if not by.by_psi:
                 return k
-            if by.psi_of_clusters(k) - by.psi(cut.parts) <= by.negligible:
+            psi = by.psi(cut.parts)
+            if psi >= least and by.psi_of_clusters(k) - psi <= by.negligible:
                 return k
+            least = psi if number == 0 else least
         return 0
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
