@@ -97,6 +97,22 @@ def test_rays_are_cast_once_for_a_shape_and_its_parts(monkeypatch):
     assert not sees_anew(cache, mesh)
 
 
+def test_what_few_samples_see_of_a_part_is_kept():
+    cache = ShapeCache(WatchedCaster)
+    prepared = run(cache.prepare(shapes.comb()))
+    members = prepared.nodes < prepared.n_nodes // 2
+
+    def see(chosen):
+        return run(cache.see(prepared.part(chosen), BEFORE))
+
+    kept = see(members)
+    assert see(members) is kept
+    assert see(~members) is not kept
+    run(cache.prepare(shapes.l_shape()))
+    run(cache.prepare(shapes.comb()))
+    assert see(members) is not kept
+
+
 def test_every_parameter_is_tried():
     assert list(CHANGES) == [field.name for field in fields(Parameters)]
 
