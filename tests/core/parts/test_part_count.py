@@ -96,7 +96,7 @@ def test_psi_of_sight_decides_on_the_number():
 def test_more_parts_that_lower_psi_are_slivers():
     class Falling(KnownParts):
         def psi(self, parts):
-            return min(PSI[parts.max()], 1.493 - 0.001 * parts.max())
+            return min(PSI[parts.max()], 1.492 - 0.001 * parts.max())
 
         psi_seen = psi
 
