@@ -60,9 +60,7 @@ def decompose_in_steps(
     ----------
     Asafi, Goren and Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight".
     """
-    ready, seen, done = _LEVELS if parameters.levels > 1 else _ONE_LEVEL
-    if finds_details(parameters):
-        ready, seen, done = _DETAILS
+    ready, seen, done = _ends_of_stages(parameters)
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)
     prepared = prepared if members is None else prepared.part(members)
@@ -76,6 +74,13 @@ def decompose_in_steps(
     steps = split_further(prepared, memo, found, parameters, cache.see)
     found = yield from within(steps, done, 1.0)
     return found if members is not None else (yield from _with_pairs(memo, found))
+
+
+def _ends_of_stages(parameters: Parameters) -> tuple[float, float, float]:
+    """Return the progress at the end of surface, lines of sight and parts."""
+    if finds_details(parameters):
+        return _DETAILS
+    return _LEVELS if parameters.levels > 1 else _ONE_LEVEL
 
 
 def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
-import numpy as np
-
 from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
@@ -152,7 +150,6 @@ class PartCountSearch:
         Parameters
         ----------
         n_parts : int
-            There are fewer parts if the shape cannot be split into so many.
 
         Returns
         -------
@@ -160,9 +157,10 @@ class PartCountSearch:
             It has the psi of no other number, and 0 as `best_k`.
         """
         found = yield from within(self._candidate(n_parts), 0.0, 0.5)
-        made = count_parts(found.parts)
-        tried = yield from within(self._evened({made: found}), 0.5, 0.6)
-        seams = yield from within(self._seams.cut(tried[made].parts), 0.6, 1.0)
+        alone = {count_parts(found.parts): found}
+        tried = yield from within(self._evened(alone), 0.5, 0.6)
+        (found,) = tried.values()
+        seams = yield from within(self._seams.cut(found.parts), 0.6, 1.0)
         return Search(seams, self._psi_of_sight(tried), 0)
 
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
@@ -180,11 +178,8 @@ class PartCountSearch:
     def _first_like_clusters(
         self, tried: dict[int, Candidate], numbers: Sequence[int]
     ) -> Steps[int]:
-        """Return the first k whose parts nearly reach the psi of k clusters, or 0.
-
-        More parts with a lower psi than the first number has are slivers.
-        """
-        by, least = self._partitioner, -np.inf
+        """Return the first k whose parts nearly reach the psi of k clusters, or 0."""
+        by, least = self._partitioner, 0.0
         for number, k in enumerate(numbers):
             # Usually the first k is taken: each reports half of the remaining progress.
             steps = self._seams.cut(tried[k].parts)
@@ -194,7 +189,7 @@ class PartCountSearch:
             psi = by.psi(cut.parts)
             if psi >= least and by.psi_of_clusters(k) - psi <= by.negligible:
                 return k
-            least = psi if number == 0 else least
+            least = psi if number == 0 else least  # more parts below that are slivers
         return 0
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
