@@ -82,8 +82,7 @@ class PartCountSearch:
         2. Take the smallest such k whose psi nearly reaches that of the k clusters of
            k-means. Clusters need not be connected, but parts are. If clusters have a
            higher psi, some of their pieces should be parts of their own. If there is
-           no such k, take the smallest that is good enough. More parts must not lower
-           psi.
+           no such k, take the smallest that is good enough. More parts must raise psi.
         3. If the parts of a symmetric shape are not symmetric, prefer the first such k
            with symmetric parts, up to 1.5k. Its psi may be a little lower.
         4. Prefer the pieces between closed loops of creases if their seams cost so much
@@ -187,9 +186,10 @@ class PartCountSearch:
             if not by.by_psi:
                 return k
             psi = by.psi(cut.parts)
-            if psi >= least and by.psi_of_clusters(k) - psi <= by.negligible:
+            if psi > least and by.psi_of_clusters(k) - psi <= by.negligible:
                 return k
-            least = psi if number == 0 else least  # more parts below that are slivers
+            # More parts that do not raise psi are slivers.
+            least = least if number else psi + by.negligible
         return 0
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
