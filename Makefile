@@ -61,13 +61,14 @@ figures: venv ## Draw the figures of docs/ anew: FIGURES="hands ranks" for some 
 
 pictures: ## Take the pictures of the window anew: BLENDER=command
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
-	@for subject in looks sight explode pick; do \
+	@for subject in looks sight explode pick cut; do \
 	  $(BLENDER) --python tests/window/drive.py -- $$subject; done
 	@cp build/window/looks-before.png docs/pictures/sidebar.png
 	@cp build/window/looks-after.png docs/pictures/parts.png
 	@cp build/window/sight-clicked.png docs/pictures/sight.png
 	@cp build/window/explode-exploded.png docs/pictures/exploded.png
 	@cp build/window/pick-pie.png docs/pictures/picking.png
+	@cp build/window/cut-solid.png docs/pictures/cut_faces.png
 
 lint: development ## Check the format, the rules of the code and the types
 	$(VENV)/bin/ruff format --check .

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import fields
+from hashlib import blake2b
 from typing import NoReturn
 
 from .geometry.mesh import TriangleMesh
-from .geometry.shape import Shape, content_key
+from .geometry.shape import Shape, are_equal
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
 from .parts.find import find_parts
@@ -16,7 +17,12 @@ from .results.parts import Decomposition
 from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_march import MakeCaster
 from .sight.visibility import see_in_steps
+from .steps.memo import Memo
 from .steps.progress import Steps
+
+# The visibility of so many parts is kept, if they took at most so many samples.
+_DETAILS = 24
+_FEW_SAMPLES = 500
 
 
 def no_rays(_: TriangleMesh) -> NoReturn:
@@ -59,8 +65,9 @@ class ShapeCache:
 
     def forget(self) -> None:
         """Empty the cache, and so free its memory."""
-        self._shape: tuple[Hashable, PreparedShape] | None = None
+        self._shape: tuple[Shape, PreparedShape] | None = None
         self._seen: tuple[Hashable, PartMemo] | None = None
+        self._details: Memo[Hashable, PartMemo] = Memo(_DETAILS)
 
     def prepare(self, shape: Shape) -> Steps[PreparedShape]:
         """Return the shape made ready for rays; the cached one if its content is equal.
@@ -80,16 +87,17 @@ class ShapeCache:
         DecompositionError
             If the surface has no area, or is too large or too small to compute with.
         """
-        key = content_key(shape)
-        if self._shape is None or self._shape[0] != key:
+        if self._shape is None or not are_equal(self._shape[0], shape):
             prepared = yield from prepare_in_steps(shape, self._make_caster)
-            self._shape, self._seen = (key, prepared), None
+            self.forget()
+            self._shape = shape, prepared
         return self._shape[1]
 
     def see(self, shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:
         """Return the visibility of a prepared shape, with the parts found from it.
 
-        Only the visibility of the latest whole shape is kept, not that of its parts.
+        The visibility of the latest whole shape is kept, and of parts of it that took
+        few samples.
 
         Parameters
         ----------
@@ -112,17 +120,31 @@ class ShapeCache:
         latest = self._shape is not None and self._shape[1] is shape
         if latest and self._seen is not None and self._seen[0] == key:
             return self._seen[1]
-        memo = PartMemo((yield from see_in_steps(shape, parameters)))
+        if not latest and parameters.samples <= _FEW_SAMPLES and self._has(shape):
+            part = blake2b(shape.targets.polygons.data).digest()
+            seen = self._details.recall_steps(
+                (part, key), lambda: _seen(shape, parameters)
+            )
+            return (yield from seen)
+        memo = yield from _seen(shape, parameters)
         if latest:
             self._seen = key, memo
         return memo
 
-    def find_ahead(self, parameters: Parameters) -> Steps[Decomposition] | None:
+    def _has(self, part: PreparedShape) -> bool:
+        """Return whether a shape is a part of the latest one."""
+        return self._shape is not None and self._shape[1].marcher is part.marcher
+
+    def find_ahead(
+        self, parameters: Parameters, rough: bool = False
+    ) -> Steps[Decomposition] | None:
         """Return steps that find parts which may be asked for later.
 
         Parameters
         ----------
         parameters : Parameters
+        rough : bool, optional
+            Whether a first look at the parts of a large mesh is enough.
 
         Returns
         -------
@@ -132,7 +154,12 @@ class ShapeCache:
         """
         if self._seen is None or self._seen[0] != _sight_key(parameters):
             return None
-        return find_parts(self._seen[1], parameters)
+        return find_parts(self._seen[1], parameters, rough)
+
+
+def _seen(shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:
+    """Return the visibility of a shape."""
+    return PartMemo((yield from see_in_steps(shape, parameters)))
 
 
 def _sight_key(parameters: Parameters) -> Hashable:

@@ -30,6 +30,7 @@ def decompose_in_steps(
     parameters: Parameters,
     cache: ShapeCache,
     members: NDArray[np.bool_] | None = None,
+    rough: bool = False,
 ) -> Steps[Decomposition]:
     """Split a shape, or some of its faces, into weakly convex parts.
 
@@ -39,9 +40,11 @@ def decompose_in_steps(
         In any units. It may be open, in several pieces or not manifold.
     parameters : Parameters
     cache : ShapeCache
-        Keeps the prepared shape and its lines of sight for the next call.
+        Keeps the shape and its lines of sight for the next call.
     members : (P,) bool, optional
         Polygons, or points, to split; all if left out. Rays cross the whole shape.
+    rough : bool, optional
+        Whether a first look at the parts of a large mesh is enough.
 
     Returns
     -------
@@ -57,9 +60,7 @@ def decompose_in_steps(
     ----------
     Asafi, Goren and Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight".
     """
-    ready, seen, done = _LEVELS if parameters.levels > 1 else _ONE_LEVEL
-    if finds_details(parameters):
-        ready, seen, done = _DETAILS
+    ready, seen, done = _ends_of_stages(parameters)
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)
     prepared = prepared if members is None else prepared.part(members)
@@ -68,11 +69,18 @@ def decompose_in_steps(
     # Sections 3 and 5: place samples, and fill the matrix of lines of sight (eq. 3).
     memo = yield from within(cache.see(prepared, parameters), ready, seen)
     # Section 4: embed, cluster, choose k by psi (eq. 5), cut the seams (eq. 4).
-    found = yield from within(find_parts(memo, parameters), seen, done)
+    found = yield from within(find_parts(memo, parameters, rough), seen, done)
     # Section 5: split parts further, each seen by samples of its own.
     steps = split_further(prepared, memo, found, parameters, cache.see)
     found = yield from within(steps, done, 1.0)
     return found if members is not None else (yield from _with_pairs(memo, found))
+
+
+def _ends_of_stages(parameters: Parameters) -> tuple[float, float, float]:
+    """Return the progress at the end of surface, lines of sight and parts."""
+    if finds_details(parameters):
+        return _DETAILS
+    return _LEVELS if parameters.levels > 1 else _ONE_LEVEL
 
 
 def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:

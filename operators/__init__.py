@@ -48,7 +48,7 @@ def register() -> None:
     from .bridge.parts import rows
     from .bridge.work import in_step, session_cache
     from .headless import command_line
-    from .running import ahead
+    from .running import ahead, refine
     from .viewport import picking, show_sight, shown_parts
 
     for cls in _classes():
@@ -57,6 +57,7 @@ def register() -> None:
     command_line.register()
     session_cache.register()
     ahead.register()
+    refine.register()
     in_step.register()
     show_sight.register()
     shown_parts.register()
@@ -72,7 +73,7 @@ def unregister() -> None:
     from .bridge.parts import rows
     from .bridge.work import in_step, libraries, session_cache
     from .headless import command_line
-    from .running import ahead, modal
+    from .running import ahead, modal, refine
     from .viewport import picking, show_sight, shown_parts
 
     recut.stop()
@@ -83,6 +84,7 @@ def unregister() -> None:
     shown_parts.unregister()
     show_sight.unregister()
     in_step.unregister()
+    refine.unregister()
     ahead.unregister()
     session_cache.unregister()
     command_line.unregister()

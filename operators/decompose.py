@@ -35,6 +35,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         "Split the selected meshes into weakly convex parts, and show the parts on them"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
+    _needs_seams = False
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
@@ -81,6 +82,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         " objects"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    _needs_seams = False
 
     @classmethod
     def description(

@@ -18,7 +18,7 @@ from .bridge.refusals import recut_refusal
 from .bridge.stored.record import noted_mesh, noted_parameters
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
-from .running import ahead, modal
+from .running import ahead, modal, refine
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
@@ -31,7 +31,17 @@ _RETRY = 0.02
 
 
 class _Recut(Replacement):
-    """Half an operator that replaces parts by those of the settings in the sidebar."""
+    """Half an operator that replaces parts by those of the settings in the sidebar.
+
+    In a window, parts of a large mesh are a first look, which `refine` replaces.
+    """
+
+    _needs_seams = _rough = False
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin to find the parts while the window stays alive."""
+        self._rough = context.active_object.mode == "OBJECT"
+        return super().invoke(context, event)
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
@@ -46,14 +56,16 @@ class _Recut(Replacement):
     ) -> Steps[Edited]:
         seen, keep_edits = _seen(context, obj), context.scene.wcd.keep_edits
         wanted = self._wanted(context)
-        steps = decompose_unlocked(obj, wanted, keep_edits, seen)
-        return ahead.after_rest(wanted, steps)
+        steps = decompose_unlocked(obj, wanted, keep_edits, seen, self._rough)
+        return ahead.after_rest((wanted, self._rough), steps)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
         said = super()._commit(obj, value)
         # Other numbers are looked for in the same way only if all faces are free.
         if value.by_hand is None and value.faces is None:
             ahead.start(value.parameters, value.decomposition.n_parts)
+        if value.decomposition.rough:
+            refine.start()
         return said
 
 

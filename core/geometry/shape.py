@@ -1,14 +1,10 @@
-"""The two kinds of shape, mesh and point cloud, and a key of their content."""
+"""The two kinds of shape, mesh and point cloud, and whether two shapes are equal."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from dataclasses import fields
-from hashlib import blake2b
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .mesh import TriangleMesh
 from .point_cloud import PointCloud
@@ -16,22 +12,21 @@ from .point_cloud import PointCloud
 Shape = TriangleMesh | PointCloud
 
 
-def content_key(shape: Shape) -> Hashable:
-    """Return a key that two shapes share only if all their arrays are equal.
+def are_equal(shape: Shape, other: Shape) -> bool:
+    """Return whether two shapes are of one kind, and all their arrays are equal.
 
     Parameters
     ----------
-    shape : TriangleMesh or PointCloud
+    shape, other : TriangleMesh or PointCloud
 
     Returns
     -------
-    hashable
-        The shape's class and a digest of its arrays.
+    bool
     """
-    digest = blake2b()
-    for field in fields(shape):
-        array: NDArray[Any] | None = getattr(shape, field.name)
-        digest.update(f"{field.name} {None if array is None else array.shape}".encode())
-        if array is not None:
-            digest.update(np.ascontiguousarray(array).data)
-    return type(shape), digest.digest()
+    if type(shape) is not type(other):
+        return False
+    pairs = ((getattr(shape, f.name), getattr(other, f.name)) for f in fields(shape))
+    return all(
+        one is two or (one is not None and two is not None and np.array_equal(one, two))
+        for one, two in pairs
+    )

@@ -9,7 +9,7 @@ from ..results.parts import Decomposition
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on
-from .fine_seams import labels_of_nodes
+from .fine_seams import labels_of_nodes, seams_take_long
 from .merging.bends import with_bends_kept
 from .part_count import PartCountSearch
 from .part_memo import PartMemo
@@ -18,7 +18,9 @@ from .seams import SeamCutter
 
 
 @on_one_thread
-def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
+def find_parts(
+    memo: PartMemo, parameters: Parameters, rough: bool = False
+) -> Steps[Decomposition]:
     """Find the parts of a shape from its visibility.
 
     Parameters
@@ -28,6 +30,8 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
     parameters : Parameters
         They may differ from the parameters of the visibility in settings that do not
         affect samples or lines of sight.
+    rough : bool, optional
+        Whether seams may run along the patches of a large mesh, to be quick.
 
     Returns
     -------
@@ -45,11 +49,18 @@ def find_parts(memo: PartMemo, parameters: Parameters) -> Steps[Decomposition]:
         cut.searches,
     )
     wanted = search.given(parameters.parts) if parameters.parts else search.best()
+    searched = (parameters.min_parts, parameters.max_parts) in cut.searches
+    rough = rough and memo.patches is not None
+    guesses = rough and parameters.parts > 0 and not searched
     if parameters.bends == "KEEP":
         wanted = with_bends_kept(search, partitioner, parameters)
+    elif guesses:
+        wanted = search.guessed(parameters.parts)
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
-    nodes = yield from within(labels_of_nodes(memo, parameters, seams), 0.9, 1.0)
+    rough = rough and (guesses or seams_take_long(memo, parameters, seams))
+    finer = labels_of_nodes(memo, parameters, seams, rough)
+    nodes = yield from within(finer, 0.9, 1.0)
     labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
     notes = notes_on(found, visibility, memo.transfer, parameters)
-    return replace(found, notes=found.notes + notes)
+    return replace(found, notes=found.notes + notes, rough=rough)

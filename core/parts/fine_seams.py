@@ -28,7 +28,7 @@ _SWEEPS = 2
 
 
 def labels_of_nodes(
-    memo: PartMemo, parameters: Parameters, seams: Seams
+    memo: PartMemo, parameters: Parameters, seams: Seams, rough: bool = False
 ) -> Steps[NDArray[np.int64]]:
     """Return the part of each node of a shape's graph.
 
@@ -40,6 +40,8 @@ def labels_of_nodes(
         That the parts were found with.
     seams : Seams
         Parts of the patches, or of the nodes if there are no patches.
+    rough : bool, optional
+        Whether seams stay between patches.
 
     Returns
     -------
@@ -48,13 +50,24 @@ def labels_of_nodes(
     patches, parts = memo.patches, seams.parts
     if patches is None:
         return parts
-    if count_parts(parts) == 1:
+    if rough or count_parts(parts) == 1:
         return parts[patches.of_nodes]
-    key = seams.smoothness, digest(parts)
     steps = memo.cut(parameters).fine.recall_steps(
-        key, lambda: _cut(memo, patches, parameters, seams)
+        _key(seams), lambda: _cut(memo, patches, parameters, seams)
     )
     return (yield from steps).astype(np.int64)
+
+
+def seams_take_long(memo: PartMemo, parameters: Parameters, seams: Seams) -> bool:
+    """Return whether `labels_of_nodes` has seams to cut; it takes the same values."""
+    known = memo.cut(parameters).fine
+    several = memo.patches is not None and count_parts(seams.parts) > 1
+    return several and _key(seams) not in known
+
+
+def _key(seams: Seams) -> tuple[float, bytes]:
+    """Return the key under which the parts of the nodes are kept."""
+    return seams.smoothness, digest(seams.parts)
 
 
 def _cut(

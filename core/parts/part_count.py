@@ -82,7 +82,7 @@ class PartCountSearch:
         2. Take the smallest such k whose psi nearly reaches that of the k clusters of
            k-means. Clusters need not be connected, but parts are. If clusters have a
            higher psi, some of their pieces should be parts of their own. If there is
-           no such k, take the smallest that is good enough.
+           no such k, take the smallest that is good enough. More parts must raise psi.
         3. If the parts of a symmetric shape are not symmetric, prefer the first such k
            with symmetric parts, up to 1.5k. Its psi may be a little lower.
         4. Cut along closed loops of creases, too, or only there, if what that saves in
@@ -142,6 +142,25 @@ class PartCountSearch:
             psi_by_k |= {made: self._partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 
+    def guessed(self, n_parts: int) -> Steps[Search]:
+        """Return about the parts that `given` returns, without a search.
+
+        Parameters
+        ----------
+        n_parts : int
+
+        Returns
+        -------
+        Steps of Search
+            It has the psi of no other number, and 0 as `best_k`.
+        """
+        found = yield from within(self._candidate(n_parts), 0.0, 0.5)
+        alone = {count_parts(found.parts): found}
+        tried = yield from within(self._evened(alone), 0.5, 0.6)
+        (found,) = tried.values()
+        seams = yield from within(self._seams.cut(found.parts), 0.6, 1.0)
+        return Search(seams, self._psi_of_sight(tried), 0)
+
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
         """Return each k whose gain lacks at most a share, or the sampling error."""
         most, by = max(psi_by_k.values()), self._partitioner
@@ -158,15 +177,18 @@ class PartCountSearch:
         self, tried: dict[int, Candidate], numbers: Sequence[int]
     ) -> Steps[int]:
         """Return the first k whose parts nearly reach the psi of k clusters, or 0."""
-        by = self._partitioner
+        by, least = self._partitioner, 0.0
         for number, k in enumerate(numbers):
             # Usually the first k is taken: each reports half of the remaining progress.
             steps = self._seams.cut(tried[k].parts)
             cut = yield from within(steps, 1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1))
             if not by.by_psi:
                 return k
-            if by.psi_of_clusters(k) - by.psi(cut.parts) <= by.negligible:
+            psi = by.psi(cut.parts)
+            if psi > least and by.psi_of_clusters(k) - psi <= by.negligible:
                 return k
+            # More parts that do not raise psi are slivers.
+            least = least if number else psi + by.negligible
         return 0
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:

@@ -44,6 +44,9 @@ class Decomposition:
         pairs. Those that do not face each other through the inside count in neither.
     pairs : tuple of (int, int)
         Parts that are mirror images across X: the one at larger X, then the other.
+    rough : bool
+        Whether these parts are a first look at those of a large mesh: their seams run
+        along patches of faces, and details are not looked for.
 
     Examples
     --------
@@ -67,6 +70,7 @@ class Decomposition:
     pairs_cast: int = 0
     pairs_inferred: int = 0
     pairs: tuple[tuple[int, int], ...] = ()
+    rough: bool = False
 
     @property
     def n_parts(self) -> int:

@@ -25,6 +25,10 @@ class Memo(Generic[Key, Value]):
         self._most = most
         self._values: dict[Key, Value] = {}
 
+    def __contains__(self, key: Key) -> bool:
+        """Return whether the value of a key is stored."""
+        return key in self._values
+
     def recall(self, key: Key, make: Callable[[], Value]) -> Value:
         """Return the value of a key, and compute it if it is not stored.
 

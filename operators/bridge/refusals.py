@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
 from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME, WHOLE_MESH
-from .stored.record import has_record, noted_parameters, record_of
+from .stored.record import has_record, is_rough, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
 
 # An object of Blender, or None if there is no active one.
@@ -111,6 +111,13 @@ def decomposed_refusal(obj: Candidate) -> str | None:
     if reason is None and not has_parts(obj):
         return f"{obj.name} has no parts; press Decompose first"
     return reason
+
+
+def rough_refusal(obj: Candidate) -> str | None:
+    """Return why parts cannot be used yet: `refine` will replace them."""
+    if is_rough(obj):
+        return f"The seams of {obj.name} are still being cut; wait a moment"
+    return None
 
 
 def picture_refusal(obj: Candidate) -> str | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import atexit
 from dataclasses import replace
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 import bpy
 
@@ -16,9 +16,11 @@ from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
 from ..bridge.work.session_cache import session_cache
-from . import modal
+from . import modal, refine
 
 T = TypeVar("T")
+# Parameters, and whether a first look at a large mesh's parts is enough.
+Wanted: TypeAlias = tuple[Parameters, bool]
 
 # What is added to the number of parts. One more or less comes first.
 _NEAR = (1, -1, 2, -2)
@@ -27,8 +29,8 @@ _SLICE = 0.02
 _PAUSE = 0.02
 
 # What is still to be found, and what is being found.
-_wanted: list[Parameters] = []
-_current: tuple[Parameters, Job[object]] | None = None
+_wanted: list[Wanted] = []
+_current: tuple[Wanted, Job[object]] | None = None
 
 
 def start(parameters: Parameters, n_parts: int) -> None:
@@ -38,8 +40,9 @@ def start(parameters: Parameters, n_parts: int) -> None:
     take a tenth of a second at once.
     """
     near = [n_parts + step for step in _NEAR]
+    near = [n for n in near if 1 < n <= parameters.max_parts]
     _wanted[:] = [
-        replace(parameters, parts=n) for n in near if 1 < n <= parameters.max_parts
+        (replace(parameters, parts=n), rough) for rough in (True, False) for n in near
     ]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
@@ -48,10 +51,10 @@ def start(parameters: Parameters, n_parts: int) -> None:
 def go_on() -> float | None:
     """Work for a slice; return when to go on, None if all is found."""
     global _current
-    if modal.busy():
+    if modal.busy() or refine.working():
         return _PAUSE
     if _current is None:
-        steps = session_cache().find_ahead(_wanted[0]) if _wanted else None
+        steps = session_cache().find_ahead(*_wanted[0]) if _wanted else None
         if steps is None:
             stop()
             return None
@@ -61,13 +64,13 @@ def go_on() -> float | None:
     return _PAUSE
 
 
-def after_rest(parameters: Parameters, steps: Steps[T]) -> Steps[T]:
+def after_rest(wanted: Wanted, steps: Steps[T]) -> Steps[T]:
     """Run `steps`, which find parts too; if these are half found, find the rest first.
 
     Parameters
     ----------
-    parameters : Parameters
-        That `steps` find parts with.
+    wanted : Parameters, bool
+        That `steps` find parts with, and whether a first look is enough.
     steps : Steps
 
     Returns
@@ -75,7 +78,7 @@ def after_rest(parameters: Parameters, steps: Steps[T]) -> Steps[T]:
     Steps
         With the value of `steps`.
     """
-    while _current is not None and _current[0] == parameters and not _current[1].done:
+    while _current is not None and _current[0] == wanted and not _current[1].done:
         _current[1].advance(0.0)
         yield _current[1].progress
     return (yield from steps)

@@ -104,7 +104,7 @@ def stop() -> None:
     run.job.cancel()
     bpy.context.window_manager.event_timer_remove(run.timer)
     show_status(run.workspace, None)
-    _redraw_sidebars()
+    redraw_sidebars()
 
 
 def _show(run: Running) -> None:
@@ -116,7 +116,7 @@ def _show(run: Running) -> None:
     progress = run.job.progress
     text = f"{run.title}: {progress.stage}, {progress.fraction:.0%}. Esc cancels"
     show_status(run.workspace, text)
-    _redraw_sidebars()
+    redraw_sidebars()
 
 
 def show_status(name: str, text: str | None) -> None:
@@ -129,7 +129,7 @@ def show_status(name: str, text: str | None) -> None:
         workspace.status_text_set(text)
 
 
-def _redraw_sidebars() -> None:
+def redraw_sidebars() -> None:
     """Let Blender draw the sidebars of all 3D viewports."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ...core.errors import DecompositionError
+from ..bridge.refusals import rough_refusal
 
 if TYPE_CHECKING:  # at run time the whole operator has this base, and its halves not
     from bpy.types import Operator
@@ -19,7 +20,10 @@ class OnObjects(Operator):
     """Half an operator on the selected objects.
 
     The other half has `_refusal(obj)`, which returns why an object cannot be worked on.
+    It waits for the seams of parts, unless it replaces or removes the parts.
     """
+
+    _needs_seams = True
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -32,7 +36,10 @@ class OnObjects(Operator):
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
         """Return why nothing can be done now, None if something can."""
-        reason: str | None = cls._refusal(cls._chosen(context)[0])
+        chosen = cls._chosen(context)
+        reason: str | None = cls._refusal(chosen[0])
+        if reason is None and cls._needs_seams:
+            reason = next(filter(None, map(rough_refusal, chosen)), None)
         return reason
 
     @classmethod

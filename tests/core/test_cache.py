@@ -1,6 +1,7 @@
 """What is kept for another cut, and what tells whether it is still right."""
 
 from dataclasses import fields, replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from computed import decompose
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
-from weak_convex_decomposition.core.geometry.shape import content_key
+from weak_convex_decomposition.core.geometry.shape import are_equal
 from weak_convex_decomposition.core.parameters.parameter import info_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
@@ -96,6 +97,22 @@ def test_rays_are_cast_once_for_a_shape_and_its_parts(monkeypatch):
     assert not sees_anew(cache, mesh)
 
 
+def test_what_few_samples_see_of_a_part_is_kept():
+    cache = ShapeCache(WatchedCaster)
+    prepared = run(cache.prepare(shapes.comb()))
+    members = prepared.nodes < prepared.n_nodes // 2
+
+    def see(chosen):
+        return run(cache.see(prepared.part(chosen), BEFORE))
+
+    kept = see(members)
+    assert see(members) is kept
+    assert see(~members) is not kept
+    run(cache.prepare(shapes.l_shape()))
+    run(cache.prepare(shapes.comb()))
+    assert see(members) is not kept
+
+
 def test_every_parameter_is_tried():
     assert list(CHANGES) == [field.name for field in fields(Parameters)]
 
@@ -113,11 +130,13 @@ def test_a_changed_mesh_is_another_one(cache, name):
 
 def test_clouds_with_other_normals_are_others():
     points = shapes.comb().vertices
-    keys = {
-        content_key(PointCloud(points, normals))
+    clouds = [
+        PointCloud(points, normals)
         for normals in (None, np.ones_like(points), -np.ones_like(points))
-    }
-    assert len(keys) == 3
+    ]
+    for one, other in combinations(clouds, 2):
+        assert not are_equal(one, other)
+    assert all(are_equal(each, replace(each)) for each in clouds)
 
 
 def test_forgotten_is_forgotten():

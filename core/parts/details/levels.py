@@ -71,7 +71,7 @@ def split_further(
     memo : PartMemo
         Of this shape.
     found : Decomposition
-        Its parts.
+        Its parts. A first look at them has no details.
     parameters : Parameters
         With 2 `levels` or more, all parts are split, and their pieces on each level.
         With 0 and no number of `parts`, only parts are whose prongs come apart so.
@@ -84,6 +84,8 @@ def split_further(
         The parts that are left and the pieces, by area, the largest first. Convexity
         ranks of pieces are measured with the samples on their part alone.
     """
+    if found.rough:
+        return found
     if finds_details(parameters):
         yield Progress("Details", 0.0)
         few = replace(

@@ -7,13 +7,17 @@ the corners of face 1, and so on.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from .attributes import BoolArray, FloatArray, IntArray, read_floats, read_ints
+
+Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
+# What the triangles of a mesh follow from, and these, of the latest mesh.
+_latest: tuple[tuple[FloatArray, IntArray, IntArray], Triangles] | None = None
 
 
 def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
@@ -23,8 +27,10 @@ def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
 
 def triangles_of(
     mesh: bpy.types.Mesh,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+) -> Triangles:
     """Return the vertices of a mesh, its triangles, and the face of each triangle.
+
+    The arrays of the latest mesh are kept: Blender is slow to tell the triangles.
 
     Returns
     -------
@@ -32,20 +38,35 @@ def triangles_of(
     triangles : (T, 3) int
     faces : (T,) int
     """
+    global _latest
     mesh.calc_loop_triangles()
+    places, corners = _positions(mesh), corner_vertices(mesh)
     faces = read_ints(mesh.loop_triangle_polygons, "value")
+    if _latest is None or not all(
+        map(np.array_equal, _latest[0], (places, corners, faces))
+    ):
+        arrays = (
+            places.astype(np.float64),
+            corners.astype(np.int64)[_corners_of_triangles(mesh, faces)],
+            faces.astype(np.int64),
+        )
+        for array in arrays:
+            array.flags.writeable = False  # a shape need not copy it
+        _latest = (places, corners, faces), arrays
+    return _latest[1]
+
+
+def forget() -> None:
+    """Free the memory of the latest triangles."""
+    global _latest
+    _latest = None
+
+
+def _corners_of_triangles(mesh: bpy.types.Mesh, faces: IntArray) -> IntArray:
+    """Return the corners of each triangle, (T, 3); `faces` (T,) has the face of each."""
     if np.array_equal(faces, np.arange(len(mesh.polygons))):  # quicker than to ask
-        corners = np.arange(3 * len(faces), dtype=np.int32).reshape(-1, 3)
-    else:
-        corners = read_ints(mesh.loop_triangles, "loops", 3)
-    arrays = (
-        _positions(mesh).astype(np.float64),
-        corner_vertices(mesh).astype(np.int64)[corners],
-        faces.astype(np.int64),
-    )
-    for array in arrays:
-        array.flags.writeable = False  # a shape need not copy it
-    return arrays
+        return np.arange(3 * len(faces), dtype=np.int32).reshape(-1, 3)
+    return read_ints(mesh.loop_triangles, "loops", 3)
 
 
 def corner_edges(mesh: bpy.types.Mesh) -> IntArray:

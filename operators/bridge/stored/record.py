@@ -26,6 +26,7 @@ ORIGINAL, EVALUATED = "ORIGINAL", "EVALUATED"
 _MEASURED = "measured"
 _SELECTION = "selection"
 _HULLS = "hulls"
+_ROUGH = "rough"
 
 
 def has_record(obj: bpy.types.Object) -> bool:
@@ -80,6 +81,22 @@ def note_mesh(obj: bpy.types.Object, mesh: str) -> None:
         write_record(sharer, {**record_of(sharer), "mesh": mesh})
 
 
+def is_rough(obj: bpy.types.Object) -> bool:
+    """Return whether an object's parts are noted as a first look at them."""
+    noted = obj.get(RESULT)
+    if not isinstance(noted, str) or _ROUGH not in noted:  # most are not: be quick
+        return False
+    return bool((parse_record(noted) or {}).get(_ROUGH))
+
+
+def forget_rough(obj: bpy.types.Object) -> None:
+    """Let an object keep parts that were a first look at them."""
+    for sharer in sharers(obj):
+        record = record_of(sharer)
+        record.pop(_ROUGH, None)
+        write_record(sharer, record)
+
+
 def check_records(obj: bpy.types.Object) -> bool:
     """Return whether we have written to the mesh of an object.
 
@@ -119,6 +136,8 @@ def write_result(
         "parts": _entries(decomposition, identities, materials, measured_on),
         "notes": list(decomposition.notes),
     }
+    if decomposition.rough:
+        result[_ROUGH] = True
     if past:
         result[PAST] = past
         for identity in identities:

@@ -38,9 +38,14 @@ Notes: TypeAlias = tuple[str, ...]
 
 
 def decompose_object(
-    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
+    obj: bpy.types.Object,
+    parameters: Parameters,
+    seen: SeenMesh | None = None,
+    rough: bool = False,
 ) -> Steps[Decomposition]:
     """Return the steps that decompose an object, or its mesh as it is `seen`.
+
+    If they may be `rough`, the parts of a large mesh are only a first look.
 
     Raises
     ------
@@ -52,7 +57,8 @@ def decompose_object(
 
     def work() -> Steps[Decomposition]:
         cache = session_cache()
-        return (yield from core.decompose_in_steps(shape, parameters, cache))
+        steps = core.decompose_in_steps(shape, parameters, cache, None, rough)
+        return (yield from steps)
 
     return with_libraries(notes, work())
 

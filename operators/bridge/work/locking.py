@@ -9,6 +9,7 @@ back to the part. Smooth Seams and Mirror settle nothing; locks do.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import bpy
 import numpy as np
@@ -20,13 +21,15 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..parts.continuing import face_areas
-from ..parts.present_parts import PresentParts, present_parts
+from ..parts.present_parts import PresentParts, faces_by_hand, present_parts
 from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
 from ..read.shape import read_shape
 from ..refusals import edit_refusal
+from ..stored.record import record_of
+from ..stored.versions import psi_by_k_of
 from .computing import decompose_object
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
@@ -44,6 +47,7 @@ def decompose_unlocked(
     parameters: Parameters,
     keep_edits: bool = True,
     seen: SeenMesh | None = None,
+    rough: bool = False,
 ) -> Steps[Edited]:
     """Return the steps that decompose an object, except for what the user settled.
 
@@ -56,6 +60,9 @@ def decompose_unlocked(
         Whether what the user settled by hand stays; locked parts always do.
     seen : SeenMesh, optional
         The mesh as it is seen, to be used in place of the object's own.
+    rough : bool, optional
+        Whether a first look at the parts of a large mesh is enough; only if the run
+        covers all faces.
 
     Returns
     -------
@@ -67,7 +74,7 @@ def decompose_unlocked(
         At once, if the object cannot be read or written to, all parts stay, or the
         number of parts leaves none for the other faces.
     """
-    if edit_refusal(obj) is None and part_labels(obj) is not None:
+    if _may_hold(obj, keep_edits):
         check_writable(obj)
         parts = present_parts(obj)
         by_hand = parts.by_hand & keep_edits
@@ -77,13 +84,33 @@ def decompose_unlocked(
             return _decompose_rest(obj, parameters, parts, held, seen)
     if gets_new_faces(obj, parameters, seen):
         return decompose_whole_faces(obj, parameters)
-    steps = decompose_object(obj, parameters, seen)
+    steps, record = decompose_object(obj, parameters, seen, rough), record_of(obj)
 
     def work() -> Steps[Edited]:
-        found = yield from steps
+        found = _with_known_numbers((yield from steps), record)
         return Edited(written(found, seen), None, parameters, seen=seen)
 
     return work()
+
+
+def _with_known_numbers(found: Decomposition, record: dict[str, Any]) -> Decomposition:
+    """Return a first look with the psi of numbers of parts that it did not try."""
+    if not found.rough:
+        return found
+    known = {**psi_by_k_of(record), **found.psi_by_k}
+    best_k = found.best_k or record.get("best_k", found.n_parts)
+    return replace(found, psi_by_k=known, best_k=best_k)
+
+
+def _may_hold(obj: bpy.types.Object, keep_edits: bool) -> bool:
+    """Return whether something may be settled: to measure all parts takes longer."""
+    if edit_refusal(obj) is not None:
+        return False
+    labels = part_labels(obj)
+    if labels is None:
+        return False
+    locked = any(row.locked for row in obj.wcd_parts)
+    return locked or (keep_edits and bool(faces_by_hand(obj, len(labels)).any()))
 
 
 def _held(parts: PresentParts, by_hand: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -2,12 +2,12 @@
 
     blender --python tests/window/drive.py -- tests/benchmarks/speed/live_in_window.py
 
-For each number of parts: the seconds from the setting until the parts are written, and
-the longest step, which is the longest time of the processor in the extension's own
-code. First the hand rests half a second between two numbers, and then, with nothing
-kept, long enough for parts to be found ahead. Then the same for the start of Pick
-Parts, what hovers first and later, and what drawing the overlay adds to drawing the
-window.
+For each number of parts: the seconds from the setting until the parts are seen, and
+until their seams are exact; and the longest step, which is the longest time of the
+processor in the extension's own code. First the hand rests half a second between two
+numbers, and then, with nothing kept, long enough for parts to be found ahead. Then
+Detail changes. Then the same for the start of Pick Parts, what hovers first and later,
+and what drawing the overlay adds to drawing the window.
 """
 
 import sys
@@ -16,15 +16,21 @@ from pathlib import Path
 
 import bpy
 from weak_convex_decomposition.operators import recut
+from weak_convex_decomposition.operators.bridge.stored.record import (
+    is_rough,
+    noted_parameters,
+)
 from weak_convex_decomposition.operators.bridge.work import session_cache
-from weak_convex_decomposition.operators.running import ahead
+from weak_convex_decomposition.operators.running import ahead, refine
 from weak_convex_decomposition.operators.running import modal as running
+from weak_convex_decomposition.operators.settings import parameters_from
 from weak_convex_decomposition.operators.viewport import pick_parts
 
 sys.path.append(str(Path(__file__).parent))
 from in_window import Pulse
 
 UP, DOWN = range(3, 13), range(11, 2, -1)
+DETAILS, FINER = (1.75, 1.5, 1.25, 1.0), (2.25, 2.5, 2.75, 3.0)
 
 
 def decompose(hands):
@@ -35,19 +41,28 @@ def decompose(hands):
         bpy.ops.ed.undo_push(message="Parts")
 
 
-def live(pulse, numbers, rest):
-    """Set the number of parts again and again, and wait for the parts."""
-    print(f"{rest} s between two numbers:")
-    bpy.context.scene.wcd.live = True
-    obj = bpy.context.active_object
-    for k in numbers:
+def live(pulse, name, values, rest, exact=False):
+    """Change a setting again and again, and wait for the parts, or for exact ones."""
+    print(f"{name}, {rest} s between two values{', until exact' if exact else ''}:")
+    settings, obj = bpy.context.scene.wcd, bpy.context.active_object
+    settings.live = True
+    for value in values:
         yield rest
         pulse.restart()
         before, cpu = time.perf_counter(), time.thread_time()
-        bpy.context.scene.wcd.parts = k
-        yield lambda k=k: len(obj.wcd_parts) == k and running.current is None
+        setattr(settings, name, value)
+        yield (
+            lambda: (
+                noted_parameters(obj) == parameters_from(settings)
+                and running.current is None
+                and not (exact and is_rough(obj))
+            )
+        )
         seconds, cpu = time.perf_counter() - before, time.thread_time() - cpu
-        print(f"{k:3} parts {seconds:6.2f} s, {cpu:5.2f} of CPU, step {pulse.step:.3f}")
+        print(
+            f"{value:4} {len(obj.wcd_parts):2} parts {seconds:6.2f} s,"
+            f" {cpu:5.2f} of CPU, step {pulse.step:.3f}"
+        )
 
 
 def hovering(hands, pulse):
@@ -83,13 +98,19 @@ def steps(hands):
     pulse = Pulse()
     pulse.watch(recut.WCD_OT_recut, "execute")
     ahead.go_on = pulse.timed(ahead.go_on)
+    refine.go_on = pulse.timed(refine.go_on)
     yield from hands.open_sidebar()
     hands.suzanne(4)
     decompose(hands)
-    yield from live(pulse, (*UP, *DOWN), 0.5)
+    yield from live(pulse, "parts", (*UP, *DOWN), 0.5)
+    yield from live(pulse, "alpha", DETAILS, 0.5)
+    bpy.context.scene.wcd.parts = 0
+    yield from live(pulse, "alpha", FINER, 0.5)
+    for rest, exact in ((5.0, False), (0.5, True)):
+        bpy.context.scene.wcd.live = False
+        decompose(hands)
+        yield from live(pulse, "parts", UP, rest, exact)
     bpy.context.scene.wcd.live = False
-    decompose(hands)
-    yield from live(pulse, UP, 5.0)
     yield from hovering(hands, pulse)
     before = drawing(hands)
     with hands.context():

@@ -91,3 +91,18 @@ def test_psi_of_sight_decides_on_the_number():
     known = Guessed(as_parts, 10.0, True)
     found = run(PartCountSearch(known, known, 2, 6, memo).best())
     assert (found.best_k, found.psi_by_k[5]) == (3, 0.0)
+
+
+def test_more_parts_that_lower_psi_are_slivers():
+    class Falling(KnownParts):
+        def psi(self, parts):
+            return min(PSI[parts.max()], 1.492 - 0.001 * parts.max())
+
+        psi_seen = psi
+
+    tried = {k: Candidate(np.arange(k), 0.0, k in (3, 5)) for k in range(1, 7)}
+    memo = Memo()
+    memo.recall((2, 6), lambda: tried)
+    # Clusters of three have a higher psi than three parts.
+    known = Falling(lambda k: 1.6 if k == 3 else 0.0, 2.0, False)
+    assert run(PartCountSearch(known, known, 2, 6, memo).best()).best_k == 3

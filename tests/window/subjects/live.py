@@ -1,10 +1,15 @@
-"""With Live on, a slider cuts anew as it is dragged; undo takes it back."""
+"""With Live on, a slider cuts anew as it is dragged; undo takes it back.
+
+Parts of a large mesh are seen roughly at first, and exactly once the hand rests.
+"""
 
 import json
 import time
 
 import bpy
 from leftovers import leftovers
+from weak_convex_decomposition.operators.bridge.mesh.attributes import read_ints
+from weak_convex_decomposition.operators.bridge.stored.record import is_rough
 from weak_convex_decomposition.operators.running import modal as running
 
 # Where the number of parts is dragged to, in points.
@@ -13,6 +18,12 @@ _OFFSETS = (5, 10, 15, 20)
 
 def n_parts():
     return json.loads(bpy.context.active_object["wcd"])["k"]
+
+
+def labels():
+    return read_ints(
+        bpy.context.active_object.data.attributes["wcd_part"].data, "value"
+    )
 
 
 def steps(hands):
@@ -63,3 +74,35 @@ def steps(hands):
     yield lambda: running.current is None
     assert n_parts() == 6
     assert leftovers() == []
+    yield from large(hands)
+
+
+def large(hands):
+    """Change settings of a mesh of 126,000 faces, and undo while seams are rough."""
+    settings = bpy.context.scene.wcd  # undo has replaced the former ones
+    settings.live = False
+    bpy.context.preferences.system.viewport_aa = "OFF"  # drawn once is enough
+    hands.suzanne(4)
+    with hands.context():
+        bpy.ops.wcd.decompose(parts=4, samples=600)
+        bpy.ops.ed.undo_push(message="Parts")
+    settings.parts, settings.live = 4, True
+    for k in (5, 7):
+        settings.parts = k
+        yield lambda k=k: n_parts() == k and running.current is None
+        assert is_rough(bpy.context.active_object)
+        with hands.context():
+            assert not bpy.ops.wcd.explode.poll()
+    yield lambda: not is_rough(bpy.context.active_object)
+    hands.picture("seams")
+    seven = labels()
+    yield from hands.undo()
+    yield lambda: n_parts() == 5 and not is_rough(bpy.context.active_object)
+    with hands.context():
+        assert bpy.ops.wcd.explode.poll()
+        bpy.ops.ed.redo()
+    yield lambda: n_parts() == 7 and not is_rough(bpy.context.active_object)
+    assert (labels() == seven).all()
+    with hands.context():
+        bpy.ops.wcd.decompose(parts=7, samples=600)
+    assert (labels() == seven).all()
