@@ -63,7 +63,7 @@ def forget() -> None:
 
 
 def _corners_of_triangles(mesh: bpy.types.Mesh, faces: IntArray) -> IntArray:
-    """Return the corners of each triangle, (T, 3); `faces` (T,) has the face of each."""
+    """Return the corners of each triangle, (T, 3), from the face of each, (T,)."""
     if np.array_equal(faces, np.arange(len(mesh.polygons))):  # quicker than to ask
         return np.arange(3 * len(faces), dtype=np.int32).reshape(-1, 3)
     return read_ints(mesh.loop_triangles, "loops", 3)
