@@ -109,7 +109,7 @@ bench-physics: development ## Drop models as compounds of hulls, balls on them: 
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/physics.py $(FILES)
 
 bench-ablation: psb venv ## Measure quality with each stage switched off: PSB=directory
-	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/ablation.py "$(PSB)" $(BENCH)
+	@PYTHONPATH=tests/support:tests/benchmarks $(PYTHON_HERE) tests/benchmarks/ablation/measure.py "$(PSB)" $(BENCH)
 
 bench-clouds: psb venv ## Measure quality of point clouds beside meshes: PSB=directory
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/clouds.py "$(PSB)" $(BENCH)
