@@ -13,7 +13,7 @@ from .fine_seams import labels_of_nodes, seams_take_long
 from .merging.bends import with_bends_kept
 from .part_count import PartCountSearch
 from .part_memo import PartMemo
-from .partition import Partitioner
+from .partition import Partitioner, count_parts
 from .seams import SeamCutter
 
 
@@ -31,7 +31,8 @@ def find_parts(
         They may differ from the parameters of the visibility in settings that do not
         affect samples or lines of sight.
     rough : bool, optional
-        Whether seams may run along the patches of a large mesh, to be quick.
+        Whether a first look at a large mesh is enough: seams may run along patches,
+        and as many parts may be found as last time, if their number is not given.
 
     Returns
     -------
@@ -51,13 +52,16 @@ def find_parts(
     wanted = search.given(parameters.parts) if parameters.parts else search.best()
     searched = (parameters.min_parts, parameters.max_parts) in cut.searches
     rough = rough and memo.patches is not None
-    guesses = rough and parameters.parts > 0 and not searched
+    likely_k = parameters.parts or memo.latest_k
+    guesses = rough and likely_k > 0 and not searched
     if parameters.bends == "KEEP":
         wanted = with_bends_kept(search, partitioner, parameters)
     elif guesses:
-        wanted = search.guessed(parameters.parts)
+        wanted = search.guessed(likely_k)
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
     rough = rough and (guesses or seams_take_long(memo, parameters, seams))
+    if not parameters.parts:
+        memo.latest_k = count_parts(seams.parts)
     finer = labels_of_nodes(memo, parameters, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)
     labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]

@@ -91,7 +91,7 @@ class CutMemo:
 class PartMemo:
     """A visibility, with the intermediate results that were computed from it.
 
-    They only save time: parts do not depend on what the memo holds.
+    They only save time: parts do not depend on them, other than a first look.
 
     Parameters
     ----------
@@ -111,11 +111,14 @@ class PartMemo:
         Maps a smallest area and the digest of labels to connected parts.
     moves : Memo
         Maps the digest of labels and alpha to the labels after all moves.
+    latest_k : int
+        The number of parts where none was given last, 0 at first.
     """
 
     def __init__(self, visibility: Visibility, most_nodes: int = MOST_NODES) -> None:
         self.visibility = visibility
         self.patches: Patches | None = None
+        self.latest_k = 0
         self._most_nodes = most_nodes
         self._transfer: Transfer | None = None
         self._plane: tuple[Plane | None] | None = None
@@ -194,12 +197,7 @@ class PartMemo:
         return run(self.transfer_in_steps())
 
     def transfer_in_steps(self) -> Steps[Transfer]:
-        """Return `transfer`, made in steps if it is not known yet.
-
-        Returns
-        -------
-        Steps of Transfer
-        """
+        """Return the steps that make `transfer`, if it is not known yet."""
         if self._transfer is None:
             graph = yield from within(self.visibility.shape.graph_in_steps(), 0.0, 0.6)
             nodes = self.visibility.nodes

@@ -68,6 +68,16 @@ def test_it_becomes_what_a_run_gives(rough, change):
     assert found == as_by_a_run(rough, **change)
 
 
+def test_without_a_number_it_has_as_many_parts_as_before(rough):
+    run_number = as_by_a_run(rough, parts=0)
+    n_parts = len(rough.wcd_parts)
+    look_first(rough, parts=0, alpha=0.3)
+    assert is_rough(rough)
+    assert record_of(rough)["k"] == n_parts
+    assert refined(rough) == as_by_a_run(rough, parts=0, alpha=0.3) != run_number
+    assert len(rough.wcd_parts) != n_parts
+
+
 def test_the_chart_keeps_its_numbers_meanwhile(rough):
     tried = record_of(rough)["psi_by_k"].keys()
     look_first(rough, alpha=1.0)
