@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -79,13 +78,10 @@ class PartCountSearch:
         1. A k is good enough if its psi is nearly the largest of all k. Here psi is
            counted from lines of sight alone: likely pairs find better parts, but tell
            less well how many there are.
-        2. Take the smallest such k whose psi nearly reaches that of the k clusters of
-           k-means. Clusters need not be connected, but parts are. If clusters have a
-           higher psi, some of their pieces should be parts of their own. If there is
-           no such k, take the smallest that is good enough. More parts must raise psi.
-        3. If the parts of a symmetric shape are not symmetric, prefer the first such k
-           with symmetric parts, up to 1.5k. Its psi may be a little lower.
-        4. Cut along closed loops of creases, too, or only there, if what that saves in
+        2. If the parts of a symmetric shape are not symmetric for the smallest such k,
+           prefer the first with symmetric parts, up to 1.5k. Its psi may be a little
+           lower.
+        3. Cut along closed loops of creases, too, or only there, if what that saves in
            seams outweighs what is lost in psi.
 
         Returns
@@ -93,21 +89,16 @@ class PartCountSearch:
         Steps of Search
             The steps yield `Progress`; `run` returns the search.
         """
-        tried = yield from within(self._candidates(self._low, self._high), 0.0, 0.7)
+        tried = yield from within(self._candidates(self._low, self._high), 0.0, 0.9)
         psi_by_k = self._psi_of_sight(tried)
         guessed = self._partitioner.visibility.is_guessed
         narrow = _GAIN_TOLERANCE if guessed else _WIDE_TOLERANCE
-        good = self._good_enough(psi_by_k, narrow)
-        like = yield from within(self._first_like_clusters(tried, good), 0.7, 0.9)
-        best_k = like or good[0]
+        best_k = self._good_enough(psi_by_k, narrow)[0]
         if not tried[best_k].even:
             wide = self._good_enough(psi_by_k, _WIDE_TOLERANCE)
-            even = [k for k in wide if tried[k].even and k <= _MORE * best_k]
-            steps = self._first_like_clusters(tried, even)
-            # If no number is like its clusters, that speaks against none of them.
-            others = [] if like else even
-            best_k = (yield from within(steps, 0.9, 1.0)) or min(others, default=best_k)
-        seams = yield from self._seams.cut(tried[best_k].parts)
+            even = (k for k in wide if tried[k].even and k <= _MORE * best_k)
+            best_k = min(even, default=best_k)
+        seams = yield from within(self._seams.cut(tried[best_k].parts), 0.9, 1.0)
         parts = self._creases.better(seams.parts, self._low, self._high)
         if parts is not seams.parts:
             seams, best_k = Seams(parts), count_parts(parts)
@@ -172,24 +163,6 @@ class PartCountSearch:
         """Return psi of candidates by lines of sight alone (eq. 5)."""
         seen = self._partitioner.psi_seen
         return {k: seen(candidate.parts) for k, candidate in tried.items()}
-
-    def _first_like_clusters(
-        self, tried: dict[int, Candidate], numbers: Sequence[int]
-    ) -> Steps[int]:
-        """Return the first k whose parts nearly reach the psi of k clusters, or 0."""
-        by, least = self._partitioner, 0.0
-        for number, k in enumerate(numbers):
-            # Usually the first k is taken: each reports half of the remaining progress.
-            steps = self._seams.cut(tried[k].parts)
-            cut = yield from within(steps, 1.0 - 0.5**number, 1.0 - 0.5 ** (number + 1))
-            if not by.by_psi:
-                return k
-            psi = by.psi(cut.parts)
-            if psi > least and by.psi_of_clusters(k) - psi <= by.negligible:
-                return k
-            # More parts that do not raise psi are slivers.
-            least = least if number else psi + by.negligible
-        return 0
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Return candidates for 1 and `low`…`high` parts, from the memo if known."""

@@ -148,11 +148,6 @@ class Partitioner:
         tally = self._counted(self.visibility.psi_pairs, parts)
         return tally.psi(self.parameters.alpha)
 
-    def psi_of_clusters(self, n_clusters: int) -> float:
-        """Return psi of the clusters of k-means, which need not be connected."""
-        n_clusters, labels = self._clusters(n_clusters, n_clusters)
-        return self.psi(self.transfer.to_polygons(labels, n_clusters))
-
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` connected parts; fewer if no more are possible.
 

@@ -50,7 +50,6 @@ CHANGES: dict[str, dict[str, object]] = {
     "no graph cut": {"smoothness": 0.0},
     "no symmetry": {},
     "no tolerance in the search for k": {},
-    "no comparison with loose clusters": {},
     "bends kept": {"bends": "KEEP"},
     "no details": {"levels": 1},
     "two levels": {"levels": 2},
@@ -72,9 +71,6 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (part_count, "_WIDE_TOLERANCE", 0.0),
     ],
     "no symmetry": [(part_memo, "find_sides", no_sides)],
-    "no comparison with loose clusters": [
-        (partition.Partitioner, "psi_of_clusters", lambda *_: -np.inf)
-    ],
 }
 
 

@@ -23,8 +23,7 @@ class KnownParts:
     by_psi, negligible = True, 0.003
     graph = graph_of(shapes.box())  # no loop of creases divides it
 
-    def __init__(self, psi_of_clusters, alpha, guessed):
-        self.psi_of_clusters = psi_of_clusters
+    def __init__(self, alpha, guessed):
         self.visibility = SimpleNamespace(is_guessed=guessed)
         self.parameters = Parameters(alpha=alpha)
 
@@ -38,46 +37,32 @@ class KnownParts:
         return Seams(parts)
 
 
-def chosen(even, psi_of_clusters, alpha=2.0, guessed=False):
+def chosen(even, alpha=2.0, guessed=False):
     """Return the number of parts chosen; those in `even` are symmetric."""
     tried = {
         k: Candidate(np.arange(k), psi, k in even) for k, psi in enumerate(PSI, start=1)
     }
     memo = Memo()
     memo.recall((2, 6), lambda: tried)
-    known = KnownParts(psi_of_clusters, alpha, guessed)
+    known = KnownParts(alpha, guessed)
     return run(PartCountSearch(known, known, 2, 6, memo).best()).best_k
-
-
-def as_parts(k):
-    return PSI[k - 1]
 
 
 @pytest.mark.parametrize(
     ("even", "expected"), [((), 3), ((3, 5), 3), ((4, 6), 4), ((5, 6), 3), ((2,), 3)]
 )
 def test_symmetric_parts_are_preferred(even, expected):
-    assert chosen(even, as_parts) == expected
-
-
-@pytest.mark.parametrize(("even", "expected"), [((), 3), ((3, 5), 3), ((4,), 4)])
-def test_also_where_clusters_are_better_for_each_number(even, expected):
-    assert chosen(even, lambda k: as_parts(k) + 0.01) == expected
-
-
-def test_numbers_whose_clusters_are_better_give_way():
-    assert chosen((), lambda k: as_parts(k) + 0.01 * (k < 5)) == 5
-    assert chosen((6,), lambda k: as_parts(k) + 0.01 * (k > 4)) == 3
+    assert chosen(even) == expected
 
 
 def test_more_detail_takes_more_parts():
-    numbers = [chosen((), as_parts, alpha) for alpha in (0.0, 0.5, 2.0, 10.0)]
+    numbers = [chosen((), alpha) for alpha in (0.0, 0.5, 2.0, 10.0)]
     assert numbers == [3, 3, 3, 4]
 
 
 def test_parts_from_likely_pairs_may_lack_less_gain_unless_symmetric():
-    assert chosen((), as_parts, alpha=10.0, guessed=True) == 5
-    assert chosen((4,), as_parts, alpha=10.0, guessed=True) == 4
+    assert chosen((), alpha=10.0, guessed=True) == 5
+    assert chosen((4,), alpha=10.0, guessed=True) == 4
 
 
 def test_psi_of_sight_decides_on_the_number():
@@ -88,21 +73,6 @@ def test_psi_of_sight_decides_on_the_number():
     tried = {k: Candidate(np.arange(k), psi) for k, psi in enumerate(PSI, start=1)}
     memo = Memo()
     memo.recall((2, 6), lambda: tried)
-    known = Guessed(as_parts, 10.0, True)
+    known = Guessed(10.0, True)
     found = run(PartCountSearch(known, known, 2, 6, memo).best())
     assert (found.best_k, found.psi_by_k[5]) == (3, 0.0)
-
-
-def test_more_parts_that_lower_psi_are_slivers():
-    class Falling(KnownParts):
-        def psi(self, parts):
-            return min(PSI[parts.max()], 1.492 - 0.001 * parts.max())
-
-        psi_seen = psi
-
-    tried = {k: Candidate(np.arange(k), 0.0, k in (3, 5)) for k in range(1, 7)}
-    memo = Memo()
-    memo.recall((2, 6), lambda: tried)
-    # Clusters of three have a higher psi than three parts.
-    known = Falling(lambda k: 1.6 if k == 3 else 0.0, 2.0, False)
-    assert run(PartCountSearch(known, known, 2, 6, memo).best()).best_k == 3
