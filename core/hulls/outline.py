@@ -19,8 +19,6 @@ _ON_SPHERE = 162
 # Vertices around a fine outline, and along each quarter of a circle from end to end.
 _FINE_AROUND = 64
 _FINE_QUARTER = 16
-# Planes that touch a ball.
-_TOUCHING = 500
 
 
 def outline_of(shape: CollisionShape) -> Hull:
@@ -118,35 +116,3 @@ def fine_outline(shape: CollisionShape) -> tuple[NDArray[np.float64], float]:
     corners = corners[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 0]
     around = 1 - np.cos(np.pi / _FINE_AROUND)
     return corners, float(radius * (around + 1 - np.cos(step / 2)))
-
-
-def planes_around(shape: CollisionShape) -> NDArray[np.float64]:
-    """Return planes that touch a collision shape from outside.
-
-    Parameters
-    ----------
-    shape : CollisionShape
-
-    Returns
-    -------
-    (P, 4) float
-        Unit normal n and offset d: n · x + d ≤ 0 in the shape. Where that holds for
-        all, points are in a hull or box, and at most a hundredth of the radius away
-        from other shapes.
-    """
-    if shape.kind == "HULL":
-        return shape.hull.planes
-    radius, _, half = shape.sizes
-    sides = np.concatenate([np.eye(3), -np.eye(3)])
-    if shape.kind == "BOX":
-        reach = np.tile(shape.sizes, 2)
-    elif shape.kind == "CYLINDER":
-        turns = 2 * np.pi * np.arange(_FINE_AROUND) / _FINE_AROUND
-        around = np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1)
-        sides = np.concatenate([around, sides[[2, 5]]])
-        reach = np.r_[np.full(len(around), radius), half, half]
-    else:
-        sides = directions(_TOUCHING)
-        reach = radius + half * np.abs(sides[:, 2])
-    normals = sides @ shape.axes
-    return np.concatenate([normals, -(reach + normals @ shape.center)[:, None]], axis=1)

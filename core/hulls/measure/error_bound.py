@@ -26,6 +26,8 @@ _TOLD_APART = 0.5
 _TOLERANCE = 0.03
 # Longest edge of the first patches; the longest side of the shape is 2.
 _COARSE = 0.1
+# Longest edge of what the nearest parts of a surface are told by.
+_GRAIN = 0.04
 # Patches left over in one round; with more, their bounds stand as they are.
 _MOST_PATCHES = 60_000
 # Fewer patches are halved again before they are looked at, so many times more: a round
@@ -99,7 +101,7 @@ def _farthest(
 
     The surface is triangles (T, 3, 3).
     """
-    small, origins = fragments_of(surface, _COARSE)
+    small, origins = fragments_of(surface, _GRAIN)
     targets = surface[origins]
     # Building a balanced tree takes twice as long, and questions are few.
     tree = cKDTree(small.mean(axis=1), balanced_tree=False, compact_nodes=False)

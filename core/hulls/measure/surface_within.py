@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
 from ..convex_hull import THIN
-from ..outline import planes_around
+from ..outline import outline_of
 from ..solid import Solid
 
 # The surface is within a shape that it is outside of by less: hulls are simplified.
@@ -19,7 +19,7 @@ _ABOVE = 1e-9
 def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
     """Return what of the triangles of a solid is within a shape.
 
-    Round shapes count as polyhedra that are a little larger.
+    Round shapes count as polyhedra that are a little smaller.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
     for axis in range(3):  # at once takes ten times as long
         kept = (lowest[rows, axis] <= high[axis]) & (highest[rows, axis] >= low[axis])
         rows = rows[kept]
-    planes = planes_around(shape) - [0, 0, 0, _WITHIN]
+    planes = outline_of(shape).planes - [0, 0, 0, _WITHIN]
     return _below_all(planes, solid.corners[rows])
 
 
