@@ -45,23 +45,20 @@ class Hull:
         -------
         (M,) float
         """
-        return self._highest(points[:, None])
+        return self.heights_of_patches(points[:, None])
 
     def heights_of_patches(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return a height that triangles reach everywhere: above one of the planes.
+        """Return the height above one plane that patches reach with all corners.
 
         Parameters
         ----------
-        corners : (M, 3, 3) float
+        corners : (M, C, 3) float
 
         Returns
         -------
         (M,) float
+            The largest for any plane: no point of the patch is deeper in the hull.
         """
-        return self._highest(corners)
-
-    def _highest(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the largest height above a plane of the lowest corner, (M,)."""
         m, c = corners.shape[:2]
         highest = np.empty(m)
         normals, offsets = np.ascontiguousarray(self.planes[:, :3]), self.planes[:, 3:]

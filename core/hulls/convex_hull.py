@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-from ..geometry.frames import heights_above, principal_axes
+from ..geometry.frames import cross, heights_above, principal_axes
 from ..geometry.primitives import Hull
 
 # Thickness of the hulls of flat pieces; the longest side of the shape is 2.
@@ -139,9 +139,8 @@ def _hull(points: NDArray[np.float64]) -> Hull:
     found = ConvexHull(points)
     rows = np.full(len(points), -1)
     rows[found.vertices] = np.arange(len(found.vertices))
-    a, b, c = points[found.simplices].transpose(1, 2, 0)
-    (x, y, z), (u, v, w) = b - a, c - a
-    normals = np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=1)
+    a, b, c = points[found.simplices].swapaxes(0, 1)
+    normals = cross(b - a, c - a)
     inwards = np.einsum("fd,fd->f", normals, found.equations[:, :3]) < 0
     triangles = found.simplices.astype(np.int64)
     triangles[inwards] = triangles[inwards, ::-1]

@@ -49,12 +49,17 @@ def start() -> None:
 
 def stop() -> None:
     """Find nothing any more, until `start`."""
+    _cancel()
+    if bpy.app.timers.is_registered(go_on):
+        bpy.app.timers.unregister(go_on)
+
+
+def _cancel() -> None:
+    """Drop what is half found."""
     global _current
     if _current is not None:
         _current[1].cancel()
     _current = None
-    if bpy.app.timers.is_registered(go_on):
-        bpy.app.timers.unregister(go_on)
 
 
 def working() -> bool:
@@ -70,7 +75,7 @@ def go_on() -> float | None:
     rough = [obj for obj in bpy.data.objects if is_rough(obj)]
     ready = [obj for obj in rough if refusal(obj) is None]
     if not ready:
-        stop()
+        _cancel()  # Blender would never call a timer again that was taken away
         return _RETRY if rough else None
     target = Target.of(ready[0])
     try:

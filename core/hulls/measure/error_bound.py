@@ -35,6 +35,7 @@ _MOST_PATCHES = 60_000
 _FEW_PATCHES, _HALVINGS = 400, 2
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
+
 # Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
 _Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
