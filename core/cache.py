@@ -15,7 +15,7 @@ from .parts.find import find_parts
 from .parts.part_memo import PartMemo
 from .results.parts import Decomposition
 from .sight.prepared import PreparedShape, prepare_in_steps
-from .sight.ray_march import MakeCaster
+from .sight.ray_caster import MakeCaster
 from .sight.visibility import see_in_steps
 from .steps.memo import Memo
 from .steps.progress import Steps

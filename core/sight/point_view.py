@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..geometry.sampling import Samples, sample_surface
 from ..parameters.parts import Parameters
 from ..results.views import View
-from ..steps.progress import Progress, Steps, run
+from ..steps.progress import Progress, Steps, run, within
 from .lines import see_pairs
 from .prepared import PreparedShape
 from .viewpoints import Viewpoints, viewpoints
@@ -132,7 +132,6 @@ def point_viewer_in_steps(
     yield Progress("Samples", 0.0)
     rng = np.random.default_rng(parameters.seed)
     samples = sample_surface(shape.targets, parameters.samples, rng)
-    yield Progress("Ray tree", 0.2)
-    _ = shape.marcher.caster
+    yield from within(shape.marcher.caster_in_steps(), 0.2, 0.8)
     yield Progress("Lines of sight", 0.8)
     return PointViewer(shape, samples, viewpoints(shape.marcher, samples), shape.notes)

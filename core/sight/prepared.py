@@ -22,7 +22,8 @@ from ..solids.doubled import with_doubles, without_doubles
 from ..solids.orientation import oriented
 from ..solids.shells import find_shells, set_apart, shells_of
 from ..steps.progress import Progress, Steps, run, within
-from .ray_march import MakeCaster, RayMarcher
+from .ray_caster import MakeCaster
+from .ray_march import RayMarcher
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,8 +154,7 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     shape : TriangleMesh or PointCloud
         In any units. It may be open, non-manifold or in several pieces.
     make_caster : callable
-        Returns a `RayCaster` for a `TriangleMesh`. It is called when the first ray is
-        cast.
+        Makes a `RayCaster` of a `TriangleMesh`, when the first ray is cast.
 
     Returns
     -------

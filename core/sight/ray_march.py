@@ -9,14 +9,14 @@ shells it ends a ray, as in the paper; within a closed shell, rays pass through 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property
-from typing import Protocol
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
+from ..steps.progress import Steps, run
+from .ray_caster import MakeCaster, RayCaster, caster_in_steps
 
 # A ray continues this far behind a triangle that it passes, in diagonals.
 PASS = 1e-6
@@ -27,39 +27,6 @@ _MOST_BEHIND = 8
 # Splats this close to the ends of a ray are ignored, in sizes of a splat: they are the
 # uneven surface around the ends.
 _SPLATS_AT_ENDS = 2.0
-
-
-class RayCaster(Protocol):
-    """An object that finds the first triangle along rays."""
-
-    def first_hit(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Return the nearest triangle along each ray and its distance.
-
-        Parameters
-        ----------
-        origins : (M, 3) float
-            Starts of the rays, in the space of the mesh.
-        directions : (M, 3) float
-            Unit vectors.
-        reach : (M,) float
-            Triangles farther away than this are not hit.
-
-        Returns
-        -------
-        triangles : (M,) int
-            Row of the mesh's triangles, −1 for a miss.
-        distances : (M,) float
-            Distance from the origin, `inf` for a miss.
-        """
-        ...
-
-
-MakeCaster = Callable[[TriangleMesh], RayCaster]
 
 
 class RayMarcher:
@@ -105,11 +72,18 @@ class RayMarcher:
         self.tilt = tilt
         self.n_cast = 0
         self._make_caster = make_caster
+        self._caster: RayCaster | None = None
 
-    @cached_property
+    @property
     def caster(self) -> RayCaster:
         """The ray tree of `mesh`, built on first use because hulls cast no rays."""
-        return self._make_caster(self.mesh)
+        return run(self.caster_in_steps())
+
+    def caster_in_steps(self) -> Steps[RayCaster]:
+        """Return the steps that make `caster`, if it is not there yet."""
+        if self._caster is None:
+            self._caster = yield from caster_in_steps(self.mesh, self._make_caster)
+        return self._caster
 
     def march(
         self,

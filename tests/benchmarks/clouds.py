@@ -23,7 +23,7 @@ from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
 from weak_convex_decomposition.core.geometry.sampling import Samples, sample_surface
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.sight.ray_march import MakeCaster
+from weak_convex_decomposition.core.sight.ray_caster import MakeCaster
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 
 _POINTS = 5000

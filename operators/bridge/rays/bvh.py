@@ -22,7 +22,7 @@ _FEW_TRIANGLES = 5_000
 class BvhRayCaster:
     """Cast rays at one mesh by Blender's `BVHTree`, in single precision.
 
-    Implements the protocol `RayCaster` of `core.sight.ray_march`.
+    Implements the protocol `RayCaster` of `core.sight.ray_caster`.
 
     Parameters
     ----------

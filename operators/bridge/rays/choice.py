@@ -6,7 +6,7 @@ from contextlib import suppress
 from importlib import import_module
 
 from ....core.errors import DecompositionError
-from ....core.sight.ray_march import MakeCaster
+from ....core.sight.ray_caster import MakeCaster
 
 _EMBREE = "install Embree with `pip install embreex`"
 _BLENDER = "Blender's module with `pip install bpy`"

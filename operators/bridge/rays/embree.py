@@ -16,7 +16,7 @@ _MISS = -1
 class EmbreeRayCaster:
     """Cast rays at one mesh by Embree, in single precision.
 
-    Implements the protocol `RayCaster` of `core.sight.ray_march`.
+    Implements the protocol `RayCaster` of `core.sight.ray_caster`.
 
     Parameters
     ----------

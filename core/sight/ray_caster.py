@@ -1,0 +1,114 @@
+"""What casts rays: the protocol, and several ray trees for one large mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.mesh import TriangleMesh
+from ..steps.progress import Progress, Steps
+
+# Most triangles in one tree: Blender takes 0.05 s for it. With four trees, rays take a
+# quarter longer than with one, but the trees take half of the time.
+_MOST_TRIANGLES = 300_000
+
+
+class RayCaster(Protocol):
+    """An object that finds the first triangle along rays."""
+
+    def first_hit(
+        self,
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        reach: NDArray[np.float64],
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Return the nearest triangle along each ray and its distance.
+
+        Parameters
+        ----------
+        origins : (M, 3) float
+            Starts of the rays, in the space of the mesh.
+        directions : (M, 3) float
+            Unit vectors.
+        reach : (M,) float
+            Triangles farther away than this are not hit.
+
+        Returns
+        -------
+        triangles : (M,) int
+            Row of the mesh's triangles, −1 for a miss.
+        distances : (M,) float
+            Distance from the origin, `inf` for a miss.
+        """
+        ...
+
+
+MakeCaster = Callable[[TriangleMesh], RayCaster]
+
+
+def caster_in_steps(mesh: TriangleMesh, make_caster: MakeCaster) -> Steps[RayCaster]:
+    """Make a ray caster for a mesh, in several steps if it is large.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    make_caster : callable
+        Returns a `RayCaster` for a `TriangleMesh`.
+
+    Returns
+    -------
+    Steps of RayCaster
+        It hits what one caster for the whole mesh hits.
+    """
+    yield Progress("Ray tree", 0.0)
+    n_triangles = len(mesh.triangles)
+    n_trees = -(-n_triangles // _MOST_TRIANGLES)
+    if n_trees == 1:
+        return make_caster(mesh)
+    # Slices along the longest axis: most rays miss most of them.
+    low, high = mesh.bounds
+    along = mesh.vertices[mesh.triangles[:, 0], (high - low).argmax()]
+    bounds = np.arange(1, n_trees) * n_triangles // n_trees
+    order = np.argpartition(along, bounds)
+    trees = []
+    for number, rows in enumerate(np.split(order, bounds)):
+        yield Progress("Ray tree", number / n_trees)
+        rows.sort()
+        trees.append((rows, make_caster(_slice(mesh, rows))))
+    return _Trees(trees)
+
+
+def _slice(mesh: TriangleMesh, rows: NDArray[np.int64]) -> TriangleMesh:
+    """Return some triangles of a mesh, and the vertices that they use."""
+    triangles = mesh.triangles[rows]
+    used = np.zeros(len(mesh.vertices), dtype=bool)
+    used[triangles.ravel()] = True
+    places = np.cumsum(used) - 1
+    return TriangleMesh(mesh.vertices[used], places[triangles], np.arange(len(rows)))
+
+
+class _Trees:
+    """Casts each ray at several trees, and takes the nearest hit."""
+
+    def __init__(self, trees: Sequence[tuple[NDArray[np.int64], RayCaster]]) -> None:
+        self._trees = trees
+
+    def first_hit(
+        self,
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        reach: NDArray[np.float64],
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Return what the protocol says; triangles are those of the whole mesh."""
+        triangles = np.full(len(origins), -1)
+        distances = np.full(len(origins), np.inf)
+        for rows, caster in self._trees:
+            nearest = np.minimum(reach, distances)
+            hits, lengths = caster.first_hit(origins, directions, nearest)
+            nearer = (hits >= 0) & (lengths < distances)
+            triangles[nearer] = rows[hits[nearer]]
+            distances[nearer] = lengths[nearer]
+        return triangles, distances

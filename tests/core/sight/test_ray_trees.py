@@ -1,0 +1,34 @@
+import numpy as np
+import pytest
+import shapes
+from brute_caster import BruteCaster
+from weak_convex_decomposition.core.sight import ray_caster
+from weak_convex_decomposition.core.sight.ray_caster import caster_in_steps
+from weak_convex_decomposition.core.steps.progress import run
+
+
+@pytest.mark.parametrize("most", [1, 7, 100, 319])
+def test_several_trees_hit_what_one_hits(most, monkeypatch):
+    monkeypatch.setattr(ray_caster, "_MOST_TRIANGLES", most)
+    mesh = shapes.sphere(2)
+    random = np.random.default_rng(0)
+    starts, ways = random.uniform(-1.5, 1.5, (2, 300, 3))
+    rays = starts, ways / np.linalg.norm(ways, axis=1)[:, None], random.random(300) * 3
+    triangles, distances = run(caster_in_steps(mesh, BruteCaster)).first_hit(*rays)
+    expected, expected_distances = BruteCaster(mesh).first_hit(*rays)
+    assert triangles.tolist() == expected.tolist()
+    assert distances == pytest.approx(expected_distances, rel=1e-9)
+    assert 50 < (expected >= 0).sum() < 250
+
+
+def test_each_tree_is_a_step(monkeypatch):
+    monkeypatch.setattr(ray_caster, "_MOST_TRIANGLES", 100)
+    made = []
+
+    def make_caster(mesh):
+        made.append(len(mesh.triangles))
+        return BruteCaster(mesh)
+
+    counts = [len(made) for _ in caster_in_steps(shapes.sphere(2), make_caster)]
+    assert counts == [0, 0, 1, 2, 3]
+    assert made == [80] * 4
