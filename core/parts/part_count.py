@@ -108,6 +108,9 @@ class PartCountSearch:
     def given(self, n_parts: int) -> Steps[Search]:
         """Return `n_parts` parts, with the psi of other numbers for comparison.
 
+        These are the parts that `best` chooses, if they are so many. Otherwise those
+        compete too, split or merged. The largest psi wins, less what seams cost.
+
         Parameters
         ----------
         n_parts : int
@@ -120,14 +123,19 @@ class PartCountSearch:
             returns the search.
         """
         searched = yield from within(self.best(), 0.0, 0.6)
+        chosen = searched.seams.parts
+        if count_parts(chosen) == n_parts:
+            return searched
         fewest = min(n_parts, self._low)
         tried = yield from within(self._candidates(fewest, self._high), 0.6, 0.7)
         if n_parts > self._high:
             tried = yield from within(self._with_more(tried, n_parts), 0.7, 0.8)
         made = min(n_parts, max(tried))
-        seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 1.0)
+        seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 0.9)
         psi_by_k = self._psi_of_sight({made: tried[made]}) | searched.psi_by_k
-        parts = self._creases.better(seams.parts, made, made)
+        nested = self._partitioner.resized(chosen, made)
+        smooth = yield from within(self._seams.cut(nested), 0.9, 1.0)
+        parts = self._creases.better(seams.parts, made, made, nested, smooth.parts)
         if parts is not seams.parts:
             seams = Seams(parts)
             psi_by_k |= {made: self._partitioner.psi_seen(parts)}

@@ -86,7 +86,11 @@ class CreaseParts:
         return merged[pieces]
 
     def better(
-        self, rivals: NDArray[np.int64], low: int, high: int
+        self,
+        rivals: NDArray[np.int64],
+        low: int,
+        high: int,
+        *others: NDArray[np.int64],
     ) -> NDArray[np.int64]:
         """Return the best of other parts, the pieces, and both seams together.
 
@@ -96,20 +100,21 @@ class CreaseParts:
             Other parts of each node, `low` to `high`.
         low, high : int
             Least and largest number of parts.
+        *others : (P,) int
+            More such parts.
 
         Returns
         -------
         (P,) int
             `rivals` itself if nothing is better.
         """
-        n_pieces = count_parts(self.parts)
-        if n_pieces == 1:
-            return rivals
-        n_parts = min(max(n_pieces, low), high)
-        pieces = self._partitioner.resized(self.parts, n_parts)
-        both = self._with_loops(rivals, high)
-        found = [each for each in (pieces, both) if low <= count_parts(each) <= high]
-        return max([rivals, *found], key=self._worth)
+        found, n_pieces = list(others), count_parts(self.parts)
+        if n_pieces > 1:
+            n_parts = min(max(n_pieces, low), high)
+            found.append(self._partitioner.resized(self.parts, n_parts))
+            found.append(self._with_loops(rivals, high))
+        found = [each for each in found if low <= count_parts(each) <= high]
+        return max([rivals, *found], key=self._worth) if found else rivals
 
     def _with_loops(self, parts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
         """Return the parts, cut along the loops too; at most so many (P,)."""
