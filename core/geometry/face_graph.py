@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -101,25 +101,22 @@ class FaceGraph:
         labels : (P,) int
         firm_area : float
         """
-        pieces = self._pieces_of_shells(labels)
-        if len(self.links) == 0:
-            return pieces
-        firm = self.areas_of(pieces) >= firm_area
-        one, other = pieces[self.neighbors].T
-        crossing = np.flatnonzero(one != other)
-        whole = np.ones(len(firm), dtype=bool)
-        whole[one[crossing]] = whole[other[crossing]] = False
-        tied = (firm | whole)[pieces][self.links].all(axis=1)
-        tied &= labels[self.links[:, 0]] == labels[self.links[:, 1]]
-        return _components(graph_of(pieces[self.links[tied]], len(firm)))[pieces]
-
-    def _pieces_of_shells(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the piece of each polygon, (P,), without regard to links."""
         graph = self._graph
         alike = labels[self._tails] == labels[graph.indices]
-        starts = np.concatenate([[0], np.cumsum(alike)])[graph.indptr]
-        rest = graph.data[alike], graph.indices[alike], starts
-        return _components(sparse.csr_array(rest, graph.shape))
+        starts = np.zeros(len(alike) + 1, dtype=np.int32)
+        np.cumsum(alike, out=starts[1:])
+        rest = graph.data[alike], graph.indices[alike], starts[graph.indptr]
+        pieces = _components(sparse.csr_array(rest, graph.shape))
+        tied = self.links[labels[self.links[:, 0]] == labels[self.links[:, 1]]]
+        ends = pieces[tied]
+        if (ends[:, 0] == ends[:, 1]).all():
+            return pieces
+        firm = self.areas_of(pieces) >= firm_area
+        whole = np.ones(len(firm), dtype=bool)
+        whole[pieces[self._tails[~alike]]] = False
+        whole[pieces[graph.indices[~alike]]] = False
+        ends = ends[(firm | whole)[ends].all(axis=1)]
+        return _components(graph_of(ends, len(firm)))[pieces]
 
     def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
         """Return the border length between every two labels, (K, K) sparse float.
@@ -129,13 +126,8 @@ class FaceGraph:
         labels : (P,) int
         n_labels : int
         """
-        pairs = labels[np.concatenate([self.neighbors, self.links])]
-        # Links have no length, but their labels still border on each other.
-        lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
-        crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
-        one, other = pairs[crossing].T
-        lengths = lengths[crossing]
-        lengths = np.where(lengths == 0, np.finfo(float).tiny, lengths)
+        crossing, one, other = self._crossing(labels)
+        lengths = self._border_lengths[crossing]
         borders = sparse.coo_array(
             (
                 np.concatenate([lengths, lengths]),
@@ -148,9 +140,27 @@ class FaceGraph:
     def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
         """Return whether each label 0…K − 1 touches no other label, (K,) bool."""
         alone = np.ones(n_labels, dtype=bool)
-        for pairs in (labels[self.neighbors], labels[self.links]):
-            alone[pairs[pairs[:, 0] != pairs[:, 1]]] = False
+        alone[np.concatenate(self._crossing(labels)[1:])] = False
         return alone
+
+    def _crossing(
+        self, labels: NDArray[np.int64]
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        """Return where labels differ, of all edges and then links, and both labels."""
+        one, other = (labels[ends] for ends in self._ends)
+        crossing = np.flatnonzero(one != other)
+        return crossing, one[crossing], other[crossing]
+
+    @cached_property
+    def _border_lengths(self) -> NDArray[np.float64]:
+        """(E + L,) lengths of edges and links: never 0, since labels border there."""
+        lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
+        return np.where(lengths == 0, np.finfo(float).tiny, lengths)
+
+    @cached_property
+    def _ends(self) -> NDArray[np.integer[Any]]:
+        """(2, E + L) ends of edges and links, each row contiguous."""
+        return np.ascontiguousarray(np.concatenate([self.neighbors, self.links]).T)
 
     def part(self, kept: NDArray[np.int64]) -> FaceGraph:
         """Return the graph of some polygons, numbered in the order of `kept`.
@@ -173,15 +183,6 @@ class FaceGraph:
             links[(links >= 0).all(axis=1)],
             None if self.outline is None else self.outline[kept],
         )
-
-    def linked(self, links: NDArray[np.int64]) -> FaceGraph:
-        """Return the graph with other links, pairs of touching polygons.
-
-        Parameters
-        ----------
-        links : (L, 2) int
-        """
-        return replace(self, links=links)
 
 
 def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:

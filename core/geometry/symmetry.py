@@ -91,9 +91,10 @@ class Side:
         labels[self.images] = n_parts + labels[self.sources]
         one, other = labels[graph.neighbors].T
         # A part that touches its mirror image is one part with it.
-        crossing = np.unique(np.minimum(one, other)[np.abs(one - other) == n_parts])
-        labels[np.isin(labels, crossing + n_parts)] -= n_parts
-        return labels
+        crossing = np.minimum(one, other)[np.abs(one - other) == n_parts]
+        numbers = np.arange(2 * n_parts)
+        numbers[crossing + n_parts] = crossing
+        return numbers[labels]
 
 
 def find_sides(graph: FaceGraph, plane: Plane | None) -> Steps[tuple[Side, ...]]:

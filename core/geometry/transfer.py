@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
@@ -153,7 +155,7 @@ class Transfer:
         hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
         touching = self._touching(samples, shells, _spacing(samples, graph))
         links = np.concatenate([touching, hung])
-        self.graph = graph.linked(links)
+        self.graph = replace(graph, links=links)
 
     def _shares(
         self, distances: NDArray[np.float64], nearest: NDArray[np.int64]

@@ -19,8 +19,8 @@ from .part_memo import PartMemo, digest
 from .partition import Partitioner, count_parts
 from .seams import SeamCutter, Seams
 
-# Patches this far from a seam are opened, too.
-_RINGS = 2
+# Patches this far from a seam are opened, too. No cut moves a seam across more.
+_RINGS = 1
 # Least smoothness: borders of patches are ragged.
 _LEAST_SMOOTHNESS = 0.1
 # Most sweeps of the cut: seams are near their places, and more hardly shorten them.

@@ -134,6 +134,7 @@ class _Expansion:
         self.heads, self.seams = graph.indices, graph.data
         self.starts = graph.indptr[:-1]
         self.n_arcs = np.diff(graph.indptr)
+        self._visits = np.zeros(n_nodes, dtype=np.int64)
 
     def expand(
         self, labels: NDArray[np.int64], label: int
@@ -175,7 +176,10 @@ class _Expansion:
         band: list[NDArray[np.int64]] = []
         for _ in range(_BAND):
             ends = self.heads[self._arcs(front)]
-            front = np.unique(ends[~reached[ends]])
+            ends = ends[~reached[ends]]
+            # Each node once: `np.unique` would sort.
+            self._visits[ends] = np.arange(len(ends))
+            front = ends[self._visits[ends] == np.arange(len(ends))]
             reached[front] = True
             band.append(front)
         return np.sort(np.concatenate(band))

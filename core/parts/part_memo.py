@@ -97,7 +97,7 @@ class PartMemo:
     ----------
     visibility : Visibility
     most_nodes : int, optional
-        The nodes of a larger graph are grouped into half as many patches, which get
+        The nodes of a larger graph are grouped into a fifth as many patches, which get
         labels in their place.
 
     Attributes
@@ -107,8 +107,9 @@ class PartMemo:
         The patches of a large graph, once `transfer_in_steps` has run.
     tallies : Memo
         Maps the digest and number of labels, and whether seen, to counts of pairs.
-    pieces : Memo
-        Maps a smallest area and the digest of labels to connected parts.
+    on_nodes, pieces : Memo
+        Map the digest of labels of samples to those of the nodes, and a smallest area
+        and the digest of labels to connected parts.
     moves : Memo
         Maps the digest of labels and alpha to the labels after all moves.
     latest_k : int
@@ -123,6 +124,7 @@ class PartMemo:
         self._transfer: Transfer | None = None
         self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
+        self.on_nodes: Memo[bytes, Labels] = Memo(64)
         self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
         self.moves: Memo[tuple[bytes, float], Labels] = Memo(32)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
@@ -202,7 +204,7 @@ class PartMemo:
             graph = yield from within(self.visibility.shape.graph_in_steps(), 0.0, 0.6)
             nodes = self.visibility.nodes
             if graph.n_polygons > self._most_nodes:
-                grouping = find_patches(graph, self._most_nodes // 2)
+                grouping = find_patches(graph, self._most_nodes // 5)
                 self.patches = yield from within(grouping, 0.6, 0.9)
                 graph, nodes = self.patches.coarse, self.patches.of_nodes[nodes]
             steps = carry(self.visibility.samples, nodes, graph)

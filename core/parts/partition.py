@@ -164,13 +164,12 @@ class Partitioner:
         if n_parts == 1 or not self.by_psi:
             return plain
         n_clusters, labels = self._clusters(n_parts, n_parts)
+        pairs, alpha = self.visibility.likely_pairs, self.parameters.alpha
         raised = self._memo.moves.recall(
-            (digest(labels), self.parameters.alpha),
-            lambda: raise_psi(
-                self.visibility.likely_pairs, labels, n_clusters, self.parameters.alpha
-            ),
+            (digest(labels), alpha),
+            lambda: raise_psi(pairs, labels, n_clusters, alpha),
         )
-        parts = self.tidied(self.transfer.to_polygons(raised, n_clusters), n_parts)
+        parts = self.tidied(self._on_nodes(raised, n_clusters), n_parts)
         # Psi may be higher with fewer parts: split those where psi loses least.
         moved = self._split(parts, n_parts)
         return max(
@@ -189,7 +188,7 @@ class Partitioner:
             if count_parts(most) >= n_parts:
                 break
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
-            clusters = self.transfer.to_polygons(labels, n_clusters)
+            clusters = self._on_nodes(labels, n_clusters)
             finer = parts * n_clusters + clusters
             pieces = self._memo.pieces.recall(
                 (self.smallest_area, digest(finer)), partial(self._pieces, finer)
@@ -198,6 +197,12 @@ class Partitioner:
             if count_parts(split) > count_parts(most):
                 most = split
         return most
+
+    def _on_nodes(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.int64]:
+        """Return labels (N,) of the samples carried to the nodes, (P,)."""
+        return self._memo.on_nodes.recall(
+            digest(labels), lambda: self.transfer.to_polygons(labels, n_labels)
+        )
 
     def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, NDArray[np.int64]]:
         """Return the number of clusters and the labels (N,) of samples by k-means."""

@@ -15,7 +15,7 @@ from .part_memo import digest
 from .partition import Partitioner, count_parts
 
 # Shares of lambda that are tried in turn, until the seams cost little enough psi.
-_SOFTER = (1.0, 0.5, 0.25, 0.125, 0.0625)
+_SOFTER = (1.0, 0.25, 0.0625)
 
 
 class Seams(NamedTuple):

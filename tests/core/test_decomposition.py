@@ -38,7 +38,10 @@ def test_a_given_number_of_parts_has_its_psi(seen):
     found = parts_of(seen(shapes.comb), Parameters(samples=150, parts=4))
     assert found.n_parts == 4
     searched = parts_of(seen(shapes.comb), Parameters(samples=150))
-    assert found.psi_by_k == searched.psi_by_k
+    # Of four parts, those compete too that five parts leave: their seams are shorter.
+    others = found.psi_by_k | {4: searched.psi_by_k[4]}
+    assert others == searched.psi_by_k
+    assert found.psi_by_k[4] == pytest.approx(searched.psi_by_k[4], abs=0.05)
     assert found.best_k == searched.best_k == searched.n_parts
     assert found.good_k == searched.good_k
     assert found.best_k in found.good_k

@@ -173,9 +173,7 @@ def _distances(
     nearest = away[:, 3].min(axis=1)
     high = np.minimum(away.max(axis=1).min(axis=1), nearest + radii)
     low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
-    inside, unbroken = solid.inside.holds_patches(
-        corners[hard], centers[hard], radii[hard]
-    )
+    inside, unbroken = solid.inside.holds_patches(centers[hard], radii[hard])
     low[hard[~inside]] = nearest[hard[~inside]]
     # A way from inside to a point outside crosses the surface, if through no hole.
     whole = hard[inside & unbroken]

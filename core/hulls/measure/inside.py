@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
 from .fragments import fragments_of
+from .holes import HoleEdges
 from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
@@ -25,9 +28,9 @@ _COARSE = 0.3
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
 
-# Patches of an open mesh are wholly inside if their centers are, and they are smaller
-# than the first radius, or than the second with all corners inside.
-_NARROW, _WIDE = 0.01, 0.06
+# Patches smaller than this radius count as outside where the edge of a hole makes rays
+# differ: what some of them call outside may be as thin as can be.
+_NARROW = 0.001
 
 
 class InsideTest:
@@ -47,11 +50,17 @@ class InsideTest:
 
     def __init__(self, corners: NDArray[np.float64], n_axes: int) -> None:
         self._n_axes = n_axes
-        corners = fragments_of(corners @ AXES.T, _COARSE)[0]
+        self._corners = corners @ AXES.T
+        corners = fragments_of(self._corners, _COARSE)[0]
         self._low = corners.min(axis=(0, 1))
         self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
         self._slopes = [_slopes_of(corners, axis) for axis in range(3)]
         self._tables = [self._table(corners, axis) for axis in range(3)]
+
+    @cached_property
+    def _hole_edges(self) -> HoleEdges:
+        """The edges of holes, in the coordinates of the lines."""
+        return HoleEdges(self._corners)
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return which points are inside, by most rays along the axes, both ways.
@@ -67,44 +76,39 @@ class InsideTest:
         local = points @ AXES.T
         votes = np.zeros(len(points), dtype=np.int64)
         for axis in range(self._n_axes):
-            sides = [(axis + 1) % 3, (axis + 2) % 3]
-            line, heights, turns = self._crossings(axis, local[:, sides])
-            below = heights < local[line, axis]
-            entered = np.bincount(line[below], turns[below], len(points))
-            left = np.bincount(line[~below], -turns[~below], len(points))
-            votes += (entered > 0).astype(np.int64) + (left > 0)
+            for leaving in self._leaving(axis, local):
+                votes += leaving > 0
         return votes > self._n_axes
 
     def holds_patches(
-        self,
-        corners: NDArray[np.float64],
-        centers: NDArray[np.float64],
-        radii: NDArray[np.float64],
+        self, centers: NDArray[np.float64], radii: NDArray[np.float64]
     ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Return which patches have centers inside, and no way out but the surface.
 
         Parameters
         ----------
-        corners : (M, 3, 3) float
         centers : (M, 3) float
         radii : (M,) float
-            Largest distance of a corner from the center.
+            No point of a patch is farther from its center.
 
         Returns
         -------
         inside : (M,) bool
-            Whether the center is inside.
+            Whether the center is inside; not of small patches beside holes.
         whole : (M,) bool
             Of those, whether nothing but the surface leads outside.
         """
-        inside = self.holds(centers)
         if self._n_axes == 1:  # nothing but the surface is between inside and outside
-            return inside, np.ones(len(centers), dtype=bool)
-        whole = radii < _NARROW
-        rows = np.flatnonzero(inside & ~whole & (radii < _WIDE))
-        held = self.holds(corners[rows].reshape(-1, 3)).reshape(-1, 3)
-        whole[rows] = held.all(axis=1)
-        return inside, whole
+            return self.holds(centers), np.ones(len(centers), dtype=bool)
+        local = centers @ AXES.T
+        votes, sure_votes = np.zeros((2, len(centers)), dtype=np.int64)
+        for axis in range(self._n_axes):
+            losses = self._hole_edges.losses(axis, local, radii)
+            for leaving, loss in zip(self._leaving(axis, local), losses, strict=True):
+                votes += leaving > 0
+                sure_votes += leaving > loss
+        whole = sure_votes > self._n_axes
+        return (votes > self._n_axes) & (whole | (radii > _NARROW)), whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
         """Return the volume of a collision shape that is outside.
@@ -135,6 +139,20 @@ class InsideTest:
             inside = self._length_inside(axis, spots[met], enter, leave)
             estimates.append((leave - enter).sum() - inside)
         return float(max(*estimates, 0.0) * step**2) * _SURELY
+
+    def _leaving(
+        self, axis: int, local: NDArray[np.float64]
+    ) -> Iterator[NDArray[np.int64]]:
+        """Yield how many more triangles rays leave than enter, either way, (M,).
+
+        The first rays run against the axis, the others along it.
+        """
+        sides = [(axis + 1) % 3, (axis + 2) % 3]
+        line, heights, turns = self._crossings(axis, local[:, sides])
+        below = heights < local[line, axis]
+        for some, side in ((below, 1), (~below, -1)):
+            counts = np.bincount(line[some], side * turns[some], len(local))
+            yield counts.astype(np.int64)
 
     def _length_inside(
         self,

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import changes
 import numpy as np
 import pytest
@@ -105,7 +107,7 @@ def test_labels_without_borders_are_alone():
     surface = graph_of(boxes)
     labels = np.array([0] * 3 + [1] * 3 + [2] * 6)
     assert surface.alone(labels, 4).tolist() == [False, False, True, True]
-    linked = surface.linked(np.array([[0, 6]]))
+    linked = replace(surface, links=np.array([[0, 6]]))
     assert linked.alone(labels, 4).tolist() == [False, False, False, True]
 
 
@@ -118,7 +120,7 @@ def test_areas_of_labels():
 def test_links_connect_what_shares_no_edge():
     boxes = shapes.joined(shapes.box(), shapes.box((3, 0, 0), (4, 1, 1)))
     surface = graph_of(boxes)
-    linked = surface.linked(np.array([[0, 6]]))
+    linked = replace(surface, links=np.array([[0, 6]]))
     alike = np.zeros(12, dtype=int)
     assert len(set(surface.pieces(alike, 0.0))) == 2
     assert len(set(linked.pieces(alike, 0.0))) == 1
@@ -131,11 +133,19 @@ def test_links_connect_what_shares_no_edge():
 def test_a_link_connects_no_speck():
     boxes = shapes.joined(shapes.box(divisions=4), shapes.box((1, 0, 0), (2, 1, 1)))
     surface = graph_of(boxes)
-    labels = (np.arange(surface.n_polygons) >= 96).astype(int)
-    beside = int(np.flatnonzero(surface.centers[:, 0] == 1)[0])
-    labels[beside] = 1  # one face of the first box goes with the second
-    linked = surface.linked(np.array([[beside, 96]]))
-    assert len(set(linked.pieces(labels, 0.0))) == 2
-    pieces = linked.pieces(labels, 0.5)
-    assert len(set(pieces)) == 3
-    assert (pieces == pieces[beside]).sum() == 1
+    for beside in (0, 95):  # the first in each of its edges, and the second
+        labels = (np.arange(surface.n_polygons) >= 96).astype(int)
+        labels[beside] = 1  # one face of the first box goes with the second
+        linked = replace(surface, links=np.array([[beside, 96]]))
+        assert len(set(linked.pieces(labels, 0.0))) == 2
+        pieces = linked.pieces(labels, 0.5)
+        assert len(set(pieces)) == 3
+        assert (pieces == pieces[beside]).sum() == 1
+
+
+def test_borders_may_have_a_price_below_zero():
+    surface = graph_of(shapes.box())
+    priced = replace(surface, lengths=-surface.lengths)
+    labels = (surface.centers[:, 2] > 0.5).astype(int)
+    gained = priced.borders(labels, 2).toarray()
+    assert gained[0, 1] == pytest.approx(-surface.borders(labels, 2).toarray()[0, 1])

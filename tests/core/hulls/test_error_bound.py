@@ -162,3 +162,23 @@ def test_inside_an_open_mesh_is_where_it_winds_around_a_point(seed):
     winding = windings(corners, points)
     inside = InsideTest(corners, 3).holds(points)
     assert (inside == (winding > 0.5)).mean() > 0.9
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_regions_inside_an_open_mesh_have_no_sliver_outside(seed):
+    rng = np.random.default_rng(seed)
+    ball = shapes.sphere(2)
+    corners = ball.vertices[ball.triangles]
+    corners = corners[rng.random(len(corners)) > 0.1]
+    centers, radii = rng.uniform(-0.5, 0.5, (20_000, 3)), rng.uniform(0, 0.03, 20_000)
+    test = InsideTest(corners, 3)
+    inside, whole = test.holds_patches(centers, radii)
+    # The surface is farther away than all radii: there is no other way out.
+    sure = inside & whole
+    assert 0.3 < sure.mean() < 1
+    ways = rng.normal(size=(10, 20_000, 3))
+    ways *= radii[:, None] / np.linalg.norm(ways, axis=2, keepdims=True)
+    for way in ways:
+        assert test.holds((centers + way)[sure]).all()
+    # Small ones count as outside where the edge of a hole makes rays differ.
+    assert not (inside & ~whole & (radii < 0.001)).any()
