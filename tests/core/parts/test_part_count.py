@@ -1,11 +1,12 @@
 """The number of parts: which of the tried ones is chosen."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import shapes
-from computed import graph_of
+from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
 from weak_convex_decomposition.core.parts.part_memo import Candidate
@@ -76,3 +77,13 @@ def test_psi_of_sight_decides_on_the_number():
     known = Guessed(10.0, True)
     found = run(PartCountSearch(known, known, 2, 6, memo).best())
     assert (found.best_k, found.psi_by_k[5]) == (3, 0.0)
+
+
+@pytest.mark.parametrize("number", [2, 3, 4])
+def test_parts_given_are_those_chosen_split_or_merged(number):
+    """By psi alone, one of two parts would be a ball and a slice of the bar."""
+    mesh, few = shapes.dumbbell(), Parameters(samples=600)
+    chosen, given = decompose(mesh, few), decompose(mesh, replace(few, parts=number))
+    both = set(zip(chosen.labels, given.labels, strict=True))
+    assert (chosen.n_parts, given.n_parts, given.best_k) == (3, number, 3)
+    assert len(both) == max(3, number)
