@@ -8,8 +8,8 @@ processor in the extension's own code. First the hand rests half a second betwee
 numbers, and then, with nothing kept, long enough for parts to be found ahead. Then
 Detail changes. The view is drawn once or more for each change; how often, and what a
 drawing takes whose colors are new, is told too: a computer without a graphics card
-draws with its processor. Then the same for the start of Pick Parts, what hovers first and later,
-and what drawing the overlay adds to drawing the window.
+draws with its processor. Then the same for the start of Pick Parts, what hovers first
+and later, and what drawing the overlay adds to drawing the window.
 """
 
 import statistics
@@ -19,11 +19,11 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from weak_convex_decomposition.operators import recut
 from weak_convex_decomposition.operators.bridge.mesh.attributes import (
     read_ints,
     write_ints,
 )
-from weak_convex_decomposition.operators import recut
 from weak_convex_decomposition.operators.bridge.stored.record import (
     is_rough,
     noted_parameters,
