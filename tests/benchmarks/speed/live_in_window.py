@@ -6,24 +6,16 @@ For each number of parts: the seconds from the setting until the parts are seen,
 until their seams are exact; and the longest step, which is the longest time of the
 processor in the extension's own code. First the hand rests half a second between two
 numbers, and then, with nothing kept, long enough for parts to be found ahead. Then
-Detail changes. The view is drawn once or more for each change; how often, and what a
-drawing takes whose colors are new, is told too: a computer without a graphics card
-draws with its processor. Then the same for the start of Pick Parts, what hovers first
-and later, and what drawing the overlay adds to drawing the window.
+Detail changes. Then the same for the start of Pick Parts, what hovers first and later,
+and what drawing the overlay adds to drawing the window.
 """
 
-import statistics
 import sys
 import time
 from pathlib import Path
 
 import bpy
-import numpy as np
 from weak_convex_decomposition.operators import recut
-from weak_convex_decomposition.operators.bridge.mesh.attributes import (
-    read_ints,
-    write_ints,
-)
 from weak_convex_decomposition.operators.bridge.stored.record import (
     is_rough,
     noted_parameters,
@@ -41,33 +33,6 @@ UP, DOWN = range(3, 13), range(11, 2, -1)
 DETAILS, FINER = (1.75, 1.5, 1.25, 1.0), (2.25, 2.5, 2.75, 3.0)
 
 
-class Drawings:
-    """How often the view was drawn, and what it takes with new colors."""
-
-    def __init__(self):
-        self.count = 0
-        draw = bpy.types.SpaceView3D.draw_handler_add
-        draw(self._drawn, (), "WINDOW", "POST_PIXEL")
-
-    def _drawn(self):
-        self.count += 1
-
-    def measure(self, hands):
-        """Give faces other colors, and draw the window, thrice."""
-        mesh, seconds = bpy.context.active_object.data, []
-        colors = read_ints(mesh.attributes["material_index"].data, "value")
-        for turn in (1, 2, 3, 0):
-            turned = np.where(colors > 0, (colors + turn - 1) % colors.max() + 1, 0)
-            write_ints(mesh.attributes["material_index"].data, "value", turned)
-            mesh.update()
-            before = time.perf_counter()
-            with hands.context():
-                bpy.ops.wm.redraw_timer(type="DRAW_WIN", iterations=1)
-            seconds.append(time.perf_counter() - before)
-        self.seconds = statistics.median(seconds)
-        print(f"a drawing with new colors: {self.seconds:.2f} s")
-
-
 def decompose(hands):
     """Find the first parts; nothing is kept from before."""
     session_cache.forget()
@@ -76,7 +41,7 @@ def decompose(hands):
         bpy.ops.ed.undo_push(message="Parts")
 
 
-def live(pulse, drawings, name, values, rest, exact=False):
+def live(pulse, name, values, rest, exact=False):
     """Change a setting again and again, and wait for the parts, or for exact ones."""
     print(f"{name}, {rest} s between two values{', until exact' if exact else ''}:")
     settings, obj = bpy.context.scene.wcd, bpy.context.active_object
@@ -84,7 +49,6 @@ def live(pulse, drawings, name, values, rest, exact=False):
     for value in values:
         yield rest
         pulse.restart()
-        drawings.count = 0
         before, cpu = time.perf_counter(), time.thread_time()
         setattr(settings, name, value)
         yield (
@@ -96,8 +60,7 @@ def live(pulse, drawings, name, values, rest, exact=False):
         )
         seconds, cpu = time.perf_counter() - before, time.thread_time() - cpu
         print(
-            f"{value:4} {len(obj.wcd_parts):2} parts {seconds:6.2f} s, less a drawing"
-            f" {seconds - drawings.seconds:5.2f}, {drawings.count} drawings,"
+            f"{value:4} {len(obj.wcd_parts):2} parts {seconds:6.2f} s,"
             f" {cpu:5.2f} of CPU, step {pulse.step:.3f}"
         )
 
@@ -139,16 +102,14 @@ def steps(hands):
     yield from hands.open_sidebar()
     hands.suzanne(4)
     decompose(hands)
-    drawings = Drawings()
-    drawings.measure(hands)
-    yield from live(pulse, drawings, "parts", (*UP, *DOWN), 0.5)
-    yield from live(pulse, drawings, "alpha", DETAILS, 0.5)
+    yield from live(pulse, "parts", (*UP, *DOWN), 0.5)
+    yield from live(pulse, "alpha", DETAILS, 0.5)
     bpy.context.scene.wcd.parts = 0
-    yield from live(pulse, drawings, "alpha", FINER, 0.5)
+    yield from live(pulse, "alpha", FINER, 0.5)
     for rest, exact in ((5.0, False), (0.5, True)):
         bpy.context.scene.wcd.live = False
         decompose(hands)
-        yield from live(pulse, drawings, "parts", UP, rest, exact)
+        yield from live(pulse, "parts", UP, rest, exact)
     bpy.context.scene.wcd.live = False
     yield from hovering(hands, pulse)
     before = drawing(hands)
