@@ -63,6 +63,21 @@ def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]
     return product
 
 
+def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return cross products in the plane: above 0 where `b` is to the left of `a`.
+
+    Parameters
+    ----------
+    a, b : (..., 2) float
+
+    Returns
+    -------
+    (...) float
+    """
+    product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return product
+
+
 def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the principal axes of points, the one of least variance first.
 

@@ -8,6 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.frames import cross_2d
+
 # Number of lines along the longest side of the bounding box.
 _LINES = 40
 
@@ -119,18 +121,12 @@ def _crossings_of(
         leaves it.
     """
     a, b, c = np.moveaxis(corners[:, :, [(axis + 1) % 3, (axis + 2) % 3]], 1, 0)
-    double_area = _cross(b - a, c - a)
+    double_area = cross_2d(b - a, c - a)
     facing = double_area != 0  # the others are parallel to the lines
     shares = np.zeros((len(corners), 3))
-    np.divide(_cross(spots - a, c - a), double_area, out=shares[:, 1], where=facing)
-    np.divide(_cross(b - a, spots - a), double_area, out=shares[:, 2], where=facing)
+    np.divide(cross_2d(spots - a, c - a), double_area, out=shares[:, 1], where=facing)
+    np.divide(cross_2d(b - a, spots - a), double_area, out=shares[:, 2], where=facing)
     shares[:, 0] = 1 - shares[:, 1] - shares[:, 2]
     hit = np.flatnonzero(facing & (shares >= 0).all(axis=1))
     heights = (corners[hit, :, axis] * shares[hit]).sum(axis=1)
     return hit, heights, -np.sign(double_area[hit]).astype(np.int64)
-
-
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the cross products of 2D vectors (M, 2), (M,)."""
-    product: NDArray[np.float64] = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    return product

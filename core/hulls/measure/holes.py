@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ...geometry.frames import cross_2d
+
 # Longest of the short segments that edges of holes are divided into.
 _GRAIN = 0.01
 # Number of segments that are looked at. Among more, nothing is sure.
@@ -85,10 +87,10 @@ def _most_crossed(
     Each of M rows has K segments (M, K, 2) and which of them count, (M, K). Those that
     the origin is left of run around it; where the most of them overlap, one starts.
     """
-    counts = passed & (_cross(starts, ends) > 0)
+    counts = passed & (cross_2d(starts, ends) > 0)
     begins = starts[:, :, None]
-    over = (_cross(starts[:, None], begins) >= 0) & (
-        _cross(begins, ends[:, None]) > _TOUCHING
+    over = (cross_2d(starts[:, None], begins) >= 0) & (
+        cross_2d(begins, ends[:, None]) > _TOUCHING
     )
     crossed = (over & counts[:, None]).sum(axis=2)
     most: NDArray[np.int64] = np.where(counts, crossed, 0).max(axis=1, initial=0)
@@ -106,12 +108,6 @@ def _from_origin(
         starts + shares[..., None] * ways, axis=2
     )
     return distances
-
-
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the cross products of 2D vectors (..., 2)."""
-    product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return product
 
 
 def _open_edges(corners: NDArray[np.float64]) -> NDArray[np.float64]:
