@@ -81,6 +81,26 @@ def cost_of_joint(joint: Piece, error: float, solid_volume: float) -> float:
     return _rounded((error / _LARGE) ** _POWER + price)
 
 
+def error_of_joint(joint: Piece, cost: float, solid_volume: float) -> float:
+    """Return the error with which a joint has a cost: the inverse of `cost_of_joint`.
+
+    Parameters
+    ----------
+    joint : Piece
+        The two pieces as one.
+    cost : float
+    solid_volume : float
+        Volume of the whole solid.
+
+    Returns
+    -------
+    float
+        0 if it costs more with any error.
+    """
+    left = cost - _price(joint.added_volume, solid_volume)
+    return float(_LARGE * max(left, 0.0) ** (1 / _POWER))
+
+
 def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
     """Return a lower bound of `cost_of_joint`, found from volumes alone.
 

@@ -86,11 +86,9 @@ def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     while left and (count := len(left) + len(done)) < most:
         share = count / most
         far: list[Cell] = []
-        for surely in (False, True):  # estimates are quick, bounds are not
-            for one in left if not far else []:
-                yield Progress("Cutting", share)
-                is_close = one.is_close if surely else one.error <= largest
-                far += [] if is_close else [one]
+        for one in left:  # by estimates: bounds take far longer
+            yield Progress("Cutting", share)
+            far += [one] if one.known_error > largest else []
         if not far:
             return done + left
         worst = max(far, key=lambda one: round(one.error, 6))

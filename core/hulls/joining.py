@@ -6,13 +6,18 @@ import heapq
 from collections.abc import Callable, Sequence
 from itertools import count
 
+import numpy as np
+
 from ..steps.progress import Progress, Steps, within
-from .cost import cost_of_joint, least_cost
+from .cost import cost_of_joint, error_of_joint, least_cost
 from .piece import Piece, join
 
 # Pieces count as neighbors if their bounding boxes are at most this far apart along
 # each axis; the longest side is 2.
 _NEAR = 0.03
+# Errors are bounded up to where another joint costs less, and a little more: costs are
+# rounded, and each time something must be found out.
+_BEYOND = 1.01
 
 # Cost, numbers of two pieces, the joined piece, and whether the cost is by its stated
 # error. No piece while the cost is a bound.
@@ -100,9 +105,10 @@ def _next_joint(
 ) -> Steps[tuple[int, int, Piece] | None]:
     """Return the numbers of the two pieces to join next, and the joined piece.
 
-    A joint comes off the queue up to three times: with a lower bound of its cost, with
-    the cost by its estimated error, and, if it is joined because there are too many
-    pieces, with the cost by a bound of its error: estimates miss what is narrow.
+    A joint comes off the queue several times: with a lower bound of its cost, with the
+    cost by its estimated error, and, if it is joined because there are too many pieces,
+    with the cost by a bound of its error: estimates miss what is narrow. The bound is
+    looked for while no other joint is known to cost less.
     """
     while queue:
         _, one, other, joint, sure = heapq.heappop(queue)
@@ -122,7 +128,11 @@ def _next_joint(
             return one, other, joint
         else:
             yield Progress("Joining", 0.0)
-            sure, error = True, joint.stated_error
+            next_cost = queue[0][0] if queue else np.inf
+            limit = error_of_joint(joint, next_cost, solid_volume) * _BEYOND
+            limit = max(limit, max_error)
+            error = joint.bound_up_to(limit)
+            sure = error <= limit
         cost = cost_of_joint(joint, error, solid_volume)
         heapq.heappush(queue, (cost, one, other, joint, sure))
     return None

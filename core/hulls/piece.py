@@ -15,7 +15,7 @@ from ..geometry.sampling import single
 from .convex_hull import THIN, convex_hull
 from .cross_section import cross_section, meeting_points
 from .fitting import Fit
-from .measure.error_bound import error_bound
+from .measure.error_bound import ErrorBound
 from .measure.estimate import estimated_depth, estimated_error, volume_error
 from .solid import Solid
 
@@ -83,36 +83,36 @@ class Piece:
         rest = self.boundary, self.witnesses, self.least_error
         return estimated_error(self.solid, self.rough_shape, self.hull, *rest)
 
-    @property
-    def known_error(self) -> float:
-        """The largest error that is known of the shape, without measuring it anew."""
-        return max([self.error, *self.__dict__.get("_measured", ())[:1]])
-
     @cached_property
-    def _measured(self) -> tuple[float, NDArray[np.float64]]:
-        """What `error_bound` finds; errors above the largest are not told apart."""
-        return self._bound(self.fit.max_error)
+    def _bound(self) -> ErrorBound:
+        """An upper bound of the error, found when it is asked for."""
+        return ErrorBound(self.solid, self.shape, self.hull, self.fit.max_error)
 
     @cached_property
     def is_close(self) -> bool:
         """Whether the error of the shape is surely within the largest one allowed."""
-        largest = self.fit.max_error
-        return self.error <= largest and self._measured[0] <= largest
+        return self.error <= self.fit.max_error and self._bound.is_allowed
+
+    @property
+    def known_error(self) -> float:
+        """The largest error that is known of the shape, without measuring it anew."""
+        bound = self.__dict__.get("_bound")
+        return max(self.error, bound.known) if bound else self.error
 
     @property
     def all_witnesses(self) -> NDArray[np.float64]:
         """Witnesses, with the far point that was found when the piece was measured."""
-        found = self.__dict__.get("_measured", ())[1:]
-        return np.concatenate([self.witnesses, *found])
+        bound = self.__dict__.get("_bound")
+        return np.concatenate([self.witnesses, *([bound.place] if bound else [])])
 
-    @cached_property
+    def bound_up_to(self, limit: float) -> float:
+        """Return what `ErrorBound.up_to` does."""
+        return self._bound.up_to(limit)
+
+    @property
     def stated_error(self) -> float:
-        """An upper bound of the shape's error, see `error_bound`."""
-        return self._measured[0] if self.is_close else self._bound(np.inf)[0]
-
-    def _bound(self, limit: float) -> tuple[float, NDArray[np.float64]]:
-        """Return what `error_bound` finds."""
-        return error_bound(self.solid, self.shape, self.hull, self.fit.max_error, limit)
+        """An upper bound of the shape's error, see `ErrorBound`."""
+        return self._bound.value
 
 
 @dataclass(frozen=True, eq=False)

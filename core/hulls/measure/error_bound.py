@@ -1,12 +1,11 @@
 """An upper bound of a collision shape's error, nearly as small as the error itself.
 
-Patches of the surfaces are halved until no point of them can be much farther away than
-the farthest point that is known: distances change at most as fast as the place.
+What is known of the distances on a patch: they change at most as fast as the place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,38 +15,26 @@ from ...geometry.primitives import CollisionShape, Hull
 from ..outline import fine_outline
 from ..solid import Solid
 from .estimate import volume_error
-from .fragments import distances_to, fragments_of, halved, reach_of
+from .fragments import distances_to, fragments_of, reach_of
+from .patch_search import Bounds, PatchSearch
 from .surface_within import surface_within
 from .uncovered import uncovered
 
 # Errors below this share of the largest one allowed need not be told apart.
 _TOLD_APART = 0.5
-# The bound exceeds the error by this share at most, where there is time for it.
-_TOLERANCE = 0.03
+# Bounds exceed errors by this share at most, where there is time for it; rough ones do
+# by more.
+_TOLERANCE, _ROUGH_TOLERANCE = 0.03, 0.1
 # Longest edge of the first patches; the longest side of the shape is 2.
 _COARSE = 0.1
 # Longest edge of what the nearest parts of a surface are told by.
-_GRAIN = 0.04
-# Patches left over in one round; with more, their bounds stand as they are.
-_MOST_PATCHES = 60_000
-# Fewer patches are halved again before they are looked at, so many times more: a round
-# takes as long for one as for some hundreds.
-_FEW_PATCHES, _HALVINGS = 400, 2
+_GRAIN = 0.08
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
 
-# Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
-_Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
 
-
-def error_bound(
-    solid: Solid,
-    shape: CollisionShape,
-    hull: Hull,
-    largest: float,
-    limit: float = np.inf,
-) -> tuple[float, NDArray[np.float64]]:
-    """Return an upper bound of the error of a collision shape.
+class ErrorBound:
+    """An upper bound of the error of a collision shape, as sharp as it is asked for.
 
     The error is the largest of four figures, for a shape S around a piece with the
     convex hull C, in a solid M:
@@ -65,90 +52,109 @@ def error_bound(
     hull : Hull
         Convex hull of the piece that the shape stands for.
     largest : float
-        Largest error allowed. Errors below half of it are not told apart.
-    limit : float
-        Errors above it are not told apart either: the search ends there.
+        Largest error allowed.
 
-    Returns
-    -------
-    bound : float
-        At least the error, and a few percent more at most where errors are told apart.
-        Any figure above `limit` if the error is above it.
-    place : (1, 3) or (0, 3) float
-        A point of the shape that is far from the surface, if there is one.
+    Attributes
+    ----------
+    known : float
+        The error is about that or more; 0 if it is allowed or has not been asked for.
     """
-    enough, bound = largest * _TOLD_APART, uncovered(shape, hull)
-    targets = surface_within(solid, shape)
-    least = max(enough, bound)
-    depths = _largest(targets, lambda c, _: _depths(shape, c), least, limit)[0]
-    bound, place = max(bound, depths), np.zeros((0, 3))
-    if bound <= limit:
-        surface = targets if len(targets) else solid.corners
-        away, place = _farthest(solid, shape, surface, max(enough, bound), limit)
-        bound = max(bound, away)
-    if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
-        bound = max(bound, volume_error(solid.inside.volume_outside(shape)))
-    return bound, place
+
+    def __init__(
+        self, solid: Solid, shape: CollisionShape, hull: Hull, largest: float
+    ) -> None:
+        self._solid, self._shape, self._hull = solid, shape, hull
+        self._largest = largest
+        self._inner: PatchSearch | None = None
+        self._outer: PatchSearch | None = None
+        self.known = 0.0
+        self._limit = np.inf
+
+    @cached_property
+    def is_allowed(self) -> bool:
+        """Whether the error is surely allowed. This takes far less time than `value`."""
+        bound = self._bound(self._largest, self._largest, _TOLERANCE)
+        allowed = bound <= self._largest
+        if allowed:
+            self._limit = self._largest
+        else:
+            self.known = bound
+        return allowed
+
+    def up_to(self, limit: float) -> float:
+        """Return a rough bound of the error, or any figure above a limit if it is more.
+
+        Errors that are allowed are not told apart.
+        """
+        return self._bound(self._largest, limit, _ROUGH_TOLERANCE)
+
+    @cached_property
+    def value(self) -> float:
+        """At least the error, and a few percent more at most.
+
+        Errors below half of the largest one allowed are not told apart.
+        """
+        return self._bound(self._largest * _TOLD_APART, self._limit, _TOLERANCE)
+
+    @property
+    def place(self) -> NDArray[np.float64]:
+        """A point of the shape that is far from the surface, (1, 3), or (0, 3)."""
+        return self._outer.place if self._outer else np.zeros((0, 3))
+
+    def _bound(self, enough: float, limit: float, tolerance: float) -> float:
+        """Return a bound of the error.
+
+        Errors below `enough` are not told apart, nor are those above `limit`. Others
+        are less by a share of `tolerance` at most.
+        """
+        solid, shape = self._solid, self._shape
+        bound = uncovered(shape, self._hull)
+        targets = surface_within(solid, shape)
+        self._inner = self._inner or PatchSearch(targets)
+        least = max(enough, bound)
+        ends = least, limit, tolerance
+        depth = self._inner.largest(lambda c, _: _depths(shape, c), *ends)
+        bound = max(bound, depth)
+        if bound <= limit:
+            surface = targets if len(targets) else solid.corners
+            ends = max(enough, bound), limit, tolerance
+            bound = max(bound, self._farthest(surface, *ends))
+        if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
+            bound = max(bound, self._of_volume)
+        return bound
+
+    @cached_property
+    def _of_volume(self) -> float:
+        """The error R_v of what of the shape is outside the solid."""
+        return volume_error(self._solid.inside.volume_outside(self._shape))
+
+    def _farthest(
+        self,
+        surface: NDArray[np.float64],
+        enough: float,
+        limit: float,
+        tolerance: float,
+    ) -> float:
+        """Return a bound of the distance of points on the shape from a surface.
+
+        The surface is triangles (T, 3, 3).
+        """
+        small, origins = fragments_of(surface, _GRAIN)
+        targets = surface[origins]
+        # Building a balanced tree takes twice as long, and questions are few.
+        tree = cKDTree(small.mean(axis=1), balanced_tree=False, compact_nodes=False)
+        outline, gap = fine_outline(self._shape)
+        if self._outer is None:
+            self._outer = PatchSearch(fragments_of(outline, _COARSE)[0])
+
+        def away(corners: NDArray[np.float64], level: float) -> Bounds:
+            return _distances(self._solid, targets, tree, corners, level)
+
+        enough = max(enough - gap, gap)
+        return self._outer.largest(away, enough, limit - gap, tolerance) + gap
 
 
-def _farthest(
-    solid: Solid,
-    shape: CollisionShape,
-    surface: NDArray[np.float64],
-    enough: float,
-    limit: float,
-) -> tuple[float, NDArray[np.float64]]:
-    """Return a bound of the distance of points on a shape from a surface, and where.
-
-    The surface is triangles (T, 3, 3).
-    """
-    small, origins = fragments_of(surface, _GRAIN)
-    targets = surface[origins]
-    # Building a balanced tree takes twice as long, and questions are few.
-    tree = cKDTree(small.mean(axis=1), balanced_tree=False, compact_nodes=False)
-    outline, gap = fine_outline(shape)
-    outline = fragments_of(outline, _COARSE)[0]
-
-    def away(corners: NDArray[np.float64], level: float) -> _Bounds:
-        return _distances(solid, targets, tree, corners, level)
-
-    distance, place = _largest(outline, away, max(enough - gap, gap), limit - gap)
-    return distance + gap, place
-
-
-def _largest(
-    corners: NDArray[np.float64],
-    bounds_of: Callable[[NDArray[np.float64], float], _Bounds],
-    enough: float,
-    limit: float,
-) -> tuple[float, NDArray[np.float64]]:
-    """Return an upper bound of a function's largest value on patches (N, 3, 3).
-
-    The second value is where it is reached: (1, 3), or (0, 3) if it is below `enough`.
-    The search ends with the first value above `limit`.
-    """
-    reached, bound, level = 0.0, 0.0, enough
-    place = np.zeros((0, 3))
-    while len(corners):
-        low, high = bounds_of(corners, level)
-        if low.max() > max(reached, enough):
-            place = corners[[low.argmax()]].mean(axis=1)
-        reached = max(reached, float(low.max()))
-        if reached > limit:
-            break
-        level = max(min(reached * (1 + _TOLERANCE), limit), enough)
-        left = high > level
-        bound = max(bound, float(high[~left].max(initial=0.0)))
-        if left.sum() > _MOST_PATCHES:
-            return max(bound, float(high.max())), place
-        corners = halved(corners[left])
-        for _ in range(_HALVINGS):
-            if len(corners) < _FEW_PATCHES:
-                corners = halved(corners)
-    return max(bound, reached), place
-
-
-def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> _Bounds:
+def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> Bounds:
     """Return bounds of the depth of patches below the surface of a shape."""
     centers, radii = reach_of(corners)
     depths = -shape.heights(centers)
@@ -163,7 +169,7 @@ def _distances(
     tree: cKDTree,
     corners: NDArray[np.float64],
     level: float,
-) -> _Bounds:
+) -> Bounds:
     """Return bounds of the distance of patches outside a solid from targets."""
     centers, radii = reach_of(corners)
     places = np.concatenate([corners, centers[:, None]], axis=1)
@@ -173,10 +179,10 @@ def _distances(
     nearest = away[:, 3].min(axis=1)
     high = np.minimum(away.max(axis=1).min(axis=1), nearest + radii)
     low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
-    inside, unbroken = solid.inside.holds_patches(centers[hard], radii[hard])
+    inside, unbroken = solid.inside.holds_patches(centers[hard], radii[hard], level)
     low[hard[~inside]] = nearest[hard[~inside]]
     # A way from inside to a point outside crosses the surface, if through no hole.
-    whole = hard[inside & unbroken]
+    whole = hard[unbroken]
     high[whole] = np.minimum(high[whole], radii[whole])
     return low, high
 

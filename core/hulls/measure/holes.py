@@ -66,16 +66,21 @@ class HoleEdges:
             flat, ranks, distance_upper_bound=reach.max()
         )
         near = away <= reach[:, None]
-        beside = np.flatnonzero(near[:, 0])
-        near, rows, radii = near[beside], rows[beside], radii[beside, None]
+        found[:, near[:, -1]] = len(self._ends)
+        beside = np.flatnonzero(near[:, 0] & ~near[:, -1])
+        most = near[beside].sum(axis=1).max(initial=0)
+        near, rows, radii = (
+            near[beside, :most],
+            rows[beside, :most],
+            radii[beside, None],
+        )
         ends = self._ends[np.where(near, rows, 0)] - points[beside, None, None]
         heights = ends[..., axis].mean(axis=2)
         one, other = np.moveaxis(ends[..., [(axis + 1) % 3, (axis + 2) % 3]], 2, 0)
-        near[:, :-1] &= _from_origin(one, other)[:, :-1] <= radii
+        near &= _from_origin(one, other) <= radii
         for way, (first, last) in enumerate([(other, one), (one, other)]):
             passed = near & ((2 * way - 1) * heights > -radii - _GRAIN / 2)
-            losses = _most_crossed(first, last, passed)
-            found[way, beside] = np.where(near[:, -1], len(self._ends), losses)
+            found[way, beside] = _most_crossed(first, last, passed)
         return found
 
 

@@ -81,7 +81,7 @@ class InsideTest:
         return votes > self._n_axes
 
     def holds_patches(
-        self, centers: NDArray[np.float64], radii: NDArray[np.float64]
+        self, centers: NDArray[np.float64], radii: NDArray[np.float64], largest: float
     ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Return which patches have centers inside, and no way out but the surface.
 
@@ -90,25 +90,29 @@ class InsideTest:
         centers : (M, 3) float
         radii : (M,) float
             No point of a patch is farther from its center.
+        largest : float
+            Larger patches are not looked at for ways out.
 
         Returns
         -------
         inside : (M,) bool
             Whether the center is inside; not of small patches beside holes.
         whole : (M,) bool
-            Of those, whether nothing but the surface leads outside.
+            Of those, whether surely nothing but the surface leads outside.
         """
+        local, small = centers @ AXES.T, radii <= largest
+        leaving = [np.array([*self._leaving(k, local)]) for k in range(self._n_axes)]
+        inside = (np.concatenate(leaving) > 0).sum(axis=0) > self._n_axes
         if self._n_axes == 1:  # nothing but the surface is between inside and outside
-            return self.holds(centers), np.ones(len(centers), dtype=bool)
-        local = centers @ AXES.T
-        votes, sure_votes = np.zeros((2, len(centers)), dtype=np.int64)
-        for axis in range(self._n_axes):
-            losses = self._hole_edges.losses(axis, local, radii)
-            for leaving, loss in zip(self._leaving(axis, local), losses, strict=True):
-                votes += leaving > 0
-                sure_votes += leaving > loss
-        whole = sure_votes > self._n_axes
-        return (votes > self._n_axes) & (whole | (radii > _NARROW)), whole
+            return inside, inside & small
+        rows = np.flatnonzero(inside & small)
+        votes = np.zeros(len(rows), dtype=np.int64)
+        for axis, more in enumerate(leaving):
+            losses = self._hole_edges.losses(axis, local[rows], radii[rows])
+            votes += (more[:, rows] > losses).sum(axis=0)
+        whole = np.zeros(len(centers), dtype=bool)
+        whole[rows] = votes > self._n_axes
+        return inside & (whole | (radii > min(_NARROW, largest))), whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
         """Return the volume of a collision shape that is outside.

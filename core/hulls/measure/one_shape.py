@@ -13,7 +13,7 @@ from ...steps.progress import Progress, Steps, within
 from ..convex_hull import THIN, convex_hull
 from ..fitting import fit_for
 from ..solid import solid_of
-from .error_bound import error_bound
+from .error_bound import ErrorBound
 
 
 def refit_in_steps(
@@ -52,7 +52,7 @@ def refit_in_steps(
     yield Progress("Measuring", 0.8)
     hull = convex_hull((points - mesh.center) / fit.unit, THIN)
     shape = fit.shape(hull)
-    error, _ = error_bound(solid, shape, hull, fit.max_error)
+    error = ErrorBound(solid, shape, hull, fit.max_error).value
     ratio = shape.volume / solid.volume if solid.volume > 0 else np.inf
     return HullDecomposition(
         (shape.moved(fit.unit, mesh.center),),

@@ -7,10 +7,14 @@ import shapes
 from computed import build_hulls
 from convexity_check import heights_above_shape
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.hulls.fitting import fit_for
 from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
 from weak_convex_decomposition.core.hulls.measure.inside import InsideTest
 from weak_convex_decomposition.core.hulls.outline import fine_outline
+from weak_convex_decomposition.core.hulls.piece import whole
+from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def one_shape(mesh, **values):
@@ -97,6 +101,17 @@ def test_relative_errors_above_1_make_no_sense():
     assert HullParameters(max_error=2.0, error_unit="SCENE").max_error == 2
 
 
+@pytest.mark.parametrize("limit", [0.1, 0.4, 0.6])
+def test_a_bound_is_looked_for_up_to_a_limit(limit):
+    # The gap is 4 wide and 4 deep; half of the longest side is 4.
+    mesh = changes.moved(shapes.u_shape(), scale=1 / 4)
+    piece = whole(run(solid_of(mesh, 0)), fit_for(mesh, HullParameters(), 1.0)[0])
+    error = piece.bound_up_to(limit)
+    assert error > limit if limit < 0.5 else 0.5 <= error <= 0.55
+    # It goes on from there.
+    assert 0.5 <= piece.stated_error <= 0.5 * 1.05
+
+
 def dense_error(shape, mesh, is_inside=None):
     """Return the larger of both distances, of 5,000 points on either surface."""
     rng = np.random.default_rng(0)
@@ -172,7 +187,7 @@ def test_regions_inside_an_open_mesh_have_no_sliver_outside(seed):
     corners = corners[rng.random(len(corners)) > 0.1]
     centers, radii = rng.uniform(-0.5, 0.5, (20_000, 3)), rng.uniform(0, 0.03, 20_000)
     test = InsideTest(corners, 3)
-    inside, whole = test.holds_patches(centers, radii)
+    inside, whole = test.holds_patches(centers, radii, 0.03)
     # The surface is farther away than all radii: there is no other way out.
     sure = inside & whole
     assert 0.3 < sure.mean() < 1

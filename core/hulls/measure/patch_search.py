@@ -1,0 +1,98 @@
+"""Search patches of a surface for the largest value of a function on them.
+
+Patches are halved until no point of them can have a much larger value than the largest
+that is known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .fragments import halved
+
+# Patches left over in one round; with more, their bounds stand as they are.
+_MOST_PATCHES = 60_000
+# Fewer patches are halved again before they are looked at, so many times more: a round
+# takes as long for one as for some hundreds.
+_FEW_PATCHES, _HALVINGS = 400, 2
+
+# Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
+Bounds: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+
+class PatchSearch:
+    """Patches of a surface, and what is known of a function on them.
+
+    Parameters
+    ----------
+    corners : (N, 3, 3) float
+        Corners of the first patches, which are triangles.
+
+    Attributes
+    ----------
+    place : (1, 3) or (0, 3) float
+        Where the largest known value is reached, if it was told apart.
+    """
+
+    def __init__(self, corners: NDArray[np.float64]) -> None:
+        self.place = np.zeros((0, 3))
+        self._corners = corners
+        self._high = np.full(len(corners), np.inf)
+        self._reached = 0.0
+
+    def largest(
+        self,
+        bounds_of: Callable[[NDArray[np.float64], float], Bounds],
+        enough: float,
+        limit: float,
+        tolerance: float,
+    ) -> float:
+        """Return an upper bound of the largest value; go on where the last call ended.
+
+        Parameters
+        ----------
+        bounds_of : callable
+            Returns bounds of the values on patches. Those that are no higher than the
+            second argument need not be sharp.
+        enough : float
+            Values below it are not told apart.
+        limit : float
+            Values above it are not told apart either: the search ends there.
+        tolerance : float
+            The bound exceeds the largest value by this share at most, where there is
+            time for it.
+
+        Returns
+        -------
+        float
+        """
+        while True:
+            level = max(min(self._reached * (1 + tolerance), limit), enough)
+            far = self._high > level
+            unsure = far.any() and self._reached <= limit
+            if not unsure or far.sum() > _MOST_PATCHES:
+                return max(self._reached, float(self._high.max(initial=0.0)))
+            corners = _smaller(self._corners[far], self._high[far])
+            low, high = bounds_of(corners, level)
+            if low.max() > max(self._reached, enough):
+                self.place = corners[[low.argmax()]].mean(axis=1)
+            self._reached = max(self._reached, float(low.max()))
+            self._corners = np.concatenate([self._corners[~far], corners])
+            self._high = np.concatenate([self._high[~far], high])
+
+
+def _smaller(
+    corners: NDArray[np.float64], high: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return halves of patches; at first, when nothing is known of them, the patches."""
+    if np.isinf(high).all():
+        return corners
+    corners = halved(corners)
+    for _ in range(_HALVINGS):
+        if len(corners) < _FEW_PATCHES:
+            corners = halved(corners)
+    return corners
