@@ -72,7 +72,7 @@ class ErrorBound:
 
     @cached_property
     def is_allowed(self) -> bool:
-        """Whether the error is surely allowed. This takes far less time than `value`."""
+        """Whether the error is surely allowed: found in far less time than `value`."""
         bound = self._bound(self._largest, self._largest, _TOLERANCE)
         allowed = bound <= self._largest
         if allowed:

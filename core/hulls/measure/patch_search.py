@@ -88,7 +88,7 @@ class PatchSearch:
 def _smaller(
     corners: NDArray[np.float64], high: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return halves of patches; at first, when nothing is known of them, the patches."""
+    """Return halves of patches, or the patches if nothing is known of them yet."""
     if np.isinf(high).all():
         return corners
     corners = halved(corners)
