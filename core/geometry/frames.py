@@ -45,6 +45,21 @@ def frames(
     return tangents, cross(normals, tangents)
 
 
+def frame_of(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return right-handed axes whose last row is a given one.
+
+    Parameters
+    ----------
+    axis : (3,) float
+        Unit vector.
+
+    Returns
+    -------
+    (3, 3) float
+    """
+    return np.concatenate([*frames(axis[None]), axis[None]])
+
+
 def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return cross products; for few vectors in a third of NumPy's time.
 

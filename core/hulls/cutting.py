@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..steps.progress import Progress, Steps, within
 from .cost import cost_of_sides, least_cost_of_sides
 from .cut_planes import ranked_planes
-from .enclosing import roughly_around
+from .enclosing.shapes import roughly_around
 from .joining import Joints, join_pieces
 from .piece import Cell, Piece, cut
 

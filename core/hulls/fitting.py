@@ -11,7 +11,7 @@ from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..parameters.hulls import HullParameters
 from .convex_hull import THIN, offset, simplified
-from .enclosing import around, roughly_around
+from .enclosing.shapes import around, roughly_around
 
 
 @dataclass(frozen=True)

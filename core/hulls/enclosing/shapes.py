@@ -1,4 +1,4 @@
-"""Find the smallest boxes, spheres, cylinders and capsules around convex hulls."""
+"""Find the smallest spheres, cylinders and capsules around hulls, or any shape."""
 
 from __future__ import annotations
 
@@ -6,50 +6,17 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
-from ..geometry.frames import frames, principal_axes
-from ..geometry.primitives import CollisionShape, Hull
+from ...geometry.frames import frame_of, principal_axes
+from ...geometry.primitives import CollisionShape, Hull
+from .boxes import box_around, rough_box
 
 # Rounds of the search for the smallest ball; its radius is then exact to a thousandth.
 _ROUNDS = 1000
 # Rounds while cuts are compared, when a hundredth is enough.
 _FEW_ROUNDS = 60
-# Number of faces that a box may be flush with while cuts are compared.
-_FEW_FACES = 4
-
-
-def box_around(hull: Hull) -> CollisionShape:
-    """Return the smallest box that has one side flush with a face of a hull.
-
-    The smallest box of all has two adjacent sides that each contain an edge of the hull
-    (O'Rourke 1985). Boxes flush with a face are nearly as small and far fewer.
-
-    Parameters
-    ----------
-    hull : Hull
-
-    Returns
-    -------
-    CollisionShape
-    """
-    return _smallest_box(hull, _distinct(hull.planes[:, :3]))
-
-
-def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
-    """Return the smallest of the boxes that have a side with one of the normals."""
-    best: CollisionShape | None = None
-    for normal in normals:
-        axes = _rectangle_axes(hull.vertices, normal)
-        local = hull.vertices @ axes.T
-        low, high = local.min(axis=0), local.max(axis=0)
-        shape = CollisionShape(
-            "BOX", hull, (low + high) / 2 @ axes, axes, (high - low) / 2
-        )
-        if best is None or shape.volume < best.volume:
-            best = shape
-    assert best is not None  # a hull has faces
-    return best
+# Decimal digits to which volumes are compared; the longest side is 2.
+_DIGITS = 9
 
 
 def sphere_around(hull: Hull) -> CollisionShape:
@@ -135,7 +102,7 @@ def roughly_around(hull: Hull, kind: str) -> CollisionShape:
     """
     if kind == "SPHERE":
         return _sphere(hull, _FEW_ROUNDS)
-    box = _smallest_box(hull, _few_normals(hull))
+    box = rough_box(hull)
     if kind == "BOX":
         return box
     along = _cylinder if kind == "CYLINDER" else _capsule
@@ -149,7 +116,7 @@ def _best_along(
 ) -> CollisionShape:
     """Return the smallest shape along an axis; only the best is made exactly."""
     rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
-    best = min(rough, key=lambda shape: round(shape.volume, 9))
+    best = min(rough, key=lambda shape: round(shape.volume, _DIGITS))
     return along(hull, best.axes[2], _ROUNDS)
 
 
@@ -162,7 +129,7 @@ def _sphere(hull: Hull, rounds: int) -> CollisionShape:
 
 def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
     """Return the smallest cylinder along an axis."""
-    frame = _frame(axis)
+    frame = frame_of(axis)
     local = hull.vertices @ frame.T
     center, radius = _smallest_ball(local[:, :2], rounds)
     low, high = local[:, 2].min(), local[:, 2].max()
@@ -173,7 +140,7 @@ def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionSh
 
 def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
     """Return the shortest of the capsules with the least radius along an axis."""
-    frame = _frame(axis)
+    frame = frame_of(axis)
     local = hull.vertices @ frame.T
     center, radius = _smallest_ball(local[:, :2], rounds)
     around = np.linalg.norm(local[:, :2] - center, axis=1)
@@ -188,49 +155,6 @@ def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionSha
 def _axes(hull: Hull) -> NDArray[np.float64]:
     """Return the axes to try: those of the box and the principal axes, (6, 3)."""
     return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
-
-
-def _few_normals(hull: Hull) -> NDArray[np.float64]:
-    """Return the normals of the largest faces, and the principal axes, (N, 3)."""
-    a, b, c = np.moveaxis(hull.corners, 1, 0)
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    largest = np.argsort(-np.round(areas, 9), kind="stable")[:_FEW_FACES]
-    axes = principal_axes(hull.vertices)
-    return _distinct(np.concatenate([hull.planes[largest, :3], axes]))
-
-
-def _distinct(normals: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return normals, (N, 3), the first only of those that are equal or opposite."""
-    rounded = np.round(normals, 4)
-    rounded *= np.sign(
-        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
-    )[:, None]
-    _, rows = np.unique(rounded, axis=0, return_index=True)
-    return normals[np.sort(rows)]
-
-
-def _rectangle_axes(
-    points: NDArray[np.float64], normal: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the axes of the box of least base area, the last one `normal`, (3, 3)."""
-    frame = _frame(normal)
-    flat = points @ frame[:2].T
-    try:
-        outline = flat[ConvexHull(flat).vertices]
-    except QhullError:  # seen edge on
-        return frame
-    edges = np.roll(outline, -1, axis=0) - outline
-    edges /= np.linalg.norm(edges, axis=1, keepdims=True)
-    along = edges @ outline.T
-    across = np.stack([-edges[:, 1], edges[:, 0]], axis=1) @ outline.T
-    edge = edges[(np.ptp(along, axis=1) * np.ptp(across, axis=1)).argmin()]
-    first = edge @ frame[:2]
-    return np.stack([first, np.cross(frame[2], first), frame[2]])
-
-
-def _frame(axis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return right-handed axes whose last row is `axis`, (3, 3)."""
-    return np.concatenate([*frames(axis[None]), axis[None]])
 
 
 def _smallest_ball(

@@ -1,0 +1,1 @@
+"""The smallest shapes around convex hulls."""

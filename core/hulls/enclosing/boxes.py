@@ -1,0 +1,134 @@
+"""Find the smallest boxes around convex hulls."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from ...geometry.frames import frame_of, frames, principal_axes
+from ...geometry.primitives import CollisionShape, Hull
+
+# Number of faces that a box may be flush with while cuts are compared.
+_FEW_FACES = 4
+# Decimal digits to which volumes and areas are compared; the longest side is 2.
+_DIGITS = 9
+_EQUAL = 10**-_DIGITS
+# Number of angles at which rectangles are looked at, to bound their areas, and of
+# coordinates that are held at once for that.
+_TURNS = 96
+_AT_ONCE = 1_000_000
+
+
+def box_around(hull: Hull) -> CollisionShape:
+    """Return the smallest box that has one side flush with a face of a hull.
+
+    The smallest box of all has two adjacent sides that each contain an edge of the hull
+    (O'Rourke 1985). Boxes flush with a face are nearly as small and far fewer.
+
+    Parameters
+    ----------
+    hull : Hull
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return _smallest_box(hull, _distinct(hull.planes[:, :3]))
+
+
+def rough_box(hull: Hull) -> CollisionShape:
+    """Return a box flush with one of the largest faces, or along principal axes.
+
+    Parameters
+    ----------
+    hull : Hull
+
+    Returns
+    -------
+    CollisionShape
+    """
+    return _smallest_box(hull, _few_normals(hull))
+
+
+def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
+    """Return the smallest of the boxes that have a side with one of the normals.
+
+    Few of them are made: lower bounds of their volumes rule the others out. Equal ones
+    are told apart by the order of the normals.
+    """
+    heights = np.ptp(hull.vertices @ normals.T, axis=0)
+    least = heights * _least_areas(hull.vertices, normals)
+    best, smallest = None, (np.inf, 0)
+    for row in np.argsort(least, kind="stable"):
+        if least[row] > smallest[0] + _EQUAL:
+            break
+        axes = _rectangle_axes(hull.vertices, normals[row])
+        local = hull.vertices @ axes.T
+        low, high = local.min(axis=0), local.max(axis=0)
+        shape = CollisionShape(
+            "BOX", hull, (low + high) / 2 @ axes, axes, (high - low) / 2
+        )
+        if (volume := (round(shape.volume, _DIGITS), row)) < smallest:
+            best, smallest = shape, volume
+    assert best is not None  # a hull has faces
+    return best
+
+
+def _few_normals(hull: Hull) -> NDArray[np.float64]:
+    """Return the normals of the largest faces, and the principal axes, (N, 3)."""
+    a, b, c = np.moveaxis(hull.corners, 1, 0)
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    largest = np.argsort(-np.round(areas, _DIGITS), kind="stable")[:_FEW_FACES]
+    axes = principal_axes(hull.vertices)
+    return _distinct(np.concatenate([hull.planes[largest, :3], axes]))
+
+
+def _distinct(normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return normals, (N, 3), the first only of those that are equal or opposite."""
+    rounded = np.round(normals, 4)
+    rounded *= np.sign(
+        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
+    )[:, None]
+    _, rows = np.unique(rounded, axis=0, return_index=True)
+    return normals[np.sort(rows)]
+
+
+def _least_areas(
+    points: NDArray[np.float64], normals: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return lower bounds of the areas of rectangles around points along normals, (N,).
+
+    A width changes with the angle at most as fast as the diagonal of a rectangle is
+    long. So a rectangle that is turned by a little has not much less area.
+    """
+    turns = (np.arange(_TURNS) + 0.5) * (np.pi / 2 / _TURNS)
+    turned = np.stack([[np.cos(turns), np.sin(turns)], [-np.sin(turns), np.cos(turns)]])
+    step = max(_AT_ONCE // (2 * _TURNS * len(points)), 1)
+    least = np.empty(len(normals))
+    for start in range(0, len(normals), step):
+        rows = slice(start, start + step)
+        flat = np.stack(frames(normals[rows]), axis=1) @ points.T
+        widths = np.ptp(np.einsum("swt,nwp->nstp", turned, flat, optimize=True), axis=3)
+        lost = np.linalg.norm(widths, axis=1) * (np.pi / 4 / _TURNS)
+        least[rows] = np.maximum(widths - lost[:, None], 0.0).prod(axis=1).min(axis=1)
+    return least
+
+
+def _rectangle_axes(
+    points: NDArray[np.float64], normal: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the axes of the box of least base area, the last one `normal`, (3, 3)."""
+    frame = frame_of(normal)
+    flat = points @ frame[:2].T
+    try:
+        outline = flat[ConvexHull(flat).vertices]
+    except QhullError:  # seen edge on
+        return frame
+    edges = np.roll(outline, -1, axis=0) - outline
+    edges /= np.linalg.norm(edges, axis=1, keepdims=True)
+    along = edges @ outline.T
+    across = np.stack([-edges[:, 1], edges[:, 0]], axis=1) @ outline.T
+    edge = edges[(np.ptp(along, axis=1) * np.ptp(across, axis=1)).argmin()]
+    first = edge @ frame[:2]
+    return np.stack([first, np.cross(frame[2], first), frame[2]])
