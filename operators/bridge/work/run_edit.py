@@ -98,6 +98,8 @@ def written(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
 
 def ready_to_write(obj: bpy.types.Object, steps: Steps[Edited]) -> Steps[Edited]:
     """Run `steps`, then read what writing asks of the object: this takes long, too."""
+    if obj.type != "MESH" or obj.mode == "EDIT":
+        return steps
     target = Target.of(obj)
 
     def work() -> Steps[Edited]:
