@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
-from ..solids.welding import welded
 from ..steps.progress import Progress, Steps, run, within
-from .array_checks import check_size, checked_numbers, rows_of_three
+from .array_checks import check_size, checked_numbers, rows_of_three, welded
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
 _LEAST_AREA = 1e-9
