@@ -16,7 +16,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from numpy.typing import NDArray
 
-from ..operators.bridge.mesh.corners import triangles_of
+from ..operators.bridge.mesh.known import triangles_of
 from ..operators.bridge.stored.names import HULL_TAG
 
 # The kind of color in Solid shading that no object is transparent in.

@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, run, within
 from .mesh import TriangleMesh
 
+# About the most sides of triangles that are sorted in one step.
+_MOST_SIDES = 2**20
 # Most nodes whose connected components are found in one step.
 _MOST_NODES = 2**20
 
@@ -42,26 +44,42 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
     -------
     Steps of Edges
     """
-    yield Progress("Surface", 0.0)
-    tails = mesh.welded_triangles
-    yield Progress("Surface", 0.3)
+    tails = yield from within(mesh.welded_in_steps(), 0.0, 0.4)
+    yield Progress("Surface", 0.4)
+    lower, higher = np.empty((2, tails.size), dtype=np.int32)
     heads = tails[:, [1, 2, 0]]
-    lower = np.minimum(tails, heads).ravel()
-    higher = np.maximum(tails, heads).ravel()
+    yield Progress("Surface", 0.45)
+    np.minimum(tails, heads, out=lower.reshape(-1, 3))
+    np.maximum(tails, heads, out=higher.reshape(-1, 3))
     yield Progress("Surface", 0.5)
-    sides = _order(higher)
-    yield Progress("Surface", 0.7)
-    sides = sides[_order(lower[sides])]
-    yield Progress("Surface", 0.9)
-    lower, higher = lower[sides], higher[sides]
-    new = np.ones(len(sides), dtype=bool)
-    new[1:] = (lower[1:] != lower[:-1]) | (higher[1:] != higher[:-1])
+    n_ranges = -(-len(lower) // _MOST_SIDES)
+    width = int(lower.max()) // n_ranges + 1
+    range_of = (lower // width).astype(np.int16)
+    sides, new = np.empty(len(lower), dtype=np.int32), np.empty(len(lower), dtype=bool)
+    start = 0
+    for number in range(n_ranges):
+        yield Progress("Surface", 0.5 + 0.5 * number / n_ranges)
+        rows = np.flatnonzero(range_of == number).astype(np.int32)
+        rows = rows[_order(higher[rows])]
+        rows = rows[_order(lower[rows] - number * width)]
+        end = start + len(rows)
+        sides[start:end], new[start:end] = rows, True
+        ends = np.stack([lower[rows], higher[rows]])
+        new[start + 1 : end] = (ends[:, 1:] != ends[:, :-1]).any(axis=0)
+        start = end
     return Edges(sides, np.flatnonzero(new))
 
 
 def shared_edges(
     mesh: TriangleMesh, edges: Edges
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return at once what `shared_edges_in_steps` returns."""
+    return run(shared_edges_in_steps(mesh, edges))
+
+
+def shared_edges_in_steps(
+    mesh: TriangleMesh, edges: Edges
+) -> Steps[tuple[NDArray[np.int32], NDArray[np.int32]]]:
     """Return which polygons have a common edge.
 
     Parameters
@@ -77,11 +95,21 @@ def shared_edges(
     sides : (E,) int32
         A side of a triangle along the edge of each pair.
     """
-    owners = mesh.polygons.astype(np.int32)[edges.sides // 3]
-    shared = owners[1:] != owners[:-1]
-    shared[edges.first[1:] - 1] = False
-    neighbors = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
-    return neighbors, edges.sides[:-1][shared]
+    n_sides = len(edges.sides)
+    new = np.zeros(n_sides, dtype=bool)
+    new[edges.first] = True
+    found = []
+    for start in range(0, n_sides, _MOST_SIDES):
+        yield Progress("Surface", start / n_sides)
+        sides = edges.sides[start : start + _MOST_SIDES + 1]
+        owners = mesh.polygons[sides // 3].astype(np.int32)
+        shared = owners[1:] != owners[:-1]
+        shared &= ~new[start + 1 : start + len(sides)]
+        pairs = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
+        found.append((pairs, sides[:-1][shared]))
+    yield Progress("Surface", 1.0)
+    neighbors, along = zip(*found, strict=True)
+    return np.concatenate(neighbors), np.concatenate(along)
 
 
 def components(
@@ -103,18 +131,22 @@ def components(
     found, n_found = np.arange(n_nodes), n_nodes
     if n_nodes > _MOST_NODES:
         # Most neighbors have near numbers: few are in different blocks.
-        n_found, blocks_of = 0, pairs // _MOST_NODES
+        n_found, one = 0, pairs[:, 0] // _MOST_NODES
+        yield Progress("Surface", 0.0)
+        # The block of both nodes of a pair, or −1.
+        blocks_of = np.where(one == pairs[:, 1] // _MOST_NODES, one, -1)
         for block, start in enumerate(range(0, n_nodes, _MOST_NODES)):
-            inside = (blocks_of == block).all(axis=1)
+            yield Progress("Surface", 0.8 * start / n_nodes)
+            inside = pairs[blocks_of == block] - start
             yield Progress("Surface", 0.8 * start / n_nodes)
             nodes = found[start : start + _MOST_NODES]
-            graph = graph_of(pairs[inside] - start, len(nodes))
+            graph = graph_of(inside, len(nodes))
             yield Progress("Surface", 0.8 * start / n_nodes)
             n_more, nodes[:] = connected_components(graph, directed=False)
             nodes += n_found
             n_found += n_more
             yield Progress("Surface", 0.8 * start / n_nodes)
-        pairs = found[pairs[(blocks_of[:, 0] != blocks_of[:, 1])]]
+        pairs = found[pairs[blocks_of == -1]]
     graph = graph_of(pairs, n_found)
     yield Progress("Surface", 0.9)
     components: NDArray[np.int64] = connected_components(graph, directed=False)[1]

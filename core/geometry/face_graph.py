@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from ..steps.progress import Progress, Steps
-from .connectivity import Edges, graph_of, shared_edges
+from ..steps.progress import Progress, Steps, within
+from .connectivity import Edges, graph_of, shared_edges_in_steps
 from .frames import unit
 from .mesh import TriangleMesh, blocks
 
@@ -208,18 +208,20 @@ def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
         columns = [np.ones_like(weights), *middles.T, *mesh.normals[rows].T]
         for total, column in zip(sums, columns, strict=True):
             np.add.at(total, mesh.polygons[rows], weights * column)
-    yield Progress("Surface", 0.4)
-    areas, normals = sums[0].copy(), unit(sums[4:].T.copy())
+    areas, normals = sums[0].copy(), sums[4:].T.copy()
+    for rows in blocks(len(areas)):
+        yield Progress("Surface", 0.4 + 0.03 * rows.start / len(areas))
+        normals[rows] = unit(normals[rows])
     centers = sums[1:4].T / np.where(areas > 0, areas, 1.0)[:, None]
+    yield Progress("Surface", 0.46)
     # A polygon without area takes a vertex as its center.
     first = np.zeros(len(areas), dtype=np.int64)
     first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
     centers[areas == 0] = mesh.vertices[first[areas == 0]]
-    yield Progress("Surface", 0.5)
-    neighbors, starts = shared_edges(mesh, edges)
+    neighbors, starts = yield from within(shared_edges_in_steps(mesh, edges), 0.5, 0.7)
     lengths, bends = np.empty((2, len(neighbors)))
     for rows in blocks(len(neighbors)):
-        yield Progress("Surface", 0.5 + 0.5 * rows.start / len(neighbors))
+        yield Progress("Surface", 0.7 + 0.3 * rows.start / len(neighbors))
         lengths[rows] = _lengths(mesh, starts[rows])
         bends[rows] = _bends(centers, normals, neighbors[rows])
     return FaceGraph(areas, centers, normals, neighbors, lengths, bends)

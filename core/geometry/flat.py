@@ -22,6 +22,8 @@ from .mesh import TriangleMesh
 
 # Greatest extent of a flat mesh along its normal, in diagonals.
 _FLAT = 1e-4
+# Triangles, about, that show that most meshes are not flat.
+_FEW = 1000
 # A face lies in the plane if its projection keeps this share of its area. The sides
 # of a thin plate do not.
 _LYING = 0.5
@@ -111,6 +113,8 @@ def flat_mesh(mesh: TriangleMesh) -> FlatMesh | None:
     -------
     FlatMesh or None
     """
+    if _surely_thick(mesh):
+        return None
     upright = mesh.normals @ mesh.normals[mesh.areas.argmax()]
     normal = (np.sign(upright) * mesh.areas) @ mesh.normals
     normal = normal / np.linalg.norm(normal)
@@ -133,6 +137,13 @@ def flat_mesh(mesh: TriangleMesh) -> FlatMesh | None:
         corners, np.arange(len(corners)).reshape(-1, 3), np.repeat(owners, 2)
     )
     return FlatMesh(faces, walls, normal)
+
+
+def _surely_thick(mesh: TriangleMesh) -> bool:
+    """Return whether a few vertices show already that a mesh is not flat."""
+    few = mesh.triangles[:: -(-len(mesh.triangles) // _FEW)].ravel()
+    # Their extent is at least twice their standard deviation, in any direction.
+    return bool(np.linalg.eigvalsh(np.cov(mesh.vertices[few].T))[0] > _FLAT**2)
 
 
 def _outline(

@@ -12,15 +12,13 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
 from ..steps.progress import Progress, Steps, run, within
-from .array_checks import check_size, checked_numbers, rows_of_three
+from .array_checks import check_size, checked_numbers, rows_of_three, welded
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
 _LEAST_AREA = 1e-9
 # Cell size, in diagonals, of the grid that welds vertices. It allows for the rounding
 # of equal positions to single precision.
 _SAME_PLACE = 1e-6
-# Grid cells along each axis. They span more than two diagonals.
-_CELLS = 2**21
 # Rows that are computed with in one step: few enough for the processor's cache.
 _BLOCK = 2**16
 
@@ -103,10 +101,21 @@ class TriangleMesh:
     @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
-        used = np.zeros(len(self.vertices), dtype=bool)
-        used[self.triangles.ravel()] = True
-        columns = self.vertices[used].T.copy()
-        return columns.min(axis=1), columns.max(axis=1)
+        return run(self.bounds_in_steps())
+
+    def bounds_in_steps(self) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Return `bounds`, found in short steps."""
+        if "bounds" not in self.__dict__:
+            used = np.zeros(len(self.vertices), dtype=bool)
+            for rows in blocks(len(self.triangles)):
+                yield Progress("Surface", 0.5 * rows.start / len(self.triangles))
+                used[self.triangles[rows].ravel()] = True
+            yield Progress("Surface", 0.5)
+            columns = [self.vertices[used, axis] for axis in range(3)]
+            low, high = np.array([(each.min(), each.max()) for each in columns]).T
+            self.__dict__["bounds"] = low, high
+        found: tuple[NDArray[np.float64], NDArray[np.float64]] = self.__dict__["bounds"]
+        return found
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -140,8 +149,7 @@ class TriangleMesh:
             If the faces have no area, the mesh is too large or too small to compute
             with, or some polygon has no triangle.
         """
-        yield Progress("Surface", 0.0)
-        check_size(*self.bounds)
+        check_size(*(yield from within(self.bounds_in_steps(), 0.0, 0.2)))
         yield Progress("Surface", 0.2)
         n_triangles = len(self.triangles)
         if self.n_polygons > n_triangles or not np.bincount(self.polygons).all():
@@ -166,16 +174,23 @@ class TriangleMesh:
         Many file formats split vertices, and tools close a surface with vertices that
         differ by rounding.
         """
-        counts = np.bincount(self.triangles.ravel(), minlength=len(self.vertices))
-        center = counts @ self.vertices / self.triangles.size
-        step = _SAME_PLACE * self.diagonal or 1.0
-        rounded = np.round((self.vertices - center) / step).astype(np.int64)
-        # One number sorts faster than three. Only vertices that no face uses lie
-        # outside the grid.
-        cells = np.clip(rounded + _CELLS // 2, 0, _CELLS - 1)
-        places = cells @ (_CELLS**2, _CELLS, 1)
-        _, place_of = np.unique(places, return_inverse=True)
-        return place_of.reshape(-1).astype(np.int32)[self.triangles]
+        return run(self.welded_in_steps())
+
+    def welded_in_steps(self) -> Steps[NDArray[np.int32]]:
+        """Return `welded_triangles`, found in short steps.
+
+        Returns
+        -------
+        Steps of (T, 3) int32
+        """
+        if "welded_triangles" not in self.__dict__:
+            yield from within(self.bounds_in_steps(), 0.0, 0.2)
+            step = _SAME_PLACE * self.diagonal or 1.0
+            steps = welded(self.vertices, self.triangles, step)
+            places = yield from within(steps, 0.2, 1.0)
+            self.__dict__["welded_triangles"] = places
+        found: NDArray[np.int32] = self.__dict__["welded_triangles"]
+        return found
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:

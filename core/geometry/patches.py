@@ -148,8 +148,8 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
         parents = yield from within(components(joins, n_groups), done, done)
         groups = parents[groups]
     patches = groups[patches]
-    yield Progress("Patches", 0.9)
-    return Patches(graph, contracted(graph, patches), patches)
+    coarse = yield from within(contracted(graph, patches), 0.9, 1.0)
+    return Patches(graph, coarse, patches)
 
 
 def _joins(
@@ -175,7 +175,7 @@ def _joins(
     return np.stack([small[first], others[first]], axis=1)
 
 
-def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> FaceGraph:
+def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> Steps[FaceGraph]:
     """Return the graph of groups of nodes, without links.
 
     Between two groups there is one edge. It is as long as all edges between their
@@ -189,23 +189,29 @@ def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> FaceGraph:
 
     Returns
     -------
-    FaceGraph
+    Steps of FaceGraph
     """
+    yield Progress("Patches", 0.0)
     areas, counts = graph.areas_of(groups), np.bincount(groups)
     empty = (areas == 0)[groups]
     weights = np.where(empty, 1.0, graph.areas)
     totals = np.where(areas == 0, counts, areas)[:, None]
     n_groups = len(areas)
+    yield Progress("Patches", 0.3)
     pairs = groups[graph.neighbors]
+    yield Progress("Patches", 0.5)
     crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
     keys = np.sort(pairs[crossing], axis=1) @ (n_groups, 1)
     keys, edges = np.unique(keys, return_inverse=True)
     lengths = np.bincount(edges.reshape(-1), graph.lengths[crossing], len(keys))
     costs = np.bincount(edges.reshape(-1), graph.seam_costs[crossing], len(keys))
     shares = np.divide(costs, lengths, out=np.ones(len(keys)), where=lengths > 0)
+    yield Progress("Patches", 0.7)
+    centers = _sums(groups, weights, graph.centers) / totals
+    yield Progress("Patches", 0.9)
     return FaceGraph(
         areas,
-        _sums(groups, weights, graph.centers) / totals,
+        centers,
         unit(_sums(groups, weights, graph.normals)),
         np.stack(np.divmod(keys, n_groups), axis=1),
         lengths.astype(np.float64),

@@ -86,10 +86,13 @@ def _cut(
         beside = chosen[coarse.neighbors].any(axis=1)
         chosen[coarse.neighbors[beside]] = True
     graph, places = patches.opened(chosen)
+    yield Progress("Seams", 0.1)
     nodes = places[memo.visibility.nodes]
     on_nodes = yield from within(memo.on(graph, nodes), 0.1, 0.3)
+    yield Progress("Seams", 0.3)
     start = np.zeros(graph.n_polygons, dtype=np.int64)
     start[places] = parts[patches.of_nodes]
+    yield Progress("Seams", 0.3)
     by = Partitioner(memo, parameters)
     enough = by.psi(parts) - by.negligible
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)

@@ -79,11 +79,15 @@ def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
     uses = np.diff(first, append=len(sides))
     pairs = first[uses == 2]
     one, other = sides[pairs], sides[pairs + 1]
+    yield Progress("Surface", 0.1)
     corners = mesh.welded_triangles
     forward = (corners < corners[:, [1, 2, 0]]).ravel()
     opposed = forward[one] != forward[other]
     yield Progress("Surface", 0.2)
-    neighbors = np.stack([one // 3, other // 3], axis=1)
+    neighbors = np.empty((len(one), 2), dtype=one.dtype)
+    neighbors[:, 0] = one // 3
+    neighbors[:, 1] = other // 3
+    yield Progress("Surface", 0.2)
     shells, side, windable = yield from _wind(neighbors, opposed, len(corners))
     yield Progress("Surface", 0.8)
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)
@@ -158,7 +162,9 @@ def _wind(
     """
     # Triangles that are wound alike are one node, of which there is a flipped copy. An
     # edge connects the copies whose windings agree.
-    steps = components(neighbors[opposed], n_triangles)
+    alike = neighbors if opposed.all() else neighbors[opposed]
+    yield Progress("Surface", 0.2)
+    steps = components(alike, n_triangles)
     patches = yield from within(steps, 0.2, 0.6)
     n_patches = int(patches.max()) + 1
     one, other = patches[neighbors[~opposed]].T

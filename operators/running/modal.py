@@ -40,7 +40,9 @@ class Running:
     workspace : str
         Name of the workspace whose status bar shows the progress.
     shown : float
-        When the progress was shown last, by `time.perf_counter`.
+        When the progress was shown last, by `time.perf_counter`; at first when the
+        computation began. To draw a window by software takes a while, so that a quick
+        computation shows none.
     look : float
         Seconds until it is shown again; not a number while Blender draws it.
     """
@@ -49,8 +51,8 @@ class Running:
     job: Job[Any]
     timer: bpy.types.Timer
     workspace: str
-    shown: float = -math.inf
-    look: float = _LOOKS[0]
+    shown: float
+    look: float
 
 
 # The one computation that is running, for panels and operators. It is not in Blender's
@@ -69,8 +71,8 @@ def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
     """Start computing in a window; its timer events ask for `advance`."""
     global current
     timer = context.window_manager.event_timer_add(_PAUSE, window=context.window)
-    current = Running(title, Job(steps), timer, context.workspace.name)
-    _show(current)
+    now, name = time.perf_counter(), context.workspace.name
+    current = Running(title, Job(steps), timer, name, now, _LOOKS[0])
     return current
 
 

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..bridge.mesh.attributes import read_flags, read_ints
-from ..bridge.mesh.corners import edge_sides, triangles_of
+from ..bridge.mesh.corners import edge_sides
+from ..bridge.mesh.known import triangles_of
 from ..bridge.stored.names import PART_LAYER, RESULT
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray, read_floats, read_ints, read_labels, write_ints
-from ..mesh.corners import corner_vertices
+from ..mesh.known import corner_vertices
 from ..parts.slots import bare_materials
 from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
 from ..stored.restore import read_restore, sharers

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from .attributes import FloatArray, IntArray, read_ints, write_floats, write_ints
-from .corners import corner_faces
+from .known import corner_faces
 from .points import is_cloud
 
 
@@ -65,9 +65,9 @@ class ObjectModeLayers:
         if attribute is not None:
             self._mesh.attributes.remove(attribute)
 
-    def fill_group(self, group: bpy.types.VertexGroup, vertices: IntArray) -> None:
+    def fill_group(self, group: bpy.types.VertexGroup, vertices: list[int]) -> None:
         """Put vertices into a group with full weight."""
-        group.add(vertices.tolist(), 1.0, "REPLACE")
+        group.add(vertices, 1.0, "REPLACE")
 
     def finish(self) -> None:
         """Tell Blender that the mesh has changed."""
@@ -147,11 +147,11 @@ class EditModeLayers:
             if layer is not None:
                 layers.remove(layer)
 
-    def fill_group(self, group: bpy.types.VertexGroup, vertices: IntArray) -> None:
+    def fill_group(self, group: bpy.types.VertexGroup, vertices: list[int]) -> None:
         """Put vertices into a group with full weight."""
         layer = self._bm.verts.layers.deform.verify()
         self._bm.verts.ensure_lookup_table()
-        for index in vertices.tolist():
+        for index in vertices:
             self._bm.verts[index][layer][group.index] = 1.0
 
     def finish(self) -> None:

@@ -13,7 +13,8 @@ import bpy
 import numpy as np
 
 from .attributes import BoolArray, IntArray, read_flags, read_ints, write_flags
-from .corners import corner_edges, corner_faces, corner_vertices
+from .corners import corner_edges
+from .known import corner_faces, corner_vertices
 from .layers import flush_edits
 
 

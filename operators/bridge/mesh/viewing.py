@@ -9,7 +9,7 @@ import numpy as np
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from .corners import corner_faces, corner_vertices
+from .known import corner_faces, corner_vertices
 from .points import is_cloud, positions_of
 
 # How much wider the view is than what it frames.

@@ -12,7 +12,8 @@ import numpy as np
 from .... import core
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
-from ..mesh.attributes import read_floats
+from ..mesh import known
+from ..mesh.by_label import ByLabel
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
 from ..stored.record import record_of
@@ -109,24 +110,32 @@ class BeforeWriting:
 
 
 def by_number(
-    decomposition: Decomposition, identities: Sequence[Identity]
-) -> tuple[Decomposition, list[Identity]]:
-    """Return parts sorted by their numbers."""
+    obj: bpy.types.Object,
+    parts: Decomposition,
+    ready: ByLabel | None,
+    identities: Sequence[Identity],
+) -> tuple[Decomposition, ByLabel, list[Identity]]:
+    """Return parts, what they have on the object, and who they are, by number.
+
+    `ready` is what they have, if that was read before and fits.
+    """
+    if ready is None or not ready.is_of(obj):
+        ready = ByLabel.of(obj, parts.labels, parts.n_parts)
     order = np.argsort([each.number for each in identities])
     places = np.argsort(order)
     ordered = replace(
-        decomposition,
-        labels=places[decomposition.labels],
-        areas=decomposition.areas[order],
-        face_counts=decomposition.face_counts[order],
-        ranks=decomposition.ranks[order],
-        pairs=tuple((int(places[a]), int(places[b])) for a, b in decomposition.pairs),
+        parts,
+        labels=places[parts.labels],
+        areas=parts.areas[order],
+        face_counts=parts.face_counts[order],
+        ranks=parts.ranks[order],
+        pairs=tuple((int(places[a]), int(places[b])) for a, b in parts.pairs),
     )
-    return ordered, [identities[row] for row in order]
+    return ordered, ready.in_order(order), [identities[row] for row in order]
 
 
 def face_areas(obj: bpy.types.Object, n_rows: int) -> np.ndarray:
     """Return the area of each face, ones for points."""
     if is_cloud(obj):
         return np.ones(n_rows)
-    return read_floats(obj.data.polygons, "area")
+    return known.face_areas(obj.data)

@@ -10,13 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import read_floats
-from ..mesh.points import is_cloud, positions_of
+from ..mesh.by_label import sums_by_label
 from ..stored.identity import Identity
 from ..stored.record import record_of
 from ..stored.versions import MEASURED_ON, entries_of, versions_of
@@ -63,7 +61,7 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
     if found is None:
         return None
     record = record_of(obj)
-    measured_on = fingerprints(obj, found.labels, len(found.identities))
+    measured_on = sums_by_label(obj, found.labels, len(found.identities))
     ranks = np.full(len(measured_on), np.nan)
     for row, (identity, (_, turn)) in enumerate(
         zip(found.identities, found.origins, strict=True)
@@ -79,36 +77,6 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
         ranks,
         fitting_record or record,
         _problem(found, fitting_record),
-    )
-
-
-def fingerprints(
-    obj: bpy.types.Object, labels: NDArray[np.integer], n_parts: int
-) -> NDArray[np.float64]:
-    """Return what tells the faces of each part from others: see `PartFigures`."""
-    areas, centers = _faces(obj)
-    counts = np.bincount(labels, minlength=n_parts)
-    totals = np.bincount(labels, areas, n_parts)
-    weights = np.maximum(totals, np.finfo(float).tiny)
-    middles = [np.bincount(labels, areas * x, n_parts) / weights for x in centers.T]
-    return np.stack([counts, totals, *middles], axis=1)
-
-
-def _faces(
-    obj: bpy.types.Object,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the areas (P,) and centers (P, 3) of faces, or points, as they are now."""
-    if is_cloud(obj):
-        places = positions_of(obj).astype(np.float64)
-        return np.ones(len(places)), places
-    if obj.data.is_editmode:
-        faces = bmesh.from_edit_mesh(obj.data).faces
-        areas = np.array([face.calc_area() for face in faces])
-        return areas, np.array([face.calc_center_median() for face in faces])
-    polygons = obj.data.polygons
-    return (
-        read_floats(polygons, "area").astype(np.float64),
-        read_floats(polygons, "center", 3).astype(np.float64),
     )
 
 

@@ -15,7 +15,7 @@ from bpy.types import Material
 from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
-from ..mesh.corners import corner_faces, corner_vertices
+from ..mesh.known import corner_faces, corner_vertices
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..stored.identity import Identity

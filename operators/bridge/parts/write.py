@@ -14,7 +14,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
-from ..mesh.corners import vertices_by_label
+from ..mesh.by_label import ByLabel
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
@@ -32,7 +32,6 @@ from ..views.colors import show_as_overlay
 from ..views.face_sets_and_colors import paint_points, show, shown
 from .continuing import BeforeWriting, by_number
 from .erase import erase_parts
-from .figures import fingerprints
 from .kept_materials import is_overlaid
 from .materials import discard_unused, own_materials, points_material
 from .rows import write_rows
@@ -46,10 +45,9 @@ def write_parts(
     kept: Sequence[Identity] | None = None,
     by_hand: NDArray[np.bool_] | None = None,
     faces: NewFaces | None = None,
+    ready: ByLabel | None = None,
 ) -> None:
-    """Show a decomposition on its object, in place of an earlier one.
-
-    Everything is checked before anything is written.
+    """Show a decomposition on its object; everything is checked before it is written.
 
     Parameters
     ----------
@@ -58,12 +56,13 @@ def write_parts(
     parameters : Parameters
         To be recorded with it.
     kept : sequence of Identity, optional
-        Who the parts are, after an edit. Without it they are those of the object that
-        they share most area with; only the others are new.
+        Who the parts are, after an edit; by default those they share most area with.
     by_hand : (P,) bool, optional
         Faces, or points, that the user settled by hand.
     faces : NewFaces, optional
-        The faces that the object gets; without it, it has them already.
+        The faces that the object gets, if it does not have them already.
+    ready : ByLabel, optional
+        What the parts have on the object, if that was read before.
 
     Raises
     ------
@@ -74,17 +73,16 @@ def write_parts(
     _check_fits(obj, decomposition, faces)
     overlaid, also_shown, before = is_overlaid(obj), shown(obj), BeforeWriting.of(obj)
     identities = kept or before.continued_by(obj, decomposition, faces)
-    decomposition, identities = by_number(decomposition, identities)
     former = _made_bare(obj, faces)
-    asleep = before.asleep(identities)
-    everyone = sorted((*identities, *asleep), key=attrgetter("number"))
-    restore = _write_mesh(obj, decomposition, identities, everyone, before.materials)
-    if by_hand is not None and by_hand.any():
-        layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
-    if is_cloud(obj):
-        _write_points(obj, decomposition, identities)
+    decomposition, ready, identities = by_number(obj, decomposition, ready, identities)
+    everyone = [*identities, *before.asleep(identities)]
+    everyone.sort(key=attrgetter("number"))
+    restore = _write_mesh(
+        obj, decomposition, ready, identities, everyone, before.materials
+    )
+    _write_layers(obj, decomposition, identities, by_hand)
     write_restore(obj.data, restore)
-    _note(obj, decomposition, parameters, restore, everyone, identities, before)
+    _note(obj, decomposition, ready, parameters, restore, everyone, identities, before)
     show(obj, *also_shown)
     if overlaid:
         show_as_overlay(obj)
@@ -116,6 +114,7 @@ def _made_bare(
 def _note(
     obj: bpy.types.Object,
     decomposition: Decomposition,
+    ready: ByLabel,
     parameters: Parameters,
     restore: Restore,
     everyone: Sequence[Identity],
@@ -128,10 +127,8 @@ def _note(
     here = {each.number for each in identities}
     identities = [each for each in everyone if each.number in here]
     materials = _material_names(obj, [each.number in here for each in everyone])
-    measured_on = [
-        [float(f"{value:.5g}") for value in row]
-        for row in fingerprints(obj, decomposition.labels, len(identities)).tolist()
-    ]
+    sums = ready.sums.tolist()
+    measured_on = [[float(f"{value:.5g}") for value in row] for row in sums]
     for sharer in sharers(obj):
         write_result(
             sharer,
@@ -145,10 +142,17 @@ def _note(
         write_rows(sharer, everyone, before.rows.get(sharer.name, {}))
 
 
-def _write_points(
-    obj: bpy.types.Object, decomposition: Decomposition, identities: Sequence[Identity]
+def _write_layers(
+    obj: bpy.types.Object,
+    decomposition: Decomposition,
+    identities: Sequence[Identity],
+    by_hand: NDArray[np.bool_] | None,
 ) -> None:
-    """Write the colors of points, and their normals if we estimated them."""
+    """Write what the user settled; for points their colors, and estimated normals."""
+    if by_hand is not None and by_hand.any():
+        layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
+    if not is_cloud(obj):
+        return
     paint_points(obj, decomposition.labels, identities)
     if decomposition.normals is not None:
         set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
@@ -185,6 +189,7 @@ def check_writable(obj: bpy.types.Object) -> None:
 def _write_mesh(
     obj: bpy.types.Object,
     decomposition: Decomposition,
+    ready: ByLabel,
     identities: Sequence[Identity],
     everyone: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
@@ -204,12 +209,9 @@ def _write_mesh(
     before = put_in_slots(obj, materials, places[decomposition.labels])
     layers = layers_of(obj)
     layers.set_faces(PART_LAYER, numbers[decomposition.labels])
-    labels = decomposition.labels.astype(np.int32)
-    members = vertices_by_label(obj.data, labels, len(identities))
-    for place, vertices in zip(
-        places.tolist() if groups else (), members, strict=False
-    ):
-        layers.fill_group(obj.vertex_groups[groups[place]], vertices)
+    for place, vertices in zip(places.tolist(), ready.vertices, strict=True):
+        if groups:
+            layers.fill_group(obj.vertex_groups[groups[place]], vertices)
     layers.finish()
     return Restore(
         groups=groups, active_group=active_group, user_groups=users, **before
@@ -228,8 +230,7 @@ def _add_groups(
 
 def _named(identities: Sequence[Identity], groups: Sequence[str]) -> list[Identity]:
     """Return identities with their groups' names: taken names get a number."""
-    both = zip(identities, groups, strict=True)
-    return [replace(each, name=group) for each, group in both]
+    return [replace(each, name=g) for each, g in zip(identities, groups, strict=True)]
 
 
 def _materials(

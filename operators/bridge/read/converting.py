@@ -17,7 +17,7 @@ from mathutils import Matrix, Vector
 
 from ....core.errors import DecompositionError
 from ..mesh.attributes import read_floats, read_ints
-from ..mesh.corners import corner_vertices
+from ..mesh.known import corner_vertices
 from ..refusals import CONVERTIBLE
 
 # A shape is flat if its points are this close to a plane, as a share of its size.

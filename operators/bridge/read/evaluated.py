@@ -19,7 +19,7 @@ from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.results.parts import Decomposition
 from ..mesh.attributes import read_floats, read_ints, write_ints
-from ..mesh.corners import triangles_of
+from ..mesh.known import triangles_of
 from ..stored.record import EVALUATED, ORIGINAL
 from .shape import stretch
 from .shown_mesh import differs, evaluated

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
-from ..mesh.corners import triangles_of
+from ..mesh.known import triangles_of
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
 from .converting import mesh_of

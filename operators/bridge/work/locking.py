@@ -33,7 +33,7 @@ from ..stored.versions import psi_by_k_of
 from .computing import decompose_object
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
-from .run_edit import Edited, written
+from .run_edit import Edited, ready_to_write, written
 from .session_cache import session_cache
 
 _NOT_CUT = (
@@ -90,7 +90,7 @@ def decompose_unlocked(
         found = _with_known_numbers((yield from steps), record)
         return Edited(written(found, seen), None, parameters, seen=seen)
 
-    return work()
+    return ready_to_write(obj, work())
 
 
 def _with_known_numbers(found: Decomposition, record: dict[str, Any]) -> Decomposition:
@@ -161,7 +161,7 @@ def _decompose_rest(
         found = replace(found, ranks=ranks, pairs=pairs, notes=said)
         return Edited(written(found, seen), None, parameters, parts.by_hand, seen=seen)
 
-    return work()
+    return ready_to_write(obj, work())
 
 
 def _ranks(

@@ -16,12 +16,14 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..cuts.new_faces import NewFaces
+from ..mesh.by_label import ByLabel
 from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
 from ..read.shape import read_shape
+from ..read.target import Target
 from ..stored.identity import Identity
 from ..stored.record import EVALUATED, ORIGINAL, note_mesh
 from .in_step import let_undo_see_all
@@ -51,6 +53,8 @@ class Edited:
         The faces that the object gets with the parts; None if it has them already.
     seen : SeenMesh or None
         The mesh as it is seen, if the parts were found on that.
+    ready : ByLabel or None
+        What the parts have on the object, read before it is written to.
     """
 
     decomposition: Decomposition
@@ -59,6 +63,7 @@ class Edited:
     by_hand: NDArray[np.bool_] | None = None
     faces: NewFaces | None = None
     seen: SeenMesh | None = None
+    ready: ByLabel | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -80,6 +85,7 @@ class Edited:
             self.identities,
             self.by_hand,
             self.faces,
+            self.ready,
         )
         note_mesh(obj, EVALUATED if self.seen else ORIGINAL)
         let_undo_see_all(obj)
@@ -88,6 +94,23 @@ class Edited:
 def written(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
     """Return parts of a mesh as it is seen as parts of the faces that get them."""
     return found if seen is None else seen.on_own_faces(found)
+
+
+def ready_to_write(obj: bpy.types.Object, steps: Steps[Edited]) -> Steps[Edited]:
+    """Run `steps`, then read what writing asks of the object: this takes long, too."""
+    if obj.type != "MESH" or obj.mode == "EDIT":
+        return steps
+    target = Target.of(obj)
+
+    def work() -> Steps[Edited]:
+        found = yield from within(steps, 0.0, 0.99)
+        if found.faces is not None:
+            return found
+        labels, n_parts = found.decomposition.labels, found.decomposition.n_parts
+        ready = ByLabel.in_steps(target.find, labels, n_parts)
+        return replace(found, ready=(yield from within(ready, 0.99, 1.0)))
+
+    return work()
 
 
 def edit_object(

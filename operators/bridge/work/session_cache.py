@@ -1,6 +1,6 @@
 """Keep one cache per session, so that decomposing the same shape again is quick.
 
-It is the only state of the extension that outlives an operator, but for the triangles
+It is the only state of the extension that outlives an operator, but for the figures
 of the latest mesh, which are forgotten with it. It holds arrays and a
 ray tree, and no data of the file. Shapes are compared by content, so that no change
 goes unnoticed.
@@ -13,7 +13,7 @@ import atexit
 import bpy
 
 from .... import core
-from ..mesh import corners
+from ..mesh import known
 from ..rays.bvh import BvhRayCaster
 
 _cache: core.ShapeCache | None = None
@@ -32,7 +32,7 @@ def forget(*_: object) -> None:
     """Empty the cache. Blender passes arguments to handlers; they are ignored."""
     global _cache
     _cache = None
-    corners.forget()
+    known.forget()
 
 
 def register() -> None:

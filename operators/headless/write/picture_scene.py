@@ -11,7 +11,7 @@ import numpy as np
 from mathutils import Euler, Matrix, Vector
 from numpy.typing import NDArray
 
-from ...bridge.mesh.corners import corner_vertices
+from ...bridge.mesh.known import corner_vertices
 from ...bridge.mesh.points import is_cloud, positions_of
 from ...bridge.parts.materials import discard_unused, our_materials
 from .render_engine import RenderEngine

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...bridge.mesh.corners import triangles_of
+from ...bridge.mesh.known import triangles_of
 
 FloatArray = NDArray[np.float64]
 TriangleArray = NDArray[np.int64]

@@ -23,7 +23,7 @@ from ...bridge.mesh.attributes import (
     write_floats,
     write_ints,
 )
-from ...bridge.mesh.corners import corner_faces, corner_vertices
+from ...bridge.mesh.known import corner_faces, corner_vertices
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
 from ...bridge.parts.palette import UNPAINTED
 from ...bridge.stored.names import PART_LAYER

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...bridge.mesh.attributes import read_floats, read_ints
-from ...bridge.mesh.corners import corner_vertices
+from ...bridge.mesh.known import corner_vertices
 from ...bridge.mesh.points import is_cloud, positions_of
 from ...bridge.views.face_sets_and_colors import point_colors
 from .names import legal_names

@@ -35,6 +35,7 @@ from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
+from weak_convex_decomposition.operators.bridge.work.locking import decompose_unlocked
 from weak_convex_decomposition.operators.bridge.work.session_cache import forget
 
 PARAMETERS = Parameters()
@@ -75,14 +76,14 @@ def steps_of_a_run(obj: bpy.types.Object) -> Steps:
         steps.setdefault(stage, []).append(now - before)
         stage, before = following, now
 
-    work = decompose_object(obj, PARAMETERS)
+    work = decompose_unlocked(obj, PARAMETERS)
     note("Start")
     try:
         while True:
             note(next(work).stage)
     except StopIteration as stop:
         note("Writing")
-        write_parts(obj, stop.value, PARAMETERS)
+        stop.value.write(obj)
     note("")
     return steps
 

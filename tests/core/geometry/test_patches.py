@@ -91,7 +91,7 @@ def test_nodes_without_area_are_contracted():
     graph = graph_of(
         shapes.mesh_of([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [(0, 1, 2), (2, 1, 1)])
     )
-    one = contracted(graph, np.array([0, 1]))
+    one = run(contracted(graph, np.array([0, 1])))
     assert np.isfinite(one.centers).all()
     assert one.areas.tolist() == [0.5, 0.0]
 

@@ -98,12 +98,16 @@ def test_progress_is_drawn_less_often_where_that_takes_long(
 ):
     now = 100.0
     monkeypatch.setattr(modal, "time", SimpleNamespace(perf_counter=lambda: now))
-    pressed = press(WCD_OT_decompose, window)  # shows the first
+    pressed = press(WCD_OT_decompose, window)
+    assert not window.status  # a quick run shows nothing
+    now = began = 100.3
+    pressed.modal(None, TIMER)
+    assert window.status
     now += drawing
     pressed.modal(None, TIMER)
     for late, drawn in ((0.99, False), (1.01, True)):
         window.status = ""
-        now = 100.0 + late * seconds
+        now = began + late * seconds
         pressed.modal(None, TIMER)
         assert bool(window.status) == drawn
 

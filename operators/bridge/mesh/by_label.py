@@ -1,0 +1,169 @@
+"""What the faces of each label have together: vertices, areas and centers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import bmesh
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ....core.steps.progress import Progress, Steps
+from .known import (
+    SLOW,
+    Known,
+    corner_faces,
+    corner_vertices,
+    face_areas,
+    face_centers,
+    latest_of,
+)
+from .points import is_cloud, positions_of
+
+# Bytes for which vertices each label has: all labels at once are quicker.
+_ROOM = 2**26
+
+
+@dataclass(frozen=True, eq=False)
+class ByLabel:
+    """What labels of faces, or of points, have on an object.
+
+    Attributes
+    ----------
+    vertices : sequence of list of int
+        The vertices of the faces of each label.
+    sums : (K, 5) float
+        See `sums_by_label`.
+    known : Known or None
+        What was known of the mesh that was read.
+    """
+
+    vertices: Sequence[list[int]]
+    sums: NDArray[np.float64]
+    known: Known | None = None
+
+    @classmethod
+    def of(
+        cls, obj: bpy.types.Object, labels: NDArray[np.integer], n_labels: int
+    ) -> ByLabel:
+        """Return what labels 0…K − 1 of the faces have on an object now."""
+        sums, mesh = sums_by_label(obj, labels, n_labels), obj.data
+        if getattr(mesh, "polygons", None):
+            members = _vertices(
+                corner_vertices(mesh), labels[corner_faces(mesh)], n_labels
+            )
+        else:
+            members = _vertices(np.arange(len(labels)), labels, n_labels)
+        return cls([each.tolist() for each in members], sums)
+
+    @classmethod
+    def in_steps(
+        cls,
+        find: Callable[[], bpy.types.Object],
+        labels: NDArray[np.integer],
+        n_labels: int,
+    ) -> Steps[ByLabel | None]:
+        """Return the same in steps, None if the mesh is not the latest that was read.
+
+        Parameters
+        ----------
+        find : callable
+            Returns the object, or raises if it is gone.
+        labels : (P,) int
+        n_labels : int
+        """
+        yield Progress("Writing", 0.0)
+        mesh = find().data
+        plain = isinstance(mesh, bpy.types.Mesh) and not mesh.is_editmode
+        known = latest_of(mesh) if plain else None
+        if known is None:
+            return None
+        for name in (name for name in SLOW if name not in known.asked):
+            yield Progress("Writing", 0.1)
+            if latest_of(find().data) is not known:
+                return None
+            known.read(find().data, name)
+        yield Progress("Writing", 0.5)
+        sums = _sums(labels, n_labels, known.asked["areas"], known.asked["centers"])
+        yield Progress("Writing", 0.7)
+        of_corners = labels[known.asked["corner_faces"]]
+        members = list(_vertices(known.corners, of_corners, n_labels))
+        yield Progress("Writing", 0.9)
+        return cls([each.tolist() for each in members], sums, known)
+
+    def is_of(self, obj: bpy.types.Object) -> bool:
+        """Return whether an object surely has the faces that were read."""
+        return self.known is not None and latest_of(obj.data) is self.known
+
+    def in_order(self, order: NDArray[np.integer]) -> ByLabel:
+        """Return the same for labels in another order."""
+        vertices = [self.vertices[label] for label in order]
+        return replace(self, vertices=vertices, sums=self.sums[order])
+
+
+def sums_by_label(
+    obj: bpy.types.Object, labels: NDArray[np.integer], n_labels: int
+) -> NDArray[np.float64]:
+    """Return the number of faces of each label, their area and their center.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    labels : (P,) int
+        Label of each face, or point; points have an area of 1 each.
+    n_labels : int
+
+    Returns
+    -------
+    (K, 5) float
+    """
+    if is_cloud(obj):
+        places = positions_of(obj)
+        return _sums(labels, n_labels, np.ones(len(places)), places)
+    if obj.data.is_editmode:
+        faces = bmesh.from_edit_mesh(obj.data).faces
+        areas = np.array([face.calc_area() for face in faces])
+        centers = np.array([face.calc_center_median() for face in faces])
+        return _sums(labels, n_labels, areas, centers)
+    return _sums(labels, n_labels, face_areas(obj.data), face_centers(obj.data))
+
+
+def _sums(
+    labels: NDArray[np.integer],
+    n_labels: int,
+    areas: NDArray[np.floating],
+    centers: NDArray[np.floating],
+) -> NDArray[np.float64]:
+    """Return what `sums_by_label` does, of faces with these areas and centers."""
+    areas = areas.astype(np.float64)
+    counts = np.bincount(labels, minlength=n_labels)
+    totals = np.bincount(labels, areas, n_labels)
+    weights = np.maximum(totals, np.finfo(float).tiny)
+    middles = [np.bincount(labels, areas * x, n_labels) / weights for x in centers.T]
+    return np.stack([counts, totals, *middles], axis=1)
+
+
+def _vertices(
+    vertices: NDArray[np.integer], labels: NDArray[np.integer], n_labels: int
+) -> Iterator[NDArray[np.intp]]:
+    """Yield the vertices that have each label 0…K − 1.
+
+    Parameters
+    ----------
+    vertices, labels : (C,) int
+        They may come several times, with several labels.
+    n_labels : int
+    """
+    n_vertices = int(vertices.max(initial=-1)) + 1
+    at_once = max(_ROOM // max(n_vertices, 1), 1)
+    for first in range(0, n_labels, at_once):
+        members = np.zeros((min(at_once, n_labels - first), n_vertices), dtype=bool)
+        if len(members) < n_labels:
+            here = (labels >= first) & (labels < first + len(members))
+            members[labels[here] - first, vertices[here]] = True
+        else:
+            members[labels, vertices] = True
+        for of_label in members:
+            yield np.flatnonzero(of_label)

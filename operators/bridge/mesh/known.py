@@ -1,0 +1,169 @@
+"""What Blender is slow to tell of a mesh, kept for the latest that was read.
+
+It is found again by content, so that no change goes unnoticed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .attributes import FloatArray, IntArray, read_floats, read_ints
+
+Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
+
+
+class Known(NamedTuple):
+    """What is known of a mesh: what all else follows from, and what was asked.
+
+    Attributes
+    ----------
+    places : (V, 3) float32
+        Its vertices.
+    corners : (C,) int32
+        The vertex of each corner.
+    of_triangles : (T,) int32
+        The face of each triangle.
+    triangles : Triangles
+    asked : dict
+        The arrays of `SLOW` that were read already.
+    """
+
+    places: FloatArray
+    corners: IntArray
+    of_triangles: IntArray
+    triangles: Triangles
+    asked: dict[str, NDArray[Any]]
+
+    def is_of(self, mesh: bpy.types.Mesh) -> bool:
+        """Return whether a mesh has these vertices and faces."""
+        sizes = len(mesh.vertices), len(mesh.loops)
+        if sizes != (len(self.places), len(self.corners)):
+            return False  # Blender need not find the triangles
+        if not np.array_equal(self.places, _positions(mesh)):
+            return False
+        if not np.array_equal(self.corners, corner_vertices(mesh)):
+            return False
+        return np.array_equal(self.of_triangles, _faces_of_triangles(mesh))
+
+    def read(self, mesh: bpy.types.Mesh, name: str) -> NDArray[Any]:
+        """Return an array of `SLOW`, read from the mesh if it was not asked before."""
+        if name not in self.asked:
+            self.asked[name] = SLOW[name](mesh)
+            self.asked[name].flags.writeable = False
+        return self.asked[name]
+
+
+_latest: Known | None = None
+
+
+def triangles_of(mesh: bpy.types.Mesh) -> Triangles:
+    """Return the vertices of a mesh, its triangles, and the face of each triangle.
+
+    Returns
+    -------
+    vertices : (V, 3) float
+    triangles : (T, 3) int
+    faces : (T,) int
+    """
+    global _latest
+    if _latest is None or not _latest.is_of(mesh):
+        faces, corners = _faces_of_triangles(mesh), corner_vertices(mesh)
+        places = _positions(mesh)
+        arrays = (
+            places.astype(np.float64),
+            corners.astype(np.int64)[_corners_of_triangles(mesh, faces)],
+            faces.astype(np.int64),
+        )
+        for array in arrays:
+            array.flags.writeable = False  # a shape need not copy it
+        _latest = Known(places, corners, faces, arrays, {})
+    return _latest.triangles
+
+
+def face_areas(mesh: bpy.types.Mesh) -> FloatArray:
+    """Return the area of each face, (P,)."""
+    return _read(mesh, "areas")
+
+
+def face_centers(mesh: bpy.types.Mesh) -> FloatArray:
+    """Return the center of each face, (P, 3)."""
+    return _read(mesh, "centers")
+
+
+def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
+    """Return the face of each corner, (C,)."""
+    return _read(mesh, "corner_faces")
+
+
+def latest_of(mesh: bpy.types.Mesh) -> Known | None:
+    """Return what is known of a mesh if it is the latest, None if not.
+
+    It is the same object until another mesh is read, or this one has changed.
+    """
+    return _latest if _latest is not None and _latest.is_of(mesh) else None
+
+
+def forget() -> None:
+    """Free the memory of the latest mesh."""
+    global _latest
+    _latest = None
+
+
+def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
+    """Return the vertex of each corner, (C,)."""
+    return of_corners(mesh, ".corner_vert", "vertex_index")
+
+
+def of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:
+    """Return an attribute of the corners, or the property with the same numbers."""
+    corners = mesh.attributes.get(attribute)
+    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_ints(mesh.loops, name)
+    return read_ints(corners.data, "value")  # a hundred times faster
+
+
+def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[Any]:
+    """Return an array of `SLOW`, which is kept for the next time if it may be."""
+    known = latest_of(mesh)
+    return SLOW[name](mesh) if known is None else known.read(mesh, name)
+
+
+def _corner_faces(mesh: bpy.types.Mesh) -> IntArray:
+    """Return the face of each corner, (C,)."""
+    starts = read_ints(mesh.polygons, "loop_start")  # a third faster than sizes
+    sizes = np.diff(starts, append=len(mesh.loops))
+    return np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
+
+
+def _faces_of_triangles(mesh: bpy.types.Mesh) -> IntArray:
+    """Return the face of each triangle, (T,)."""
+    mesh.calc_loop_triangles()
+    return read_ints(mesh.loop_triangle_polygons, "value")
+
+
+def _corners_of_triangles(mesh: bpy.types.Mesh, faces: IntArray) -> IntArray:
+    """Return the corners of each triangle, (T, 3), from the face of each, (T,)."""
+    if np.array_equal(faces, np.arange(len(mesh.polygons))):  # quicker than to ask
+        return np.arange(3 * len(faces), dtype=np.int32).reshape(-1, 3)
+    return read_ints(mesh.loop_triangles, "loops", 3)
+
+
+def _positions(mesh: bpy.types.Mesh) -> FloatArray:
+    """Return the positions of the vertices, (V, 3)."""
+    places = mesh.attributes.get("position")
+    if places is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_floats(mesh.vertices, "co", 3)
+    return read_floats(places.data, "vector", 3)  # a hundred times faster
+
+
+# What takes a while for a large mesh, by the names under which it is kept.
+SLOW: dict[str, Callable[[bpy.types.Mesh], NDArray[Any]]] = {
+    "areas": lambda mesh: read_floats(mesh.polygons, "area"),
+    "centers": lambda mesh: read_floats(mesh.polygons, "center", 3),
+    "corner_faces": _corner_faces,
+}
