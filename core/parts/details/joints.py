@@ -18,6 +18,7 @@ from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..merging.pieces import connected_parts
 from ..part_memo import PartMemo
+from ..partition import Partitioner
 from ..seam_smoothing import smooth_seams
 from .knees import Knees, find_knees
 from .spikes import find_spikes
@@ -74,10 +75,23 @@ def cut_joints(
         nodes = np.where(cut > 0, nodes.max() + cut, nodes)
     if nodes.max() < found.n_parts:
         return found
+    if memo.patches is None:
+        nodes = yield from _evened(memo, nodes, parameters)
     numbered = by_size(nodes, shape.graph)[shape.nodes]
     visibility, ks = memo.visibility, (found.psi_by_k, found.best_k)
     cut_parts = describe(visibility, numbered, parameters, *ks)
     return replace(cut_parts, notes=found.notes)
+
+
+def _evened(
+    memo: PartMemo, nodes: NDArray[np.int64], parameters: Parameters
+) -> Steps[NDArray[np.int64]]:
+    """Return parts (P,) symmetric to the mirror plane, if psi is as high then."""
+    by = Partitioner(memo, parameters)
+    even = yield from by.symmetric(nodes, range(2, int(nodes.max()) * 2))
+    least = by.psi(nodes) - 2 * by.negligible
+    best = max(even, key=lambda each: each.psi, default=None)
+    return nodes if best is None or best.psi < least else best.parts
 
 
 def _smooth(

@@ -6,7 +6,9 @@ import shapes
 from computed import decompose, graph_of, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.describe import describe
+from weak_convex_decomposition.core.parts.details import joints
 from weak_convex_decomposition.core.parts.details.joints import cut_joints
+from weak_convex_decomposition.core.parts.details.knees import Knees, find_knees
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -77,6 +79,16 @@ def test_legs_come_apart_at_their_knees():
             shank, thigh = leg & (far > 17) & (z < 13), leg & (far > 7) & (far < 17)
             assert len(set(after.labels[shank])) == len(set(after.labels[thigh])) == 1
             assert after.labels[shank][0] != after.labels[thigh][0]
+
+
+def test_what_is_cut_on_one_side_is_cut_on_the_other(monkeypatch):
+    def on_one_side(surface):
+        knees = find_knees(surface)
+        left = surface.graph.centers[:, 0].mean() < 0
+        return Knees(np.zeros_like(knees.pieces), []) if left else knees
+
+    monkeypatch.setattr(joints, "find_knees", on_one_side)
+    assert parts(spider(bent=True)).n_parts == 9
 
 
 def test_straight_legs_stay_whole():
