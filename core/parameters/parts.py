@@ -217,7 +217,8 @@ class Parameters:
             "Each level after the first splits the parts again, with all samples on one"
             " part at a time, which takes several times as long. Parts is the number of"
             " parts on the first level. 0 is Auto: if Parts is Auto too, parts that"
-            " hide details are split again, such as an arm with fingers",
+            " hide details are split again, such as an arm with fingers, a head with"
+            " antennae or a leg with a knee",
             low=0,
             high=4,
             affects_sight=False,

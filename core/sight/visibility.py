@@ -86,6 +86,11 @@ class Visibility:
         """Whether likely pairs were guessed from more than lines of sight."""
         return self.likely_pairs is not self.psi_pairs
 
+    @property
+    def shows_all_of_solid(self) -> bool:
+        """Whether the shape is a whole mesh, not flat, and all pairs are known."""
+        return _is_whole_solid(self.shape) and self.psi_pairs.known is None
+
     @cached_property
     def thickness(self) -> NDArray[np.float64]:
         """Length inside the shape of a ray straight inwards from each sample, (N,)."""
@@ -179,9 +184,13 @@ def _are_guessed(shape: PreparedShape) -> bool:
     All samples of a large face are likely in one part, and it would be one of its own.
     People divide whole shapes. Within a part, such as a hand, lines of sight tell more.
     """
-    solid = shape.solid is not None and shape.plane is None
+    return _is_whole_solid(shape) and len(shape.targets.triangles) >= _FEW_TRIANGLES
+
+
+def _is_whole_solid(shape: PreparedShape) -> bool:
+    """Return whether a shape is a whole mesh that is not flat."""
     whole = (shape.targets.polygons < shape.n_nodes).all()
-    return bool(solid and whole and len(shape.targets.triangles) >= _FEW_TRIANGLES)
+    return bool(shape.solid is not None and shape.plane is None and whole)
 
 
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:

@@ -22,6 +22,7 @@ from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..find import find_parts
 from ..part_memo import PartMemo
+from .joints import cut_joints
 from .prongs import find_tips
 
 See: TypeAlias = Callable[[PreparedShape, Parameters], Steps[PartMemo]]
@@ -88,6 +89,8 @@ def split_further(
         return found
     if finds_details(parameters):
         yield Progress("Details", 0.0)
+        steps = cut_joints(memo, found, parameters)
+        found = yield from within(steps, 0.0, 0.1)
         few = replace(
             parameters,
             samples=min(parameters.samples, _SAMPLES),
@@ -95,9 +98,9 @@ def split_further(
             max_parts=min(parameters.max_parts, _MOST_PIECES),
             containers="HOLLOW",  # limbs enclose nothing, and to find that out is slow
         )
-        tips = yield from within(_tips_of(memo, found), 0.0, 0.1)
+        tips = yield from within(_tips_of(memo, found), 0.1, 0.2)
         steps = _split(prepared, memo, found, few, see, _FURTHER_LEVELS, tips)
-        return (yield from within(steps, 0.1, 1.0))
+        return (yield from within(steps, 0.2, 1.0))
     all_samples, n_levels = replace(parameters, parts=0), parameters.levels - 1
     return (yield from _split(prepared, memo, found, all_samples, see, n_levels))
 

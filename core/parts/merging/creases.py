@@ -37,8 +37,8 @@ class CreaseParts:
     Parameters
     ----------
     partitioner : Partitioner
-        What makes other parts. Where it sees no likely pairs, as in point clouds, flat
-        and low-poly shapes, no pieces are proposed.
+        What makes other parts. For point clouds, for parts of a shape and where only
+        some pairs of samples are known, no pieces are proposed.
     """
 
     def __init__(self, partitioner: Partitioner) -> None:
@@ -50,7 +50,7 @@ class CreaseParts:
         graph = self._partitioner.graph
         if graph.outline is not None:
             return self._between_corners(graph)
-        if not self._partitioner.visibility.is_guessed:
+        if not self._partitioner.visibility.shows_all_of_solid:
             return np.zeros(graph.n_polygons, dtype=np.int64)
         least = _LEAST_PIECE * graph.areas.sum()
         pieces = connected_parts(graph, crease_pieces(graph), least)

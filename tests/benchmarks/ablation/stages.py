@@ -9,6 +9,7 @@ import numpy as np
 from weak_convex_decomposition.core.clusters.embedding import embed
 from weak_convex_decomposition.core.parameters.presets import preset
 from weak_convex_decomposition.core.parts import part_count, part_memo, partition
+from weak_convex_decomposition.core.parts.details import levels
 from weak_convex_decomposition.core.parts.merging.creases import CreaseParts
 from weak_convex_decomposition.core.sight import visibility
 from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
@@ -32,6 +33,20 @@ def no_sides(*_: object) -> Iterator[None]:
     return ()
 
 
+def nothing_cut(_memo: object, found: object, _parameters: object) -> Iterator[None]:
+    """Return, as steps, parts without a look for spikes and knees."""
+    yield from ()
+    return found
+
+
+better = CreaseParts.better
+
+
+def without_parts_of_auto(by: CreaseParts, *given: Any) -> np.ndarray:
+    """Return the best parts of a given number, but for those that Auto's make."""
+    return better(by, *given[:3])
+
+
 FULL = "full"
 CONE = {"sight": "CONE", "samples": 3000}
 # What each line changes of the parameters.
@@ -52,6 +67,8 @@ CHANGES: dict[str, dict[str, object]] = {
     "no tolerance in the search for k": {},
     "bends kept": {"bends": "KEEP"},
     "no details": {"levels": 1},
+    "no spikes and knees": {},
+    "Auto's parts do not compete": {},
     "two levels": {"levels": 2},
     "preset of the paper": preset("PAPER").changes,
 }
@@ -62,6 +79,8 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
     ],
     "no likely pairs": [(visibility, "likely_pairs", by_sight_alone)],
     "no loops of creases": [(CreaseParts, "better", lambda _, rivals, *__: rivals)],
+    "no spikes and knees": [(levels, "cut_joints", nothing_cut)],
+    "Auto's parts do not compete": [(CreaseParts, "better", without_parts_of_auto)],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],

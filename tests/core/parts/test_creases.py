@@ -1,5 +1,7 @@
 """Parts between closed loops of creases."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapes
@@ -99,3 +101,40 @@ def test_seams_between_concave_corners_divide_flat_shapes():
 
 def test_pieces_of_flat_shapes_are_merged_to_the_number_allowed():
     assert decompose(ears(), Parameters(max_parts=2)).n_parts == 2
+
+
+# Corners of the boxes of a figure, by axis.
+LINES = (
+    np.array([-1.6, -1.0, -0.6, -0.1, 0.1, 0.6, 1.0, 1.6]),
+    np.array([-0.6, -0.4, -0.3, -0.2, 0.2, 0.3, 0.4, 0.6]),
+    np.array([-3.2, 0.0, 0.6, 2.5, 2.6, 3.8]),
+)
+
+
+def figure():
+    """Return a low-poly figure of boxes, and the number of the box of each face."""
+    body, head = ((1, 6), (1, 6), (1, 4)), ((2, 5), (0, 7), (4, 5))
+    arms = [(x, (2, 5), (2, 3)) for x in ((0, 1), (6, 7))]
+    legs = [(x, (3, 4), (0, 1)) for x in ((1, 3), (4, 6))]
+    boxes = [body, head, *arms, *legs]
+    mesh = shapes.blocks((7, 7, 5), *boxes)
+    corners = mesh.vertices.astype(int).T
+    places = [line[numbers] for line, numbers in zip(LINES, corners, strict=True)]
+    inside = graph_of(mesh).centers - 0.1 * graph_of(mesh).normals
+    within = [
+        (inside > np.array(box)[:, 0]).all(axis=1)
+        & (inside < np.array(box)[:, 1]).all(axis=1)
+        for box in boxes
+    ]
+    mesh = replace(mesh, vertices=np.stack(places, axis=1))
+    return mesh, np.argmax(within, axis=0)
+
+
+def test_a_low_poly_figure_keeps_its_head_apart():
+    mesh, boxes = figure()
+    assert len(mesh.triangles) < 600
+    found = decompose(mesh, Parameters())
+    assert found.n_parts == 6
+    head = found.labels[boxes == 1]
+    assert len(set(head)) == 1
+    assert set(head).isdisjoint(found.labels[boxes != 1])

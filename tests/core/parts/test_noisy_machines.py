@@ -12,7 +12,7 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 # Standard deviation of each coordinate, as a share of the diagonal.
 NOISE = 0.002
 AROUND = 32
-# Rows of corners on each wall, at random heights.
+# Rows of corners on each wall, at random heights; on rough caps, too.
 ROWS = 3
 
 
@@ -32,12 +32,12 @@ def bolt():
     return [(0, 0), (1, 0), (1, 0.8), (0.5, 0.8), (0.5, 4), (0, 4)]
 
 
-def rough(outline, seed):
-    """Return an outline turned around z, in long triangles whose corners are noisy."""
+def rough(outline, seed, caps):
+    """Return an outline turned around z, in triangles whose corners are noisy."""
     rng = np.random.default_rng(seed)
     line = [outline[0]]
     for start, end in pairwise(outline):
-        shares = np.sort(rng.random(ROWS if start[0] == end[0] else 0))
+        shares = np.sort(rng.random(ROWS if caps or start[0] == end[0] else 0))
         line += [*(np.outer(1 - shares, start) + np.outer(shares, end)), end]
     mesh = shapes.turned(*np.transpose(line), AROUND)
     noise = NOISE * mesh.diagonal * rng.normal(size=mesh.vertices.shape)
@@ -47,10 +47,16 @@ def rough(outline, seed):
 
 
 @pytest.mark.parametrize(
-    ("make", "rims"), [(shaft, [2, 4]), (bush, [0.5]), (bolt, [0.8])]
+    ("make", "rims", "caps"),
+    [
+        (shaft, [2, 4], False),
+        (bush, [0.5], False),
+        (bush, [0.5], True),
+        (bolt, [0.8], False),
+    ],
 )
-def test_parts_agree_with_steps(make, rims, agreement):
-    mesh, places = rough(make(), seed=0)
+def test_parts_agree_with_steps(make, rims, caps, agreement):
+    mesh, places = rough(make(), 0, caps)
     found = decompose(mesh, Parameters(samples=600))
     # The ring of a rim belongs to the wider step.
     steps = np.searchsorted(rims, places[:, 2] - 1e-9)

@@ -25,7 +25,9 @@ class KnownParts:
     graph = graph_of(shapes.box())  # no loop of creases divides it
 
     def __init__(self, alpha, guessed):
-        self.visibility = SimpleNamespace(is_guessed=guessed)
+        self.visibility = SimpleNamespace(
+            is_guessed=guessed, shows_all_of_solid=guessed
+        )
         self.parameters = Parameters(alpha=alpha)
 
     def psi(self, parts):

@@ -1,0 +1,114 @@
+"""Distances along the surface of one part, without a ray."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse.csgraph import dijkstra
+
+from ...geometry.face_graph import FaceGraph
+
+
+def roads(graph: FaceGraph, pairs: NDArray[np.integer[Any]]) -> sparse.csr_array:
+    """Return the ways (P, P) between the centers of some neighbors (E, 2)."""
+    ways = np.linalg.norm(np.subtract(*graph.centers[pairs.T]), axis=1)
+    ways = np.maximum(ways, np.finfo(float).tiny)  # 0 would mean no way
+    size = graph.n_polygons, graph.n_polygons
+    return sparse.csr_array((ways, tuple(pairs.T)), shape=size)
+
+
+def distances(ways: sparse.csr_array, starts: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return how far nodes (P,) are from the nearest start; 0 without a way."""
+    far = dijkstra(ways, directed=False, indices=starts, min_only=True)
+    return np.where(np.isfinite(far), far, 0.0)
+
+
+def hills(
+    far: NDArray[np.float64], pairs: NDArray[np.integer[Any]]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the top that each node climbs to, (P,), and where hills meet, (S, 3).
+
+    These are two tops and the node between them, the highest ones first.
+    """
+    order = np.argsort(far, kind="stable")
+    ranks = np.empty_like(order)
+    ranks[order] = np.arange(len(order))
+    higher = ranks.copy()
+    for one, other in (pairs.T, pairs.T[::-1]):
+        np.maximum.at(higher, one, ranks[other])
+    tops = order[higher]
+    while (tops[tops] != tops).any():
+        tops = tops[tops]
+    ends = np.sort(tops[pairs], axis=1)
+    levels = ranks[pairs].min(axis=1)
+    rows = np.flatnonzero(ends[:, 0] != ends[:, 1])
+    rows = rows[np.argsort(-levels[rows], kind="stable")]
+    first = np.sort(np.unique(ends[rows], axis=0, return_index=True)[1])
+    rows = rows[first]
+    return tops, np.column_stack([ends[rows], order[levels[rows]]])
+
+
+class PartSurface:
+    """The surface of one part, and how far its nodes are from its seams.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+        Of the whole shape.
+    kept : (M,) int
+        The nodes of the part.
+    at_seams : (P,) bool
+        Whether each node of the whole shape has a neighbor in another part.
+
+    Attributes
+    ----------
+    graph : FaceGraph
+        Of the part alone; its nodes are numbered in the order of `kept`.
+    kept : (M,) int
+    """
+
+    def __init__(
+        self,
+        graph: FaceGraph,
+        kept: NDArray[np.int64],
+        at_seams: NDArray[np.bool_],
+    ) -> None:
+        self.graph, self.kept = graph.part(kept), kept
+        self._starts = np.flatnonzero(at_seams[kept])
+        self._roads = roads(self.graph, self.graph.neighbors)
+
+    @cached_property
+    def far(self) -> NDArray[np.float64]:
+        """(M,) distance of each node from the seams; 0 if there are none."""
+        if len(self._starts) == 0:
+            return np.zeros(len(self.kept))
+        return distances(self._roads, self._starts)
+
+    def from_node(self, node: int) -> NDArray[np.float64]:
+        """Return the distance of each node from one of them, (M,); 0 without a way."""
+        return distances(self._roads, np.array([node]))
+
+    def tips(self, least: float, most: int) -> list[int]:
+        """Return the nodes that are farther from the seams than all around them.
+
+        Parameters
+        ----------
+        least : float
+            Going to a farther one, one has to come nearer to the seams by this much.
+        most : int
+            So many tips are returned at most, the clearest first.
+        """
+        tops, saddles = hills(self.far, self.graph.neighbors)
+        over = {int(self.far.argmax()): float(self.far.max())}
+        tips = tops.copy()
+        for one, other, saddle in saddles.tolist():
+            short, long = sorted((tips[one], tips[other]), key=self.far.__getitem__)
+            if short != long:
+                over[int(short)] = float(self.far[short] - self.far[saddle])
+                tips[tips == short] = long
+        clear = [tip for tip in over if over[tip] >= least]
+        return sorted(clear, key=lambda tip: -over[tip])[:most]
