@@ -105,13 +105,15 @@ class InsideTest:
         inside = (np.concatenate(leaving) > 0).sum(axis=0) > self._n_axes
         if self._n_axes == 1:  # nothing but the surface is between inside and outside
             return inside, inside & small
-        rows = np.flatnonzero(inside & small)
-        votes = np.zeros(len(rows), dtype=np.int64)
+        whole, undecided = np.zeros(len(centers), dtype=bool), inside & small
+        votes = np.zeros(len(centers), dtype=np.int64)
         for axis, more in enumerate(leaving):
+            rows = np.flatnonzero(undecided)
             losses = self._hole_edges.losses(axis, local[rows], radii[rows])
-            votes += (more[:, rows] > losses).sum(axis=0)
-        whole = np.zeros(len(centers), dtype=bool)
-        whole[rows] = votes > self._n_axes
+            votes[rows] += (more[:, rows] > losses).sum(axis=0)
+            whole |= votes > self._n_axes
+            left = 2 * (self._n_axes - 1 - axis)
+            undecided &= ~whole & (votes + left > self._n_axes)
         return inside & (whole | (radii > min(_NARROW, largest))), whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
