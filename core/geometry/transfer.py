@@ -50,14 +50,21 @@ def carry(
     weight = _NORMAL_WEIGHT * spacing
     tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))
     places = np.hstack([graph.centers, weight * graph.normals])
+    order = np.argsort(polygon_of, kind="stable")
+    ends = np.searchsorted(polygon_of[order], np.arange(0, len(places), _BLOCK))
     found = []
-    for start in range(0, len(places), _BLOCK):
+    for start, own in zip(
+        range(0, len(places), _BLOCK), np.split(order, ends[1:]), strict=True
+    ):
         yield Progress("Surface", start / len(places))
         block = places[start : start + _BLOCK]
-        found.append(tree.query(block, min(_NEAREST, len(samples))))
-    distances, nearest = (np.concatenate(arrays) for arrays in zip(*found, strict=True))
+        distances, nearest = tree.query(block, min(_NEAREST, len(samples)))
+        away, rows = distances / spacing, polygon_of[own] - start
+        found.append((nearest, _shares(away, nearest, own, rows, len(samples))))
     yield Progress("Surface", 1.0)
-    return Transfer(samples, polygon_of, graph, distances / spacing, nearest)
+    nearest = np.concatenate([rows for rows, _ in found])
+    shares = sparse.vstack([share for _, share in found], "csr")
+    return Transfer(samples, polygon_of, graph, nearest, shares)
 
 
 def labels_by_area(
@@ -110,6 +117,35 @@ def _spacing(samples: Samples, graph: FaceGraph) -> float:
     return float(np.sqrt(graph.areas.sum() / len(samples)))
 
 
+def _shares(
+    distances: NDArray[np.float64],
+    nearest: NDArray[np.int64],
+    own: NDArray[np.int64],
+    polygon_of: NDArray[np.int64],
+    n_samples: int,
+) -> sparse.csr_array:
+    """Return weights of samples (P, N): by distance, plus 1 on a polygon's own ones.
+
+    `distances` and `nearest` are (P, n), in mean distances of samples. `own` (S,) are
+    the samples on these polygons, and `polygon_of` (S,) where they lie.
+    """
+    n_polygons, n_nearest = nearest.shape
+    says = (1.0 / (1.0 + distances / _SOFTENING)).ravel()
+    rows = np.repeat(np.arange(n_polygons), n_nearest)
+    shares = sparse.csr_array(
+        (
+            np.concatenate([says, np.ones(len(own))]),
+            (
+                np.concatenate([rows, polygon_of]),
+                np.concatenate([nearest.ravel(), own]),
+            ),
+        ),
+        shape=(n_polygons, n_samples),
+    )
+    totals = np.asarray(shares.sum(axis=1)).ravel()
+    return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)
+
+
 class Transfer:
     """Carries values of samples to polygons, and labels of polygons to samples.
 
@@ -120,14 +156,14 @@ class Transfer:
         Polygon that each sample lies on.
     graph : FaceGraph
         Graph of these polygons, or of the points of a cloud.
-    distances, nearest : (P, n) float and int
-        The samples nearest to each polygon, and how far they are in mean distances of
-        samples.
+    nearest : (P, n) int
+        The samples nearest to each polygon.
+    shares : (P, N) sparse float
+        Weight of each sample in the vote of each polygon; rows sum to 1.
 
     Attributes
     ----------
     shares : (P, N) sparse float
-        Weight of each sample in the vote of each polygon; rows sum to 1.
     polygon_of : (N,) int
         Polygon that each sample lies on.
     graph : FaceGraph
@@ -141,11 +177,10 @@ class Transfer:
         samples: Samples,
         polygon_of: NDArray[np.int64],
         graph: FaceGraph,
-        distances: NDArray[np.float64],
         nearest: NDArray[np.int64],
+        shares: sparse.csr_array,
     ) -> None:
-        self.polygon_of = polygon_of
-        self.shares = self._shares(distances, nearest)
+        self.polygon_of, self.shares = polygon_of, shares
         shells = graph.shells()
         numbers, first = np.unique(shells, return_index=True)
         unsampled = np.setdiff1d(numbers, shells[polygon_of])
@@ -156,27 +191,6 @@ class Transfer:
         touching = self._touching(samples, shells, _spacing(samples, graph))
         links = np.concatenate([touching, hung])
         self.graph = replace(graph, links=links)
-
-    def _shares(
-        self, distances: NDArray[np.float64], nearest: NDArray[np.int64]
-    ) -> sparse.csr_array:
-        """Return weights (P, N): by distance, plus 1 on the sample's own polygon."""
-        n_polygons, n_nearest = nearest.shape
-        n_samples = len(self.polygon_of)
-        says = (1.0 / (1.0 + distances / _SOFTENING)).ravel()
-        rows = np.repeat(np.arange(n_polygons), n_nearest)
-        shares = sparse.csr_array(
-            (
-                np.concatenate([says, np.ones(n_samples)]),
-                (
-                    np.concatenate([rows, self.polygon_of]),
-                    np.concatenate([nearest.ravel(), np.arange(n_samples)]),
-                ),
-            ),
-            shape=(n_polygons, n_samples),
-        )
-        totals = np.asarray(shares.sum(axis=1)).ravel()
-        return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)
 
     def _touching(
         self, samples: Samples, shells: NDArray[np.int64], spacing: float

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
 
-# Most triangles in one tree: Blender takes 0.07 s for it. With four trees, rays take a
-# quarter longer than with one, but the trees take half of the time.
-_MOST_TRIANGLES = 300_000
+# Most triangles in one tree: Blender takes less than 0.1 s for it. With four trees, rays
+# take a quarter longer than with one, but the trees take half of the time.
+_MOST_TRIANGLES = 200_000
 
 
 class RayCaster(Protocol):

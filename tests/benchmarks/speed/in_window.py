@@ -5,8 +5,10 @@
 A subject for tests/window/drive.py: the tab is opened, the libraries load, and the
 button's operator runs on Suzanne and on finer ones. The longest freeze is the longest
 time between two of Blender's rounds, drawing the result included; the longest step is
-the longest time of the processor in the extension's own code. A script's seconds are
-those of the same operator without slices, right after, in the same process. The word
+the longest time of the processor in the extension's own code. "own" is all time in that
+code; the rest is Blender's, which draws the window. A script's seconds are those of the
+same operator without slices, right after, in the same process. The first ratio is of all
+seconds to them, the second of our own. The word
 `at-once` after the subject starts the first run before any library is loaded.
 """
 
@@ -53,7 +55,7 @@ class Pulse:
         return lambda op, context, event: self._time(method, op, context, event)
 
     def restart(self):
-        self.freeze = self.step = 0.0
+        self.freeze = self.step = self.own = 0.0
         self._last = time.perf_counter()
 
     def _beat(self):
@@ -62,17 +64,19 @@ class Pulse:
         return _BEAT
 
     def _time(self, function, *arguments):
-        before = time.thread_time()
+        before, began = time.thread_time(), time.perf_counter()
         try:
             return function(*arguments)
         finally:
             self.step = max(self.step, time.thread_time() - before)
+            self.own += time.perf_counter() - began
 
 
-def row(name, seconds, pulse, script=None):
+def row(name, seconds, own, pulse, script=None):
     """Print a row of the table."""
-    shares = "" if script is None else f"{script:9.2f}{seconds / script:7.2f}"
-    print(f"{name:22}{seconds:9.2f}{pulse.freeze:9.2f}{pulse.step:9.2f}{shares}")
+    figures = [seconds, own, pulse.freeze, pulse.step]
+    figures += [] if script is None else [script, seconds / script, own / script]
+    print(f"{name:22}{''.join(f'{figure:9.2f}' for figure in figures)}")
 
 
 def a_run(hands, pulse, name, with_script=True):
@@ -84,7 +88,7 @@ def a_run(hands, pulse, name, with_script=True):
     with hands.context():
         bpy.ops.wcd.decompose("INVOKE_DEFAULT", True)
     yield lambda: running.current is None
-    seconds = time.perf_counter() - before
+    seconds, own = time.perf_counter() - before, pulse.own
     yield 1.0  # the result is drawn
     script = None
     if with_script:
@@ -94,7 +98,7 @@ def a_run(hands, pulse, name, with_script=True):
             before = time.perf_counter()
             bpy.ops.wcd.decompose()
             script = time.perf_counter() - before
-    row(name, seconds, pulse, script)
+    row(name, seconds, own, pulse, script)
     yield 0.5
 
 
@@ -114,8 +118,8 @@ def steps(hands):
     # Blender would draw the view again and again after each change, to smooth edges.
     bpy.context.preferences.system.viewport_aa = "OFF"
     print(f"Blender {bpy.app.version_string}")
-    titles = ("seconds", "freeze", "step", "script")
-    print(f"{'':22}{''.join(f'{title:>9}' for title in titles)}{'ratio':>7}")
+    titles = ("seconds", "own", "freeze", "step", "script", "ratio", "own")
+    print(f"{'':22}{''.join(f'{title:>9}' for title in titles)}")
     model(hands, 2, False)
     yield 2.0
     pulse.restart()
@@ -124,7 +128,7 @@ def steps(hands):
     if "at-once" not in sys.argv:
         yield lambda: not any(libraries._missing())
         yield 0.5
-        row("libraries, idle", time.perf_counter() - before, pulse)
+        row("libraries, idle", time.perf_counter() - before, pulse.own, pulse)
         yield from a_run(hands, pulse, "first run", with_script=False)
     else:
         yield from a_run(hands, pulse, "first run, at once", with_script=False)
