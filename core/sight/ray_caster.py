@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
 
-# Most triangles in one tree: Blender takes less than 0.1 s for it. With four trees, rays
+# Most triangles in one tree: Blender takes up to 0.09 s for it. With four trees, rays
 # take a quarter longer than with one, but the trees take half of the time.
 _MOST_TRIANGLES = 200_000
 

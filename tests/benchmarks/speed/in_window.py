@@ -5,11 +5,11 @@
 A subject for tests/window/drive.py: the tab is opened, the libraries load, and the
 button's operator runs on Suzanne and on finer ones. The longest freeze is the longest
 time between two of Blender's rounds, drawing the result included; the longest step is
-the longest time of the processor in the extension's own code. "own" is all time in that
-code; the rest is Blender's, which draws the window. A script's seconds are those of the
-same operator without slices, right after, in the same process. The first ratio is of all
-seconds to them, the second of our own. The word
-`at-once` after the subject starts the first run before any library is loaded.
+the longest time of the processor in the extension's own code. "own" is all time in it;
+the rest is Blender's, which draws the window. A script's seconds are those of the same
+operator without slices, right after, in the same process. The first ratio is of all
+seconds to them, the second of our own. The word `at-once` after the subject starts
+the first run before any library is loaded.
 """
 
 import sys
