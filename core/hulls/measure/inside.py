@@ -27,7 +27,6 @@ _COARSE = 0.3
 # Factor by which volumes are raised, for what lies between the lines: it raises the
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
-
 # Patches smaller than this radius count as outside where the edge of a hole makes rays
 # differ: what some of them call outside may be as thin as can be.
 _NARROW = 0.001
@@ -105,15 +104,14 @@ class InsideTest:
         inside = (np.concatenate(leaving) > 0).sum(axis=0) > self._n_axes
         if self._n_axes == 1:  # nothing but the surface is between inside and outside
             return inside, inside & small
-        whole, undecided = np.zeros(len(centers), dtype=bool), inside & small
+        whole, undecided = np.zeros_like(inside), inside & small
         votes = np.zeros(len(centers), dtype=np.int64)
         for axis, more in enumerate(leaving):
             rows = np.flatnonzero(undecided)
             losses = self._hole_edges.losses(axis, local[rows], radii[rows])
             votes[rows] += (more[:, rows] > losses).sum(axis=0)
             whole |= votes > self._n_axes
-            left = 2 * (self._n_axes - 1 - axis)
-            undecided &= ~whole & (votes + left > self._n_axes)
+            undecided &= ~whole & (votes + 2 * (2 - axis) > self._n_axes)
         return inside & (whole | (radii > min(_NARROW, largest))), whole
 
     def volume_outside(self, shape: CollisionShape) -> float:

@@ -39,6 +39,7 @@ STAGE_OF = {
     "Details": "clusters",
     "Symmetry": "clusters",
     "Seams": "seams",
+    "Writing": "write",
 }
 
 
