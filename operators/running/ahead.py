@@ -24,8 +24,8 @@ Wanted: TypeAlias = tuple[Parameters, bool]
 
 # What is added to the number of parts. One more or less comes first.
 _NEAR = (1, -1, 2, -2)
-# Seconds of work in a slice, and between two slices: the hand may soon ask for more. Steps
-# end some 20 ms late.
+# Seconds of work in a slice, and between two slices: the hand may soon ask for more.
+# Steps end some 20 ms late.
 _SLICE = 0.02
 _PAUSE = 0.005
 
