@@ -87,8 +87,11 @@ def large(hands):
         bpy.ops.wcd.decompose(parts=4, samples=600)
         bpy.ops.ed.undo_push(message="Parts")
     settings.parts, settings.live = 4, True
-    for k in (5, 7):
-        settings.parts = k
+    for k in (5, 7):  # as a slider does, which is an undo step
+        with hands.context():
+            bpy.ops.wm.context_set_int(
+                "EXEC_DEFAULT", True, data_path="scene.wcd.parts", value=k
+            )
         yield lambda k=k: n_parts() == k and running.current is None
         assert is_rough(bpy.context.active_object)
         with hands.context():
