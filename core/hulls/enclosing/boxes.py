@@ -12,8 +12,8 @@ from ...geometry.primitives import CollisionShape, Hull
 # Number of faces that a box may be flush with while cuts are compared.
 _FEW_FACES = 4
 # Decimal digits to which volumes and areas are compared; the longest side is 2.
-_DIGITS = 9
-_EQUAL = 10**-_DIGITS
+DIGITS = 9
+_EQUAL = 10**-DIGITS
 # Number of angles at which rectangles are looked at, to bound their areas, and of
 # coordinates that are held at once for that.
 _TURNS = 96
@@ -69,7 +69,7 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
         shape = CollisionShape(
             "BOX", hull, (low + high) / 2 @ axes, axes, (high - low) / 2
         )
-        if (volume := (round(shape.volume, _DIGITS), row)) < smallest:
+        if (volume := (round(shape.volume, DIGITS), row)) < smallest:
             best, smallest = shape, volume
     assert best is not None  # a hull has faces
     return best
@@ -79,7 +79,7 @@ def _few_normals(hull: Hull) -> NDArray[np.float64]:
     """Return the normals of the largest faces, and the principal axes, (N, 3)."""
     a, b, c = np.moveaxis(hull.corners, 1, 0)
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    largest = np.argsort(-np.round(areas, _DIGITS), kind="stable")[:_FEW_FACES]
+    largest = np.argsort(-np.round(areas, DIGITS), kind="stable")[:_FEW_FACES]
     axes = principal_axes(hull.vertices)
     return _distinct(np.concatenate([hull.planes[largest, :3], axes]))
 

@@ -9,14 +9,12 @@ from numpy.typing import NDArray
 
 from ...geometry.frames import frame_of, principal_axes
 from ...geometry.primitives import CollisionShape, Hull
-from .boxes import box_around, rough_box
+from .boxes import DIGITS, box_around, rough_box
 
 # Rounds of the search for the smallest ball; its radius is then exact to a thousandth.
 _ROUNDS = 1000
 # Rounds while cuts are compared, when a hundredth is enough.
 _FEW_ROUNDS = 60
-# Decimal digits to which volumes are compared; the longest side is 2.
-_DIGITS = 9
 
 
 def sphere_around(hull: Hull) -> CollisionShape:
@@ -116,7 +114,7 @@ def _best_along(
 ) -> CollisionShape:
     """Return the smallest shape along an axis; only the best is made exactly."""
     rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
-    best = min(rough, key=lambda shape: round(shape.volume, _DIGITS))
+    best = min(rough, key=lambda shape: round(shape.volume, DIGITS))
     return along(hull, best.axes[2], _ROUNDS)
 
 

@@ -68,17 +68,13 @@ class ErrorBound:
         self._inner: PatchSearch | None = None
         self._outer: PatchSearch | None = None
         self.known = 0.0
-        self._limit = np.inf
 
     @cached_property
     def is_allowed(self) -> bool:
         """Whether the error is surely allowed: found in far less time than `value`."""
         bound = self._bound(self._largest, self._largest, _TOLERANCE)
         allowed = bound <= self._largest
-        if allowed:
-            self._limit = self._largest
-        else:
-            self.known = bound
+        self.known = 0.0 if allowed else bound
         return allowed
 
     def up_to(self, limit: float) -> float:
@@ -94,7 +90,9 @@ class ErrorBound:
 
         Errors below half of the largest one allowed are not told apart.
         """
-        return self._bound(self._largest * _TOLD_APART, self._limit, _TOLERANCE)
+        known_allowed = self.__dict__.get("is_allowed", False)
+        limit = self._largest if known_allowed else np.inf
+        return self._bound(self._largest * _TOLD_APART, limit, _TOLERANCE)
 
     @property
     def place(self) -> NDArray[np.float64]:
