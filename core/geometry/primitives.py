@@ -63,10 +63,10 @@ class Hull:
         highest = np.empty(m)
         normals, offsets = np.ascontiguousarray(self.planes[:, :3]), self.planes[:, 3:]
         step = max(_HEIGHTS_AT_ONCE // (c * len(normals)), 1)
-        for start in range(0, m, step):
-            some = corners[start : start + step].reshape(-1, 3)
-            heights = (normals @ some.T + offsets).reshape(len(normals), -1, c)
-            highest[start : start + step] = heights.min(axis=2).max(axis=0)
+        for start in range(0, m, step):  # corner by corner: NumPy's minima take less
+            some = corners[start : start + step].swapaxes(0, 1).reshape(-1, 3)
+            heights = (normals @ some.T + offsets).reshape(len(normals), c, -1)
+            highest[start : start + step] = heights.min(axis=1).max(axis=0)
         return highest
 
     @cached_property
