@@ -21,6 +21,7 @@ from .bridge.work.computing import summary
 from .bridge.work.in_step import let_undo_see_all
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
+from .running import ahead
 from .running.computation import Computation
 from .running.on_objects import OnEach
 from .settings import ADVANCED, FRONT, RUN, draw, parameters_from, properties_for
@@ -66,6 +67,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         carrier = placed_carrier(obj, value.seen)
         value.write(carrier)
         show_colors_as(carrier, self.colors)
+        ahead.start(value)
         return summary(value.decomposition)
 
 

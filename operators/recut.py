@@ -71,9 +71,7 @@ class _Recut(Replacement):
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
         said = super()._commit(obj, value)
-        # Other numbers are looked for in the same way only if all faces are free.
-        if value.by_hand is None and value.faces is None:
-            ahead.start(value.parameters, value.decomposition.n_parts)
+        ahead.start(value)
         if value.decomposition.rough:
             refine.start()
         return said

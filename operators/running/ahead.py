@@ -15,6 +15,7 @@ import bpy
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
+from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
 
@@ -34,13 +35,17 @@ _wanted: list[Wanted] = []
 _current: tuple[Wanted, Job[object]] | None = None
 
 
-def start(parameters: Parameters, n_parts: int) -> None:
-    """Find the parts for numbers near one, of the latest shape, from now on.
+def start(found: Edited) -> None:
+    """Find the parts for numbers near that of a run, of the latest shape, from now on.
 
-    Numbers above the highest that are tried anyway would need more eigenvectors, which
-    take a tenth of a second at once.
+    Other numbers are looked for in the same way only if all faces are free. Numbers
+    above the highest that are tried anyway would need more eigenvectors, which take a
+    tenth of a second at once.
     """
-    near = [n_parts + step for step in _NEAR]
+    if found.by_hand is not None or found.faces is not None:
+        return
+    parameters = found.parameters
+    near = [found.decomposition.n_parts + step for step in _NEAR]
     near = [n for n in near if 1 < n <= parameters.max_parts]
     _wanted[:] = [
         (replace(parameters, parts=n), rough) for rough in (True, False) for n in near

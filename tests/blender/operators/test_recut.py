@@ -136,6 +136,12 @@ def test_parts_found_ahead_are_those_of_a_run(suzanne, settings, monkeypatch, sl
     assert labels(suzanne) == found
 
 
+def test_parts_are_found_ahead_from_the_first_run_on(suzanne):
+    ahead.stop()
+    bpy.ops.wcd.decompose(samples=200, parts=4)
+    assert ahead.go_on() is not None
+
+
 def test_nothing_is_found_ahead_after_a_file_is_loaded(suzanne, settings):
     settings.parts = 4
     ahead.go_on()
