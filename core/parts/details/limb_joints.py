@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .knees import find_knees
-from .limb import limb_of
+from .limb import Joints, limb_of
 from .necks import find_necks
 from .seen import Count, Demands, seen_beyond
 from .surface import PartSurface
@@ -39,10 +39,9 @@ class LimbJoints:
 
     def __init__(self, bends: bool) -> None:
         self._bends = bends
-        self._bent: dict[int, Pieces] = {}
-        self._necked: dict[int, Pieces] = {}
-        self._turns: list[float] = []
-        self._depths: list[float] = []
+        self._nodes: dict[int, NDArray[np.int64]] = {}
+        self._knees: dict[int, Joints] = {}
+        self._necks: dict[int, Joints] = {}
 
     def add(self, number: int, part: PartSurface, count: Count) -> None:
         """Look for joints of a part, if it is a limb.
@@ -58,16 +57,10 @@ class LimbJoints:
         limb = limb_of(part)
         if limb is None:
             return
+        self._nodes[number] = part.kept
+        self._necks[number] = seen_beyond(find_necks(limb), count, _BESIDE_NECKS)
         if self._bends:
-            knees = seen_beyond(find_knees(limb), count, _BESIDE_KNEES)
-            if knees.sizes:
-                self._bent[number] = part.kept, knees.pieces
-                self._turns.append(max(knees.sizes))
-                return
-        necks = seen_beyond(find_necks(limb), count, _BESIDE_NECKS)
-        self._depths.append(max(necks.sizes, default=0.0))
-        if necks.sizes:
-            self._necked[number] = part.kept, necks.pieces
+            self._knees[number] = seen_beyond(find_knees(limb), count, _BESIDE_KNEES)
 
     def cut(self) -> dict[int, Pieces]:
         """Return the limbs that come apart.
@@ -78,8 +71,17 @@ class LimbJoints:
             From the number of each limb to its nodes, and the piece of each; 0 is the
             one at the seams.
         """
-        bent = self._bent if max(self._turns, default=0.0) >= _CLEAR_TURN else {}
-        n_deep = sum(depth >= _DEPTH for depth in self._depths)
-        alike = n_deep >= max(_FEWEST_LIMBS, _LEAST_SHARE * len(self._depths))
-        clear = max(self._depths, default=0.0) >= _CLEAR_DEPTH
-        return bent | self._necked if alike and clear else dict(bent)
+        cut = {number: knees for number, knees in self._knees.items() if knees.sizes}
+        if max(map(_clearest, cut.values()), default=0.0) < _CLEAR_TURN:
+            cut = {}
+        straight = {n: necks for n, necks in self._necks.items() if n not in cut}
+        depths = np.array([_clearest(necks) for necks in straight.values()])
+        fewest = max(_FEWEST_LIMBS, _LEAST_SHARE * len(depths))
+        if (depths >= _DEPTH).sum() >= fewest and depths.max() >= _CLEAR_DEPTH:
+            cut |= {n: necks for n, necks in straight.items() if necks.sizes}
+        return {n: (self._nodes[n], joints.pieces) for n, joints in cut.items()}
+
+
+def _clearest(joints: Joints) -> float:
+    """Return the size of the clearest joint, 0 without one."""
+    return max(joints.sizes, default=0.0)
