@@ -17,6 +17,7 @@ from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ...sight.pair_visibility import sums_by_label
 from ..partition import Partitioner, count_parts
+from .flush import flush_seams
 from .pieces import connected_parts, merge_to
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
@@ -53,7 +54,9 @@ class CreaseParts:
         if not self._partitioner.visibility.shows_all_of_solid:
             return np.zeros(graph.n_polygons, dtype=np.int64)
         least = _LEAST_PIECE * graph.areas.sum()
-        pieces = connected_parts(graph, crease_pieces(graph), least)
+        seams = graph.bends > _CREASED
+        seams |= flush_seams(graph, seams)
+        pieces = connected_parts(graph, pieces_between(graph, seams), least)
         if count_parts(pieces) == 1:
             return pieces
         areas = np.where(_flat(graph, pieces)[pieces], 0.0, graph.areas)
@@ -70,7 +73,7 @@ class CreaseParts:
         shares = np.maximum(graph.areas / area, graph.weights)
         pieces = connected_parts(
             replace(graph, areas=shares),
-            crease_pieces(graph, _CORNER),
+            pieces_between(graph, graph.bends > _CORNER),
             by.parameters.smallest_part,
         )
         costs = replace(graph, lengths=graph.seam_costs)
@@ -162,8 +165,8 @@ def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
     return flat
 
 
-def crease_pieces(graph: FaceGraph, creased: float = _CREASED) -> NDArray[np.int64]:
-    """Return the pieces that are left when a surface is cut along all of its creases.
+def pieces_between(graph: FaceGraph, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Return the pieces that are left when a surface is cut along some edges.
 
     A crease that ends somewhere on the surface divides nothing. Shells that touch are
     one piece.
@@ -171,14 +174,13 @@ def crease_pieces(graph: FaceGraph, creased: float = _CREASED) -> NDArray[np.int
     Parameters
     ----------
     graph : FaceGraph
-    creased : float, optional
-        Least concave angle of a crease, in radians.
+    seams : (E,) bool
+        Which shared edges are cut.
 
     Returns
     -------
     (P,) int
         Piece of each polygon, in 0…K − 1.
     """
-    smooth = graph.neighbors[graph.bends <= creased]
-    ties = np.concatenate([smooth, graph.links])
+    ties = np.concatenate([graph.neighbors[~seams], graph.links])
     return components_at_once(ties, graph.n_polygons)

@@ -34,7 +34,7 @@ def no_sides(*_: object) -> Iterator[None]:
 
 
 def nothing_cut(_memo: object, found: object, _parameters: object) -> Iterator[None]:
-    """Return, as steps, parts without a look for spikes and knees."""
+    """Return, as steps, parts without a look for spikes, knees and necks."""
     yield from ()
     return found
 
@@ -67,7 +67,7 @@ CHANGES: dict[str, dict[str, object]] = {
     "no tolerance in the search for k": {},
     "bends kept": {"bends": "KEEP"},
     "no details": {"levels": 1},
-    "no spikes and knees": {},
+    "no spikes, knees and necks": {},
     "Auto's parts do not compete": {},
     "two levels": {"levels": 2},
     "preset of the paper": preset("PAPER").changes,
@@ -79,7 +79,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
     ],
     "no likely pairs": [(visibility, "likely_pairs", by_sight_alone)],
     "no loops of creases": [(CreaseParts, "better", lambda _, rivals, *__: rivals)],
-    "no spikes and knees": [(levels, "cut_joints", nothing_cut)],
+    "no spikes, knees and necks": [(levels, "cut_joints", nothing_cut)],
     "Auto's parts do not compete": [(CreaseParts, "better", without_parts_of_auto)],
     "no psi-raising moves": [
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)

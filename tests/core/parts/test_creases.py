@@ -7,7 +7,8 @@ import pytest
 import shapes
 from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.merging.creases import crease_pieces
+from weak_convex_decomposition.core.parts.merging.creases import pieces_between
+from weak_convex_decomposition.core.parts.merging.flush import flush_seams
 
 
 def pins():
@@ -16,6 +17,11 @@ def pins():
     heights = [-2, *np.linspace(-2, -0.5, 4), *[0] * 6, *[0.3] * 6]
     rise = [0.8, 1.3, 1.8, 2.3, 2.3]
     return shapes.turned([*radii, *[0.5] * 4, 0], heights + rise, 48)
+
+
+def crease_pieces(graph):
+    """Return the pieces between all creases."""
+    return pieces_between(graph, graph.bends > 0.25)
 
 
 @pytest.mark.parametrize(
@@ -103,23 +109,38 @@ def test_pieces_of_flat_shapes_are_merged_to_the_number_allowed():
     assert decompose(ears(), Parameters(max_parts=2)).n_parts == 2
 
 
-# Corners of the boxes of a figure, by axis.
-LINES = (
-    np.array([-1.6, -1.0, -0.6, -0.1, 0.1, 0.6, 1.0, 1.6]),
-    np.array([-0.6, -0.4, -0.3, -0.2, 0.2, 0.3, 0.4, 0.6]),
-    np.array([-3.2, 0.0, 0.6, 2.5, 2.6, 3.8]),
-)
+def both(*numbers):
+    """Return ascending numbers below 0, and the same above 0."""
+    return np.array([*numbers, *(-number for number in reversed(numbers))])
 
 
-def figure():
+# Corners of the boxes of two figures, by axis, and which of these across arms and legs
+# extend to. Parts of the second one hide less of each other.
+FIGURES = [
+    (
+        both(-1.6, -1.0, -0.6, -0.1),
+        both(-0.6, -0.4, -0.3, -0.2),
+        np.array([-3.2, 0.0, 0.6, 2.5, 2.6, 3.8]),
+        ((2, 5), (3, 4)),
+    ),
+    (
+        both(-2.8, -0.86, -0.46, -0.29),
+        both(-0.63, -0.53, -0.49, -0.41),
+        np.array([-2.2, 0.0, 2.1, 2.7, 2.9, 3.9]),
+        ((3, 4), (2, 5)),
+    ),
+]
+
+
+def figure(*lines, across):
     """Return a low-poly figure of boxes, and the number of the box of each face."""
     body, head = ((1, 6), (1, 6), (1, 4)), ((2, 5), (0, 7), (4, 5))
-    arms = [(x, (2, 5), (2, 3)) for x in ((0, 1), (6, 7))]
-    legs = [(x, (3, 4), (0, 1)) for x in ((1, 3), (4, 6))]
+    arms = [(x, across[0], (2, 3)) for x in ((0, 1), (6, 7))]
+    legs = [(x, across[1], (0, 1)) for x in ((1, 3), (4, 6))]
     boxes = [body, head, *arms, *legs]
     mesh = shapes.blocks((7, 7, 5), *boxes)
     corners = mesh.vertices.astype(int).T
-    places = [line[numbers] for line, numbers in zip(LINES, corners, strict=True)]
+    places = [line[numbers] for line, numbers in zip(lines, corners, strict=True)]
     inside = graph_of(mesh).centers - 0.1 * graph_of(mesh).normals
     within = [
         (inside > np.array(box)[:, 0]).all(axis=1)
@@ -130,11 +151,29 @@ def figure():
     return mesh, np.argmax(within, axis=0)
 
 
-def test_a_low_poly_figure_keeps_its_head_apart():
-    mesh, boxes = figure()
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_low_poly_figure_comes_apart_where_its_boxes_meet(number):
+    *lines, across = FIGURES[number]
+    mesh, boxes = figure(*lines, across=across)
     assert len(mesh.triangles) < 600
     found = decompose(mesh, Parameters())
     assert found.n_parts == 6
-    head = found.labels[boxes == 1]
-    assert len(set(head)) == 1
-    assert set(head).isdisjoint(found.labels[boxes != 1])
+    assert len(set(zip(found.labels, boxes, strict=True))) == 6
+
+
+def test_loops_are_closed_where_blocks_are_flush():
+    """The legs of a figure and its body have their outer sides in one plane."""
+    *lines, across = FIGURES[1]
+    mesh, boxes = figure(*lines, across=across)
+    graph = graph_of(mesh)
+    creases = graph.bends > 0.25
+    closed = pieces_between(graph, creases | flush_seams(graph, creases))
+    assert len(set(crease_pieces(graph))) == 4
+    assert len(set(closed)) == 6
+    assert len(set(zip(closed, boxes, strict=True))) == 6
+
+
+@pytest.mark.parametrize("make", [shapes.l_shape, shapes.plus, shapes.box])
+def test_what_is_more_flat_than_crease_is_no_loop(make):
+    graph = graph_of(make())
+    assert not flush_seams(graph, graph.bends > 0.25).any()

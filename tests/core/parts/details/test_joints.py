@@ -6,9 +6,10 @@ import shapes
 from computed import decompose, graph_of, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.describe import describe
-from weak_convex_decomposition.core.parts.details import joints
+from weak_convex_decomposition.core.parts.details import limb_joints
 from weak_convex_decomposition.core.parts.details.joints import cut_joints
-from weak_convex_decomposition.core.parts.details.knees import Knees, find_knees
+from weak_convex_decomposition.core.parts.details.knees import find_knees
+from weak_convex_decomposition.core.parts.details.limb import Joints
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -82,12 +83,12 @@ def test_legs_come_apart_at_their_knees():
 
 
 def test_what_is_cut_on_one_side_is_cut_on_the_other(monkeypatch):
-    def on_one_side(surface):
-        knees = find_knees(surface)
-        left = surface.graph.centers[:, 0].mean() < 0
-        return Knees(np.zeros_like(knees.pieces), []) if left else knees
+    def on_one_side(limb):
+        knees = find_knees(limb)
+        left = limb.part.graph.centers[:, 0].mean() < 0
+        return Joints(np.zeros_like(knees.pieces), []) if left else knees
 
-    monkeypatch.setattr(joints, "find_knees", on_one_side)
+    monkeypatch.setattr(limb_joints, "find_knees", on_one_side)
     assert parts(spider(bent=True)).n_parts == 9
 
 
