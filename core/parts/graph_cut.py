@@ -12,8 +12,6 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 from ..geometry.face_graph import FaceGraph
 from ..steps.progress import Progress, Steps
 
-# Largest cost of a label for a sample.
-_MOST_DISLIKE = 4.0
 # Cost of a seam as long as the square root of the area, at lambda = 1.
 _SEAM_UNIT = 0.02
 # Largest number of sweeps over all labels. Most shapes need two or three.
@@ -22,40 +20,6 @@ SWEEPS = 4
 _LARGEST_CAPACITY = 2**24
 # An expansion may relabel nodes up to this many steps away from the label's region.
 _BAND = 6
-
-
-def distances_to_parts(
-    embedding: NDArray[np.float64],
-    labels: NDArray[np.int64],
-    n_labels: int,
-) -> NDArray[np.float64]:
-    """Return the paper's data term of eq. 4: the cost of each label for each sample.
-
-    It is the negative logarithm of a Gaussian of the distance, in the embedding,
-    between the sample and the center of the label's samples, up to 4.
-
-    Parameters
-    ----------
-    embedding : (N, n) float
-        Coordinates of the samples in the embedding.
-    labels : (N,) int
-        Label of each sample, in 0…`n_labels` − 1, each used.
-    n_labels : int
-        Number of labels K.
-
-    Returns
-    -------
-    costs : (N, K) float
-        In 0…4, without unit.
-    """
-    members = np.eye(n_labels)[labels]
-    sizes = np.maximum(members.sum(axis=0), 1.0)
-    centers = (members.T @ embedding) / sizes[:, None]
-    squared = ((embedding[:, None, :] - centers[None]) ** 2).sum(axis=2)
-    # One variance for all: with variances of their own, wide parts swallow narrow ones.
-    variance = (members * squared).sum() / len(labels) + np.finfo(float).tiny
-    costs: NDArray[np.float64] = np.minimum(squared / (2 * variance), _MOST_DISLIKE)
-    return costs
 
 
 def cut_seams(
@@ -218,41 +182,51 @@ def _minimum_cut(
     largest = max(there.max(initial=0.0), sizes.max(initial=0.0))
     if largest <= 0:
         return np.zeros(n_nodes, dtype=bool)
-    source, sink = n_nodes, n_nodes + 1
     # An arc from the source is cut if a node moves that costs something. An arc to the
     # sink is cut if a node stays that would save something.
+    source, sink = n_nodes, n_nodes + 1
     costly = gain > 0
     held, drawn = np.flatnonzero(costly), np.flatnonzero(~costly)
     # The arcs of a node come first, then the arc to the source or sink; these have the
     # highest numbers. Last come their own arcs. So all are sorted without a search.
     ends = np.cumsum(np.bincount(tails, minlength=n_nodes) + 1)
-    n_inner, n_costly = len(tails) + n_nodes, len(held)
-    own = np.ones(n_inner, dtype=bool)
-    own[ends - 1] = False
-    inner, last = np.flatnonzero(own), ends - 1
-    from_source = slice(n_inner, n_inner + n_costly)
-    from_sink = slice(n_inner + n_costly, None)
-    all_heads = np.empty(n_inner + n_nodes, dtype=np.int32)
+    last, first = ends - 1, len(tails) + n_nodes
+    inner = np.delete(np.arange(first), last)
+    starts = np.concatenate([[0], ends, first + np.cumsum([len(held), len(drawn)])])
+    starts = starts.astype(np.int32)
+    from_source, from_sink = slice(*starts[-3:-1]), slice(*starts[-2:])
+    all_heads = np.empty(starts[-1], dtype=np.int32)
     all_heads[inner], all_heads[last] = heads, np.where(costly, source, sink)
     all_heads[from_source], all_heads[from_sink] = held, drawn
-    starts = np.zeros(n_nodes + 3, dtype=np.int32)
-    starts[1:-2], starts[-2:] = ends, (n_inner + n_costly, len(all_heads))
 
-    def scaled(costs: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.round(costs / largest * _LARGEST_CAPACITY)
-
+    there, back, sizes = (
+        np.round(costs / largest * _LARGEST_CAPACITY) for costs in (there, back, sizes)
+    )
     forwards, backwards = np.zeros((2, len(all_heads)), dtype=np.int32)
-    forwards[inner], backwards[inner] = scaled(there), scaled(back)
-    sizes = scaled(sizes)
+    forwards[inner], backwards[inner] = there, back
     forwards[last], backwards[last] = sizes * ~costly, sizes * costly
     forwards[from_source], backwards[from_sink] = sizes[held], sizes[drawn]
     shape = n_nodes + 2, n_nodes + 2
     graph = sparse.csr_array((backwards, all_heads, starts), shape)
     flow = maximum_flow(graph, sink, source, method="dinic").flow
     left = forwards + flow.data > 0
-    starts = np.concatenate([[0], np.cumsum(left)])[starts]
-    residual = sparse.csr_array((left[left], all_heads[left], starts), shape)
-    staying = breadth_first_order(residual, source, return_predecessors=False)
-    moves = np.ones(n_nodes + 2, dtype=bool)
-    moves[staying] = False
-    return moves[:n_nodes]
+    return ~_reached(all_heads[left], np.cumsum(left), starts, source)[:n_nodes]
+
+
+def _reached(
+    heads: NDArray[np.int32],
+    n_left: NDArray[np.int64],
+    starts: NDArray[np.int32],
+    start: int,
+) -> NDArray[np.bool_]:
+    """Return which nodes a walk from one reaches along the arcs that are left, (N,).
+
+    `heads` are theirs. `n_left` is how many are left up to each of all arcs, of which
+    those of a node begin at `starts`.
+    """
+    n_nodes = len(starts) - 1
+    arcs = np.ones(len(heads), dtype=np.int8), heads, np.append(0, n_left)[starts]
+    graph = sparse.csr_array(arcs, (n_nodes, n_nodes))
+    found = np.zeros(n_nodes, dtype=bool)
+    found[breadth_first_order(graph, start, return_predecessors=False)] = True
+    return found

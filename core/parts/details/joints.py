@@ -14,6 +14,7 @@ from ...geometry.face_graph import FaceGraph
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
 from ...sight.pair_tally import PairTally
+from ...steps.memo import digest
 from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..merging.pieces import connected_parts
@@ -133,7 +134,10 @@ def _pieces(
         kept = np.flatnonzero(parts == part)
         if not at_seams[kept].any():
             continue
-        surface = PartSurface(graph, kept, at_seams)
+        place = np.where(parts == part, 1 + at_seams, 0)
+        surface = memo.surfaces.recall(
+            digest(place), partial(PartSurface, graph, kept, at_seams)
+        )
         count = partial(_tally, memo, kept)
         found = find_spikes(surface, least)
         spikes = _seen_apart(np.zeros_like(kept), found, count, parameters.alpha)
