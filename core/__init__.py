@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from .cache import no_rays as no_rays
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
+    from .geometry.cutting.pieces import labels_by_area as labels_by_area
     from .geometry.cutting.pieces import labels_of_pieces as labels_of_pieces
     from .geometry.cutting.planes import find_cuts as find_cuts
     from .geometry.cutting.refined import RefinedMesh as RefinedMesh
     from .geometry.cutting.refined import refined as refined
-    from .geometry.transfer import labels_by_area as labels_by_area
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
     from .hulls.measure.one_shape import refit_in_steps as refit_in_steps
     from .hulls.outline import faces_of as faces_of
@@ -51,7 +51,7 @@ _HOMES = {
     "find_cuts": "geometry.cutting.planes",
     "RefinedMesh": "geometry.cutting.refined",
     "refined": "geometry.cutting.refined",
-    "labels_by_area": "geometry.transfer",
+    "labels_by_area": "geometry.cutting.pieces",
     "build_hulls_in_steps": "hulls.build",
     "refit_in_steps": "hulls.measure.one_shape",
     "faces_of": "hulls.outline",

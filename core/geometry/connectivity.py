@@ -16,6 +16,8 @@ from .mesh import TriangleMesh
 _MOST_SIDES = 2**20
 # Most nodes whose connected components are found in one step.
 _MOST_NODES = 2**20
+# So few pairs are connected one by one: SciPy takes as long to begin.
+_FEW_PAIRS = 16
 
 
 class Edges(NamedTuple):
@@ -112,6 +114,21 @@ def shared_edges_in_steps(
     return np.concatenate(neighbors), np.concatenate(along)
 
 
+def lengths_of_sides(
+    mesh: TriangleMesh, sides: NDArray[np.int32]
+) -> NDArray[np.float64]:
+    """Return the lengths (S,) of sides of triangles, numbered as in `Edges`.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    sides : (S,) int
+    """
+    corners = mesh.triangles.ravel()
+    ends = mesh.vertices[corners[sides + np.where(sides % 3 < 2, 1, -2)]]
+    return np.linalg.norm(mesh.vertices[corners[sides]] - ends, axis=1)
+
+
 def components(
     pairs: NDArray[np.integer[Any]], n_nodes: int
 ) -> Steps[NDArray[np.int64]]:
@@ -164,8 +181,38 @@ def components_at_once(
         Nodes that are connected.
     n_nodes : int
     """
-    found = connected_components(graph_of(pairs, n_nodes), directed=False)[1]
-    return found.astype(np.int64)
+    keys = np.unique(pairs[:, 0].astype(np.int64) * n_nodes + pairs[:, 1])
+    if len(keys) > _FEW_PAIRS:
+        graph = graph_of(pairs, n_nodes)
+        return connected_components(graph, directed=False)[1].astype(np.int64)
+    found = np.arange(n_nodes)
+    for one, other in zip(*np.divmod(keys, n_nodes), strict=True):
+        low, high = sorted((found[one], found[other]))
+        found[found == high] = low
+    return np.unique(found, return_inverse=True)[1].reshape(-1)
+
+
+def components_of_labels(
+    graph: sparse.csr_array, arcs: NDArray[np.int64], labels: NDArray[np.int64]
+) -> NDArray[np.int32]:
+    """Return the component of each node where only equal labels are connected, (N,).
+
+    Parameters
+    ----------
+    graph : (N, N) sparse
+        Adjacency matrix.
+    arcs : (2, A) int
+        Row and column of each stored entry, in 64 bits: NumPy is quicker so.
+    labels : (N,) int
+    """
+    alike = labels[arcs[0]] == labels[arcs[1]]
+    starts = np.zeros(len(alike) + 1, dtype=np.int32)
+    np.cumsum(alike, out=starts[1:])
+    # Any numbers will do as the weights of the arcs that are left.
+    rest = graph.data[: starts[-1]], graph.indices[alike], starts[graph.indptr]
+    within = sparse.csr_array(rest, graph.shape)
+    found: NDArray[np.int32] = connected_components(within, directed=False)[1]
+    return found
 
 
 def graph_of(pairs: NDArray[np.integer[Any]], n_nodes: int) -> sparse.csr_array:

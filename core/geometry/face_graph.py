@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -11,14 +11,24 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from ..steps.memo import Memo, digest
 from ..steps.progress import Progress, Steps, within
-from .connectivity import Edges, graph_of, shared_edges_in_steps
+from .connectivity import (
+    Edges,
+    components_at_once,
+    components_of_labels,
+    graph_of,
+    lengths_of_sides,
+    shared_edges_in_steps,
+)
 from .frames import unit
 from .mesh import TriangleMesh, blocks
 
 # A seam along an edge costs exp(-CREASE * bend) of the edge's length; `bend` is its
 # concave angle in radians.
 CREASE = 4.0
+# Labels whose pieces are kept: with another smallest part, most are asked for again.
+_MOST_KNOWN = 96
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +88,7 @@ class FaceGraph:
 
     def shells(self) -> NDArray[np.int64]:
         """Return the shell number of each polygon, (P,) int."""
-        return _components(self._graph)
+        return connected_components(self._graph, directed=False)[1].astype(np.int64)
 
     @cached_property
     def _graph(self) -> sparse.csr_array:
@@ -86,9 +96,15 @@ class FaceGraph:
         return graph_of(self.neighbors, self.n_polygons)
 
     @cached_property
-    def _tails(self) -> NDArray[np.int64]:
-        """Row number of each stored entry of the adjacency matrix."""
-        return np.repeat(np.arange(self.n_polygons), np.diff(self._graph.indptr))
+    def _arcs(self) -> NDArray[np.int64]:
+        """(2, A) ends of each stored entry of the adjacency matrix."""
+        tails = np.repeat(np.arange(self.n_polygons), np.diff(self._graph.indptr))
+        return np.stack([tails, self._graph.indices])
+
+    @cached_property
+    def _known(self) -> Memo[bytes, NDArray[np.int32]]:
+        """Maps the digest of labels to the component of one label of each polygon."""
+        return Memo(_MOST_KNOWN)
 
     def pieces(self, labels: NDArray[np.int64], firm_area: float) -> NDArray[np.int64]:
         """Return the piece of each polygon, connected and of one label, (P,) int.
@@ -101,22 +117,19 @@ class FaceGraph:
         labels : (P,) int
         firm_area : float
         """
-        graph = self._graph
-        alike = labels[self._tails] == labels[graph.indices]
-        starts = np.zeros(len(alike) + 1, dtype=np.int32)
-        np.cumsum(alike, out=starts[1:])
-        rest = graph.data[alike], graph.indices[alike], starts[graph.indptr]
-        pieces = _components(sparse.csr_array(rest, graph.shape))
+        make = partial(components_of_labels, self._graph, self._arcs, labels)
+        pieces = self._known.recall(digest(labels), make).astype(np.int64)
         tied = self.links[labels[self.links[:, 0]] == labels[self.links[:, 1]]]
         ends = pieces[tied]
-        if (ends[:, 0] == ends[:, 1]).all():
+        ends = ends[ends[:, 0] != ends[:, 1]]
+        if len(ends) == 0:
             return pieces
-        firm = self.areas_of(pieces) >= firm_area
-        whole = np.ones(len(firm), dtype=bool)
-        whole[pieces[self._tails[~alike]]] = False
-        whole[pieces[graph.indices[~alike]]] = False
-        ends = ends[(firm | whole)[ends].all(axis=1)]
-        return _components(graph_of(ends, len(firm)))[pieces]
+        fit = self.areas_of(pieces) >= firm_area
+        if not fit[ends].all():
+            across, whole = pieces[self._arcs], np.ones(len(fit), dtype=bool)
+            whole[across[:, across[0] != across[1]]] = False
+            ends = ends[(fit | whole)[ends].all(axis=1)]
+        return components_at_once(ends, len(fit))[pieces]
 
     def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
         """Return the border length between every two labels, (K, K) sparse float.
@@ -128,13 +141,9 @@ class FaceGraph:
         """
         crossing, one, other = self._crossing(labels)
         lengths = self._border_lengths[crossing]
-        borders = sparse.coo_array(
-            (
-                np.concatenate([lengths, lengths]),
-                (np.concatenate([one, other]), np.concatenate([other, one])),
-            ),
-            shape=(n_labels, n_labels),
-        )
+        ends = np.concatenate([one, other]), np.concatenate([other, one])
+        shape = n_labels, n_labels
+        borders = sparse.coo_array((np.tile(lengths, 2), ends), shape=shape)
         return borders.tocsr()
 
     def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
@@ -158,9 +167,9 @@ class FaceGraph:
         return np.where(lengths == 0, np.finfo(float).tiny, lengths)
 
     @cached_property
-    def _ends(self) -> NDArray[np.integer[Any]]:
+    def _ends(self) -> NDArray[np.int64]:
         """(2, E + L) ends of edges and links, each row contiguous."""
-        return np.ascontiguousarray(np.concatenate([self.neighbors, self.links]).T)
+        return np.concatenate([self.neighbors, self.links]).T.astype(np.int64, "C")
 
     def part(self, kept: NDArray[np.int64]) -> FaceGraph:
         """Return the graph of some polygons, numbered in the order of `kept`.
@@ -222,16 +231,9 @@ def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
     lengths, bends = np.empty((2, len(neighbors)))
     for rows in blocks(len(neighbors)):
         yield Progress("Surface", 0.7 + 0.3 * rows.start / len(neighbors))
-        lengths[rows] = _lengths(mesh, starts[rows])
+        lengths[rows] = lengths_of_sides(mesh, starts[rows])
         bends[rows] = _bends(centers, normals, neighbors[rows])
     return FaceGraph(areas, centers, normals, neighbors, lengths, bends)
-
-
-def _lengths(mesh: TriangleMesh, sides: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the lengths (S,) of sides of triangles."""
-    corners = mesh.triangles.ravel()
-    ends = mesh.vertices[corners[sides + np.where(sides % 3 < 2, 1, -2)]]
-    return np.linalg.norm(mesh.vertices[corners[sides]] - ends, axis=1)
 
 
 def _bends(
@@ -244,7 +246,3 @@ def _bends(
     angles = np.arccos(np.clip((normals[one] * normals[other]).sum(axis=1), -1.0, 1.0))
     rises = ((centers[other] - centers[one]) * normals[one]).sum(axis=1)
     return np.where(rises > 0, angles, -angles)
-
-
-def _components(graph: sparse.csr_array) -> NDArray[np.int64]:
-    return connected_components(graph, directed=False)[1].astype(np.int64)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, within
 from .face_graph import FaceGraph
 from .sampling import Samples
 
@@ -21,16 +21,76 @@ _NORMAL_WEIGHT = 1.0
 _SOFTENING = 0.3
 # Polygons whose nearest samples are found in one step.
 _BLOCK = 10_000
+# Polygons whose nearest samples are kept at most, but for those of one call: 25 MB.
+_MOST_KEPT = 2**18
 # Shells touch where samples of both are this near, in mean distances of samples.
 _TOUCH = 1.5
-# Labels that cover equal areas of a face, but for rounding.
-_EQUAL = 1e-3
-# A label that got less of the area it covers lost its place to others.
-_LOST = 0.1
+
+
+class NearestSamples:
+    """Finds the samples nearest to polygons, and keeps them for the next time.
+
+    Parameters
+    ----------
+    samples : Samples
+    spacing : float
+        Mean distance of samples.
+    """
+
+    def __init__(self, samples: Samples, spacing: float) -> None:
+        self._spacing, self._n_nearest = spacing, min(_NEAREST, len(samples))
+        self._weight = _NORMAL_WEIGHT * spacing
+        at = np.hstack([samples.positions, self._weight * samples.normals])
+        self._tree = cKDTree(at)
+        self._forget()
+
+    def _forget(self) -> None:
+        self._rows = np.empty(0, dtype=np.int32)
+        self._away = np.empty((0, self._n_nearest))
+        self._nearest = np.empty((0, self._n_nearest), dtype=np.int32)
+
+    def of(
+        self, numbers: NDArray[np.int64], graph: FaceGraph, places: NDArray[np.int64]
+    ) -> Steps[tuple[NDArray[np.float64], NDArray[np.int32]]]:
+        """Return how far the n nearest samples of M polygons are away, and which.
+
+        Parameters
+        ----------
+        numbers : (M,) int
+            Under which they are kept.
+        graph : FaceGraph
+        places : (M,) int
+            Where they are in the graph.
+
+        Returns
+        -------
+        Steps of (M, n) float in mean distances of samples, and (M, n) int32
+        """
+        if len(self._away) > _MOST_KEPT:
+            self._forget()
+        n_missing = max(int(numbers.max()) + 1 - len(self._rows), 0)
+        self._rows = np.pad(self._rows, (0, n_missing), constant_values=-1)
+        new = np.flatnonzero(self._rows[numbers] < 0)
+        away, nearest = [self._away], [self._nearest]
+        for start in range(0, len(new), _BLOCK):
+            yield Progress("Surface", start / len(new))
+            block = places[new[start : start + _BLOCK]]
+            at = np.hstack([graph.centers[block], self._weight * graph.normals[block]])
+            distances, rows = self._tree.query(at, range(1, self._n_nearest + 1))
+            away.append(distances / self._spacing)
+            nearest.append(rows.astype(np.int32))
+        self._rows[numbers[new]] = len(self._away) + np.arange(len(new))
+        self._away, self._nearest = np.concatenate(away), np.concatenate(nearest)
+        kept = self._rows[numbers]
+        return self._away[kept], self._nearest[kept]
 
 
 def carry(
-    samples: Samples, polygon_of: NDArray[np.int64], graph: FaceGraph
+    samples: Samples,
+    polygon_of: NDArray[np.int64],
+    graph: FaceGraph,
+    known: NearestSamples | None = None,
+    numbers: NDArray[np.int64] | None = None,
 ) -> Steps[Transfer]:
     """Find the samples nearest to each polygon, and with them make a `Transfer`.
 
@@ -41,85 +101,40 @@ def carry(
         Polygon that each sample lies on.
     graph : FaceGraph
         Graph of these polygons, or of the points of a cloud.
+    known : NearestSamples, optional
+        What was found before.
+    numbers : (P,) int, optional
+        The number of each polygon in `known`.
 
     Returns
     -------
     Steps of Transfer
     """
-    spacing = _spacing(samples, graph)
-    weight = _NORMAL_WEIGHT * spacing
-    tree = cKDTree(np.hstack([samples.positions, weight * samples.normals]))
-    places = np.hstack([graph.centers, weight * graph.normals])
+    places = np.arange(graph.n_polygons)
+    known = known or NearestSamples(samples, spacing_of(samples, graph))
+    steps = known.of(places if numbers is None else numbers, graph, places)
+    away, nearest = yield from within(steps, 0.0, 0.8)
     order = np.argsort(polygon_of, kind="stable")
     ends = np.searchsorted(polygon_of[order], np.arange(0, len(places), _BLOCK))
-    found = []
+    shares = []
     for start, own in zip(
         range(0, len(places), _BLOCK), np.split(order, ends[1:]), strict=True
     ):
-        yield Progress("Surface", start / len(places))
-        block = places[start : start + _BLOCK]
-        distances, nearest = tree.query(block, min(_NEAREST, len(samples)))
-        away, rows = distances / spacing, polygon_of[own] - start
-        found.append((nearest, _shares(away, nearest, own, rows, len(samples))))
+        yield Progress("Surface", 0.8 + 0.2 * start / len(places))
+        block, rows = slice(start, start + _BLOCK), polygon_of[own] - start
+        shares.append(_shares(away[block], nearest[block], own, rows, len(samples)))
     yield Progress("Surface", 1.0)
-    nearest = np.concatenate([rows for rows, _ in found])
-    shares = sparse.vstack([share for _, share in found], "csr")
-    return Transfer(samples, polygon_of, graph, nearest, shares)
+    return Transfer(samples, polygon_of, graph, nearest, sparse.vstack(shares, "csr"))
 
 
-def labels_by_area(
-    labels: NDArray[np.int64], origins: NDArray[np.int64], areas: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Return the label that covers most of each face, from labels of its fragments.
-
-    Of labels that cover equal areas, the lowest counts. A label that so gets little of
-    what it covers leaves it to others: it would stay as a few stray faces.
-
-    Parameters
-    ----------
-    labels : (E,) int
-        Labels of the fragments, from 0.
-    origins : (E,) int
-        The face that each fragment comes from.
-    areas : (E,) float
-        Of the fragments.
-
-    Returns
-    -------
-    faces : (F,) int
-        The faces with fragments, sorted.
-    found : (F,) int
-        Their labels.
-    counts : (F,) int
-        How many labels share each.
-    """
-    stride = int(labels.max()) + 1
-    cells, places = np.unique(origins * stride + labels, return_inverse=True)
-    rows, candidates = np.divmod(cells, stride)
-    covered = np.bincount(places, areas).astype(np.float64)
-    faces, starts, counts = np.unique(rows, return_index=True, return_counts=True)
-
-    def largest(values: NDArray[np.float64]) -> NDArray[np.int64]:
-        """Return the first cell of the largest value of each face."""
-        most = np.repeat(np.maximum.reduceat(values, starts), counts)
-        best = np.flatnonzero(values >= (1 - _EQUAL) * most)
-        return best[np.unique(rows[best], return_index=True)[1]]
-
-    best = largest(covered)
-    got = np.bincount(candidates[best], covered[best], stride)
-    lost = got < _LOST * np.bincount(candidates, covered, stride)
-    best = largest(np.where(lost[candidates], 0.0, covered))
-    return faces, candidates[best], counts
-
-
-def _spacing(samples: Samples, graph: FaceGraph) -> float:
-    """Return the mean distance of samples."""
+def spacing_of(samples: Samples, graph: FaceGraph) -> float:
+    """Return the mean distance of samples on a graph."""
     return float(np.sqrt(graph.areas.sum() / len(samples)))
 
 
 def _shares(
     distances: NDArray[np.float64],
-    nearest: NDArray[np.int64],
+    nearest: NDArray[np.int32],
     own: NDArray[np.int64],
     polygon_of: NDArray[np.int64],
     n_samples: int,
@@ -177,7 +192,7 @@ class Transfer:
         samples: Samples,
         polygon_of: NDArray[np.int64],
         graph: FaceGraph,
-        nearest: NDArray[np.int64],
+        nearest: NDArray[np.int32],
         shares: sparse.csr_array,
     ) -> None:
         self.polygon_of, self.shares = polygon_of, shares
@@ -188,7 +203,7 @@ class Transfer:
         # A shell without a sample is linked to the polygon of the nearest sample.
         small = first[unsampled]
         hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
-        touching = self._touching(samples, shells, _spacing(samples, graph))
+        touching = self._touching(samples, shells, spacing_of(samples, graph))
         links = np.concatenate([touching, hung])
         self.graph = replace(graph, links=links)
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from ..geometry.patches import Patches
 from ..parameters.parts import Parameters
-from ..steps.memo import Memo
+from ..steps.memo import Memo, digest
 from ..steps.progress import Progress, Steps, within
-from .part_memo import PartMemo, digest
+from .part_memo import PartMemo
 from .partition import Partitioner, count_parts
 from .seams import SeamCutter, Seams
 
@@ -88,7 +88,9 @@ def _cut(
     graph, places = patches.opened(chosen)
     yield Progress("Seams", 0.1)
     nodes = places[memo.visibility.nodes]
-    on_nodes = yield from within(memo.on(graph, nodes), 0.1, 0.3)
+    opened = np.flatnonzero(chosen[patches.of_nodes])
+    numbers = np.concatenate([len(places) + np.flatnonzero(~chosen), opened])
+    on_nodes = yield from within(memo.on(graph, nodes, numbers), 0.1, 0.3)
     yield Progress("Seams", 0.3)
     start = np.zeros(graph.n_polygons, dtype=np.int64)
     start[places] = parts[patches.of_nodes]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from hashlib import blake2b
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -12,32 +11,18 @@ from ..clusters.embedding import embed
 from ..geometry.face_graph import FaceGraph
 from ..geometry.patches import MOST_NODES, Patches, find_patches
 from ..geometry.symmetry import Plane, Side, find_plane, find_sides
-from ..geometry.transfer import Transfer, carry
+from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
 from ..steps.memo import Memo
 from ..steps.progress import Steps, run, within
+from .details.surface import PartSurface
 
 Labels: TypeAlias = NDArray[np.int64]
 
 # Eigenvectors are computed in multiples of this: a default search needs 13.
 _COORDINATES = 13
-
-
-def digest(labels: Labels) -> bytes:
-    """Return a hash of labels, to be used as a key.
-
-    Parameters
-    ----------
-    labels : (P,) int
-        Contiguous in memory.
-
-    Returns
-    -------
-    bytes
-    """
-    return blake2b(labels.data).digest()
 
 
 class Candidate(NamedTuple):
@@ -112,6 +97,8 @@ class PartMemo:
         and the digest of labels to connected parts.
     moves : Memo
         Maps the digest of labels and alpha to the labels after all moves.
+    surfaces : Memo
+        Maps the digest of a part's place to its surface.
     latest_k : int
         The number of parts where none was given last, 0 at first.
     """
@@ -122,11 +109,13 @@ class PartMemo:
         self.latest_k = 0
         self._most_nodes = most_nodes
         self._transfer: Transfer | None = None
+        self._nearest: NearestSamples | None = None
         self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
         self.on_nodes: Memo[bytes, Labels] = Memo(64)
         self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
         self.moves: Memo[tuple[bytes, float], Labels] = Memo(32)
+        self.surfaces: Memo[bytes, PartSurface] = Memo(16)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
         self._clusters: Memo[tuple[str, int], Memo[tuple[int, int], Labels]] = Memo(2)
         self._cuts: Memo[tuple[str, int, str, float, float], CutMemo] = Memo(3)
@@ -211,7 +200,9 @@ class PartMemo:
             self._transfer = yield from within(steps, 0.9, 1.0)
         return self._transfer
 
-    def on(self, graph: FaceGraph, nodes: NDArray[np.int64]) -> Steps[PartMemo]:
+    def on(
+        self, graph: FaceGraph, nodes: NDArray[np.int64], numbers: NDArray[np.int64]
+    ) -> Steps[PartMemo]:
         """Return a memo of the same visibility, for parts of another graph.
 
         What depends on samples alone is shared.
@@ -222,13 +213,19 @@ class PartMemo:
             Of the same surface, without links.
         nodes : (N,) int
             Node of this graph that each sample lies on.
+        numbers : (P,) int
+            A number of each node that is the same in all such graphs.
 
         Returns
         -------
         Steps of PartMemo
         """
+        samples = self.visibility.samples
+        if self._nearest is None:
+            spacing = spacing_of(samples, self.transfer.graph)
+            self._nearest = NearestSamples(samples, spacing)
         memo = PartMemo(self.visibility)
-        memo._transfer = yield from carry(self.visibility.samples, nodes, graph)
+        memo._transfer = yield from carry(samples, nodes, graph, self._nearest, numbers)
         memo._plane = self._plane
         memo.tallies, memo.moves = self.tallies, self.moves
         memo._embeddings, memo._clusters = self._embeddings, self._clusters

@@ -14,9 +14,10 @@ from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.pair_visibility import PairVisibility
+from ..steps.memo import digest
 from ..steps.progress import Progress, Steps
 from .merging.pieces import connected_parts, merge_to
-from .part_memo import Candidate, PartMemo, digest
+from .part_memo import Candidate, PartMemo
 
 # Weight of positions (in diagonals) relative to coordinates of the embedding.
 _PLACE_WEIGHT = 1e-3
@@ -135,8 +136,7 @@ class Partitioner:
     def _counted(self, pairs: PairVisibility, parts: NDArray[np.int64]) -> PairTally:
         """Count pairs of samples by parts (P,) of the nodes, each kind once."""
         labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
-        seen = pairs is self.visibility.psi_pairs
-        key = digest(labels), n_parts, seen
+        key = digest(labels), n_parts, pairs is self.visibility.psi_pairs
         return self._memo.tallies.recall(key, lambda: pairs.tally(labels, n_parts))
 
     def psi(self, parts: NDArray[np.int64]) -> float:
@@ -241,8 +241,8 @@ class Partitioner:
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Merge parts (P,) where psi loses least, until `n_parts` are left."""
         borders = self.graph.borders(parts, count_parts(parts)).toarray()
-        merged = merge_to(n_parts, self.tally(parts), borders, self.parameters.alpha)
-        return merged[parts]
+        alpha = self.parameters.alpha
+        return merge_to(n_parts, self.tally(parts), borders, alpha)[parts]
 
 
 def count_parts(parts: NDArray[np.int64]) -> int:

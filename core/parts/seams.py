@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.moves import MoveGains
-from ..steps.memo import Memo
+from ..steps.memo import Memo, digest
 from ..steps.progress import Steps, within
-from .graph_cut import SWEEPS, cut_seams, distances_to_parts
-from .part_memo import digest
+from .graph_cut import SWEEPS, cut_seams
 from .partition import Partitioner, count_parts
 
+# Largest cost of a label for a sample.
+_MOST_DISLIKE = 4.0
 # Shares of lambda that are tried in turn, until the seams cost little enough psi.
 _SOFTER = (1.0, 0.25, 0.0625)
 
@@ -128,3 +129,37 @@ class SeamCutter:
             slice(None), partitioner.parameters.alpha
         )
         return gains.max(axis=1, keepdims=True) - gains
+
+
+def distances_to_parts(
+    embedding: NDArray[np.float64],
+    labels: NDArray[np.int64],
+    n_labels: int,
+) -> NDArray[np.float64]:
+    """Return the paper's data term of eq. 4: the cost of each label for each sample.
+
+    It is the negative logarithm of a Gaussian of the distance, in the embedding,
+    between the sample and the center of the label's samples, up to 4.
+
+    Parameters
+    ----------
+    embedding : (N, n) float
+        Coordinates of the samples in the embedding.
+    labels : (N,) int
+        Label of each sample, in 0…`n_labels` − 1, each used.
+    n_labels : int
+        Number of labels K.
+
+    Returns
+    -------
+    costs : (N, K) float
+        In 0…4, without unit.
+    """
+    members = np.eye(n_labels)[labels]
+    sizes = np.maximum(members.sum(axis=0), 1.0)
+    centers = (members.T @ embedding) / sizes[:, None]
+    squared = ((embedding[:, None, :] - centers[None]) ** 2).sum(axis=2)
+    # One variance for all: with variances of their own, wide parts swallow narrow ones.
+    variance = (members * squared).sum() / len(labels) + np.finfo(float).tiny
+    costs: NDArray[np.float64] = np.minimum(squared / (2 * variance), _MOST_DISLIKE)
+    return costs

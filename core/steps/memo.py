@@ -3,12 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from hashlib import blake2b
 from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from .progress import Steps
 
 Key = TypeVar("Key", bound=Hashable)
 Value = TypeVar("Value")
+
+
+def digest(labels: NDArray[np.int64]) -> bytes:
+    """Return a hash of labels, to be used as a key.
+
+    Parameters
+    ----------
+    labels : (P,) int
+        Not negative.
+
+    Returns
+    -------
+    bytes
+    """
+    # Most labels fit into a byte: the fewer bytes, the quicker.
+    narrow = np.min_scalar_type(int(labels.max(initial=0)))
+    return blake2b(labels.astype(narrow).data).digest()
 
 
 class Memo(Generic[Key, Value]):

@@ -8,6 +8,11 @@ from numpy.typing import NDArray
 from ..mesh import TriangleMesh
 from .refined import RefinedMesh
 
+# Labels that cover equal areas of a face, but for rounding.
+_EQUAL = 1e-3
+# A label that got less of the area it covers lost its place to others.
+_LOST = 0.1
+
 
 def labels_of_pieces(
     refined: RefinedMesh,
@@ -87,3 +92,48 @@ def _insideness(
         third = (np.cross(u, away) * normal).sum(axis=2) / squared
     least = np.minimum(np.minimum(second, third), 1 - second - third)
     return np.where(squared > 0, least, -np.inf)
+
+
+def labels_by_area(
+    labels: NDArray[np.int64], origins: NDArray[np.int64], areas: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the label that covers most of each face, from labels of its fragments.
+
+    Of labels that cover equal areas, the lowest counts. A label that so gets little of
+    what it covers leaves it to others: it would stay as a few stray faces.
+
+    Parameters
+    ----------
+    labels : (E,) int
+        Labels of the fragments, from 0.
+    origins : (E,) int
+        The face that each fragment comes from.
+    areas : (E,) float
+        Of the fragments.
+
+    Returns
+    -------
+    faces : (F,) int
+        The faces with fragments, sorted.
+    found : (F,) int
+        Their labels.
+    counts : (F,) int
+        How many labels share each.
+    """
+    stride = int(labels.max()) + 1
+    cells, places = np.unique(origins * stride + labels, return_inverse=True)
+    rows, candidates = np.divmod(cells, stride)
+    covered = np.bincount(places, areas).astype(np.float64)
+    faces, starts, counts = np.unique(rows, return_index=True, return_counts=True)
+
+    def largest(values: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return the first cell of the largest value of each face."""
+        most = np.repeat(np.maximum.reduceat(values, starts), counts)
+        best = np.flatnonzero(values >= (1 - _EQUAL) * most)
+        return best[np.unique(rows[best], return_index=True)[1]]
+
+    best = largest(covered)
+    got = np.bincount(candidates[best], covered[best], stride)
+    lost = got < _LOST * np.bincount(candidates, covered, stride)
+    best = largest(np.where(lost[candidates], 0.0, covered))
+    return faces, candidates[best], counts

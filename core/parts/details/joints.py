@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...geometry.face_graph import FaceGraph
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
+from ...steps.memo import digest
 from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..merging.pieces import connected_parts
@@ -119,7 +120,9 @@ def _pieces(
         kept = np.flatnonzero(parts == part)
         if not at_seams[kept].any():
             continue
-        surface = PartSurface(graph, kept, at_seams)
+        place = np.where(parts == part, 1 + at_seams, 0)
+        make = partial(PartSurface, graph, kept, at_seams)
+        surface = memo.surfaces.recall(digest(place), make)
         count = partial(count_pairs, memo, kept)
         found = find_spikes(surface, least)
         spikes = seen_apart(np.zeros_like(kept), found, count, parameters.alpha)

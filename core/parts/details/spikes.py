@@ -43,17 +43,19 @@ def find_spikes(part: PartSurface, least_area: float) -> list[NDArray[np.int64]]
     """
     taken = np.zeros(len(part.kept), dtype=bool)
     found = []
-    for tip in part.tips(_LEAST_TIP * float(part.far.max()), _MOST_TIPS):
-        spike = _spike_at(part, tip, least_area)
+    tips = part.tips(_LEAST_TIP * float(part.far.max()), _MOST_TIPS)
+    for far in part.from_nodes(tips):
+        spike = _spike_at(part, far, least_area)
         if len(spike) and not taken[spike].any():
             taken[spike] = True
             found.append(spike)
     return found
 
 
-def _spike_at(part: PartSurface, tip: int, least_area: float) -> NDArray[np.int64]:
-    """Return the nodes of the spike at a tip; none if it has no base."""
-    far = part.from_node(tip)
+def _spike_at(
+    part: PartSurface, far: NDArray[np.float64], least_area: float
+) -> NDArray[np.int64]:
+    """Return the nodes of the spike at a tip that all are so `far` from, or none."""
     order = np.argsort(far, kind="stable")
     reached, areas = far[order], np.cumsum(part.graph.areas[order])
 

@@ -80,6 +80,7 @@ class PartSurface:
         self.graph, self.kept = graph.part(kept), kept
         self._starts = np.flatnonzero(at_seams[kept])
         self._roads = roads(self.graph, self.graph.neighbors)
+        self._from: dict[int, NDArray[np.float64]] = {}
 
     @cached_property
     def far(self) -> NDArray[np.float64]:
@@ -90,7 +91,21 @@ class PartSurface:
 
     def from_node(self, node: int) -> NDArray[np.float64]:
         """Return the distance of each node from one of them, (M,); 0 without a way."""
-        return distances(self._roads, np.array([node]))
+        return self.from_nodes([node])[0]
+
+    def from_nodes(self, nodes: list[int]) -> list[NDArray[np.float64]]:
+        """Return what `from_node` does, for each of several nodes; kept from then on.
+
+        Parameters
+        ----------
+        nodes : list of int
+        """
+        new = [node for node in nodes if node not in self._from]
+        if new:
+            ways = dijkstra(self._roads, directed=False, indices=new)
+            ways[~np.isfinite(ways)] = 0.0
+            self._from |= dict(zip(new, ways, strict=True))
+        return [self._from[node] for node in nodes]
 
     def tips(self, least: float, most: int) -> list[int]:
         """Return the nodes that are farther from the seams than all around them.

@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ...sight.pair_tally import PairTally
 
@@ -46,11 +45,9 @@ def connected_parts(
         if not small.any():
             return parts
         joins = _joins_of_small(graph, parts, np.argsort(order), small)
-        ties = sparse.coo_array(
-            (np.ones(len(joins)), (np.arange(len(joins)), joins)),
-            shape=(len(joins), len(joins)),
-        )
-        parts = connected_components(ties, directed=False)[1][parts].astype(np.int64)
+        joining = np.flatnonzero(joins != np.arange(len(joins)))
+        ties = np.stack([joining, joins[joining]], axis=1)
+        parts = components_at_once(ties, len(joins))[parts]
 
 
 def _gathered(
@@ -84,12 +81,12 @@ def _joins_of_small(
     joins = np.arange(len(places))
     borders = graph.borders(parts, len(places))
     alone = small & (np.diff(borders.indptr) == 0)
-    for part in np.flatnonzero(small & ~alone):
-        row = slice(borders.indptr[part], borders.indptr[part + 1])
-        others, lengths = borders.indices[row], borders.data[row]
-        larger = places[others] < places[part]
-        if larger.any():
-            joins[part] = others[larger][lengths[larger].argmax()]
+    rows, others = np.repeat(joins, np.diff(borders.indptr)), borders.indices
+    fit = np.flatnonzero(small[rows] & (places[others] < places[rows]))
+    # By part, the longest border first. Of equal ones, the first.
+    fit = fit[np.lexsort([-borders.data[fit], rows[fit]])]
+    fit = fit[np.diff(rows[fit], prepend=-1) > 0]
+    joins[rows[fit]] = others[fit]
     if alone.any():
         mine, others = np.flatnonzero(alone[parts]), np.flatnonzero(~small[parts])
         distances, nearest = cKDTree(graph.centers[others]).query(graph.centers[mine])

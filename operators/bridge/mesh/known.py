@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .attributes import FloatArray, IntArray, read_floats, read_ints
+from .triangles import corners_of_triangles
 
 Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
 
@@ -74,9 +75,10 @@ def triangles_of(mesh: bpy.types.Mesh) -> Triangles:
     if _latest is None or not _latest.is_of(mesh):
         faces, corners = _faces_of_triangles(mesh), corner_vertices(mesh)
         places = _positions(mesh)
+        cut = corners_of_triangles(mesh, faces, places, corners)
         arrays = (
             places.astype(np.float64),
-            corners.astype(np.int64)[_corners_of_triangles(mesh, faces)],
+            corners.astype(np.int64)[cut],
             faces.astype(np.int64),
         )
         for array in arrays:
@@ -144,13 +146,6 @@ def _faces_of_triangles(mesh: bpy.types.Mesh) -> IntArray:
     """Return the face of each triangle, (T,)."""
     mesh.calc_loop_triangles()
     return read_ints(mesh.loop_triangle_polygons, "value")
-
-
-def _corners_of_triangles(mesh: bpy.types.Mesh, faces: IntArray) -> IntArray:
-    """Return the corners of each triangle, (T, 3), from the face of each, (T,)."""
-    if np.array_equal(faces, np.arange(len(mesh.polygons))):  # quicker than to ask
-        return np.arange(3 * len(faces), dtype=np.int32).reshape(-1, 3)
-    return read_ints(mesh.loop_triangles, "loops", 3)
 
 
 def _positions(mesh: bpy.types.Mesh) -> FloatArray:

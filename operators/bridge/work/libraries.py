@@ -21,7 +21,8 @@ from ....core.steps.progress import Progress, Steps
 Result = TypeVar("Result")  # of any kind that has notes
 
 # Each imports what comes before it. SciPy and scikit-learn import the modules of other
-# packages, too, which take as long. scipy.stats cannot be split: 0.15 s.
+# packages, too, which take as long. What is left of scipy.stats, 0.15 s, cannot be
+# split: to import one of its modules imports all of them.
 _LIBRARIES = (
     "threadpoolctl",
     "numpy.f2py",
@@ -34,6 +35,7 @@ _LIBRARIES = (
     "scipy.spatial",
     "scipy.optimize",
     "scipy.interpolate",
+    "scipy.integrate",
     "scipy.stats",
     "joblib",
     "sklearn.utils",

@@ -1,11 +1,15 @@
 """What Blender is slow to tell of a mesh is kept, and follows the mesh."""
 
+import bpy
 import numpy as np
 import pytest
 from hand_made import decomposition_of
 from weak_convex_decomposition import Parameters, run
 from weak_convex_decomposition.operators.bridge.mesh import known
-from weak_convex_decomposition.operators.bridge.mesh.attributes import read_floats
+from weak_convex_decomposition.operators.bridge.mesh.attributes import (
+    read_floats,
+    read_ints,
+)
 from weak_convex_decomposition.operators.bridge.mesh.by_label import ByLabel
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
@@ -60,3 +64,52 @@ def test_figures_are_of_the_mesh_that_is_written_to(suzanne, mesh):
     stretch(mesh, 2)
     write_parts(suzanne, decomposition_of(labels), Parameters(), ready=ready)
     assert figures_of(suzanne).problem is None
+
+
+def wild_mesh(seed, offset=0.0, scale=1.0, share_of_wild=0.005):
+    """Make quads, triangles and pentagons; of the quads, some are bent or folded."""
+    rng = np.random.default_rng(seed)
+    n_faces = 4000
+    around = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
+    quads = around + rng.uniform(-0.2, 0.2, (n_faces, 4, 3))
+    wild = rng.random(n_faces) < share_of_wild
+    quads[wild] = rng.integers(-1, 2, (wild.sum(), 4, 3))  # many without an area
+    places = scale * (quads.reshape(-1, 3) + 3 * rng.random((1, 3))) + offset
+    faces = np.arange(len(places)).reshape(-1, 4).tolist()
+    faces[5], faces[7:9] = faces[5][:3], [faces[7] + faces[8][:1]]
+    mesh = bpy.data.meshes.new("wild")
+    mesh.from_pydata(places.tolist(), [], faces)
+    return mesh
+
+
+def told_by_blender(mesh):
+    mesh.calc_loop_triangles()
+    return read_ints(mesh.loop_triangles, "vertices", 3)
+
+
+@pytest.mark.parametrize("with_normals", [False, True])
+@pytest.mark.parametrize("place", [(0, 1), (1e4, 1), (0, 1e-6), (0, 1e12), (0, 1e-25)])
+@pytest.mark.parametrize("share_of_wild", [0.005, 1.0])
+def test_faces_are_cut_as_blender_cuts_them(place, share_of_wild, with_normals):
+    for seed in range(3):
+        mesh = wild_mesh(seed, *place, share_of_wild)
+        if with_normals:
+            assert len(mesh.polygon_normals)  # Blender uses them if they are known
+        _, triangles, faces = known.triangles_of(mesh)
+        assert np.array_equal(triangles, told_by_blender(mesh))
+        assert np.array_equal(
+            np.bincount(faces) + 2, read_ints(mesh.polygons, "loop_total")
+        )
+
+
+def test_blender_is_asked_for_few_triangles(suzanne, monkeypatch):
+    def never(_mesh):
+        raise AssertionError
+
+    monkeypatch.setattr(
+        "weak_convex_decomposition.operators.bridge.mesh.triangles._all_asked", never
+    )
+    known.forget()
+    known.triangles_of(suzanne.data)
+    with pytest.raises(AssertionError):
+        known.triangles_of(wild_mesh(0, share_of_wild=1.0))

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of
+from weak_convex_decomposition.core.geometry import connectivity
 
 
 def bend_at(surface, place):
@@ -149,3 +150,26 @@ def test_borders_may_have_a_price_below_zero():
     labels = (surface.centers[:, 2] > 0.5).astype(int)
     gained = priced.borders(labels, 2).toarray()
     assert gained[0, 1] == pytest.approx(-surface.borders(labels, 2).toarray()[0, 1])
+
+
+def test_pieces_that_are_kept_are_those_of_a_new_graph():
+    boxes = shapes.joined(shapes.box(divisions=4), shapes.box((1, 0, 0), (2, 1, 1)))
+    surface = replace(graph_of(boxes), links=np.array([[0, 96], [95, 97], [3, 99]]))
+    rng = np.random.default_rng(0)
+    tried = [rng.integers(n, size=surface.n_polygons) for n in (1, 2, 3, 300)]
+    for firm_area in (0.0, 0.1, 0.5, 0.0):
+        for labels in tried:
+            anew = replace(surface).pieces(labels, firm_area)
+            assert (surface.pieces(labels, firm_area) == anew).all()
+
+
+@pytest.mark.parametrize("n_pairs", [0, 1, 5, 40, 400])
+def test_few_pairs_and_many_connect_alike(n_pairs, monkeypatch):
+    pairs = np.random.default_rng(n_pairs).integers(60, size=(n_pairs, 2))
+    found = []
+    for few in (0, 1000):
+        monkeypatch.setattr(connectivity, "_FEW_PAIRS", few)
+        found.append(connectivity.components_at_once(pairs, 60))
+    assert (found[0] == found[1]).all()
+    _, first = np.unique(found[0], return_index=True)
+    assert (np.diff(first) > 0).all()

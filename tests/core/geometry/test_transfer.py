@@ -3,9 +3,11 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of
+from weak_convex_decomposition.core.geometry import transfer
+from weak_convex_decomposition.core.geometry.cutting.pieces import labels_by_area
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
+from weak_convex_decomposition.core.geometry.transfer import NearestSamples
 from weak_convex_decomposition.core.geometry.transfer import carry as transfer_in_steps
-from weak_convex_decomposition.core.geometry.transfer import labels_by_area
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -13,6 +15,20 @@ def carry(mesh, n_samples=300, seed=0):
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
     polygons = mesh.polygons[samples.triangles]
     return samples, run(transfer_in_steps(samples, polygons, graph_of(mesh)))
+
+
+def test_what_is_kept_is_what_is_found_anew(monkeypatch):
+    mesh = shapes.l_shape()
+    surface, places = graph_of(mesh), np.arange(104)
+    samples = sample_surface(mesh, 50, np.random.default_rng(0))
+    kept = NearestSamples(samples, 0.7)
+    for most in (1000, 1):  # then nothing is kept
+        monkeypatch.setattr(transfer, "_MOST_KEPT", most)
+        for chosen in (places[10:30], places[20:60:3], places, places[::-1]):
+            anew = NearestSamples(samples, 0.7).of(chosen, surface, chosen)
+            known = run(kept.of(chosen + 500, surface, chosen))
+            for one, other in zip(run(anew), known, strict=True):
+                assert (one == other).all()
 
 
 def test_the_says_of_samples_sum_to_one():

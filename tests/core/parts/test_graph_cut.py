@@ -6,7 +6,8 @@ import shapes
 from computed import graph_of as graph_of_mesh
 from weak_convex_decomposition.core.geometry.face_graph import FaceGraph
 from weak_convex_decomposition.core.parts import graph_cut
-from weak_convex_decomposition.core.parts.graph_cut import cut_seams, distances_to_parts
+from weak_convex_decomposition.core.parts.graph_cut import cut_seams
+from weak_convex_decomposition.core.parts.seams import distances_to_parts
 from weak_convex_decomposition.core.steps.progress import run
 
 
