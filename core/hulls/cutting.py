@@ -135,7 +135,7 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
     -------
     Steps of tuple of two Cells or None
         The pieces below and above the plane. None if no plane has some of the surface
-        on both sides.
+        on both sides, or of a film some points.
     """
     kind = cell.fit.parameters.shape
     if kind in _ROUND and _is_convex(cell):
@@ -153,11 +153,12 @@ def _cheapest(
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
     cuts: list[tuple[float, int, tuple[Cell, Cell]]] = []
-    solid_volume = cell.solid.volume
+    solid_volume, firm = cell.solid.volume, cell.on_surface.sum() > 1
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
-        if all(side.on_surface.any() for side in sides):
+        # A film along a cut may have one sample of the surface, or none.
+        if all(side.on_surface.any() if firm else len(side.points) for side in sides):
             bound = least_cost_of_sides(*sides, solid_volume)
             cuts.append((bound, len(cuts), sides))
     best, least = None, (np.inf, 0)

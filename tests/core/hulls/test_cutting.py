@@ -1,5 +1,7 @@
 """Which cuts of a solid are made, and which are undone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapes
@@ -33,3 +35,16 @@ def test_pieces_are_cut_again_while_joining_leaves_room(monkeypatch):
     assert len(rounds) > 1
     assert 2 < found.n_hulls <= 8
     assert found.errors.max() <= 0.05
+
+
+def test_a_film_with_one_sample_of_the_surface_is_cut(monkeypatch):
+    # Planes beside flat faces leave such films, with little but faces of cuts.
+    seen, best_cut = [], cutting.best_cut
+
+    def one_sample(cell):
+        first = np.arange(len(cell.on_surface)) == 0
+        seen.append(cell)
+        return best_cut(replace(cell, on_surface=first) if len(seen) == 1 else cell)
+
+    monkeypatch.setattr(cutting, "best_cut", one_sample)
+    assert build_hulls(shapes.comb(), HullParameters()).n_hulls > 1
