@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from .frames import cross
+
 # Heights of points above planes computed at once: more fit into no processor's cache.
 _HEIGHTS_AT_ONCE = 100_000
 
@@ -19,8 +21,8 @@ class Hull:
     Attributes
     ----------
     vertices : (V, 3) float
-    triangles : (F, 3) int
-        Rows of `vertices`, counter-clockwise seen from outside.
+    facets : (F, 3) int
+        Rows of `vertices`: the corners of each triangle, whichever way around.
     planes : (F, 4) float
         Outward unit normal n and offset d of each triangle: n · x + d ≤ 0 inside.
     volume : float
@@ -28,9 +30,19 @@ class Hull:
     """
 
     vertices: NDArray[np.float64]
-    triangles: NDArray[np.int64]
+    facets: NDArray[np.int64]
     planes: NDArray[np.float64]
     volume: float
+
+    @cached_property
+    def triangles(self) -> NDArray[np.int64]:
+        """(F, 3) corners of each triangle, counter-clockwise seen from outside."""
+        a, b, c = self.vertices[self.facets].swapaxes(0, 1)
+        normals = cross(b - a, c - a)
+        inwards = np.einsum("fd,fd->f", normals, self.planes[:, :3]) < 0
+        triangles = self.facets.astype(np.int64)
+        triangles[inwards] = triangles[inwards, ::-1]
+        return triangles
 
     def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the height of points above their highest face plane, negative inside.
@@ -68,6 +80,11 @@ class Hull:
             heights = (normals @ some.T + offsets).reshape(len(normals), c, -1)
             highest[start : start + step] = heights.min(axis=1).max(axis=0)
         return highest
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """(2, 3) lowest and highest coordinates."""
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
     @cached_property
     def corners(self) -> NDArray[np.float64]:
@@ -153,8 +170,7 @@ class CollisionShape:
     def bounds(self) -> NDArray[np.float64]:
         """(2, 3) lowest and highest coordinates."""
         if self.kind == "HULL":
-            vertices = self.hull.vertices
-            return np.stack([vertices.min(axis=0), vertices.max(axis=0)])
+            return self.hull.bounds
         reach = np.abs(self.axes[2]) * self.sizes[2]
         if self.kind == "BOX":
             reach = self.sizes @ np.abs(self.axes)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-from ..geometry.frames import cross, heights_above, principal_axes
+from ..geometry.frames import heights_above, principal_axes
 from ..geometry.primitives import Hull
 
 # Thickness of the hulls of flat pieces; the longest side of the shape is 2.
@@ -139,14 +139,9 @@ def _hull(points: NDArray[np.float64]) -> Hull:
     found = ConvexHull(points)
     rows = np.full(len(points), -1)
     rows[found.vertices] = np.arange(len(found.vertices))
-    a, b, c = points[found.simplices].swapaxes(0, 1)
-    normals = cross(b - a, c - a)
-    inwards = np.einsum("fd,fd->f", normals, found.equations[:, :3]) < 0
-    triangles = found.simplices.astype(np.int64)
-    triangles[inwards] = triangles[inwards, ::-1]
     return Hull(
         points[found.vertices],
-        rows[triangles],
+        rows[found.simplices],
         np.asarray(found.equations),
         float(found.volume),
     )

@@ -145,8 +145,5 @@ def _seems_within(joint: Piece, max_error: float) -> bool:
 
 def _touch(one: Piece, other: Piece) -> bool:
     """Return whether the bounding boxes of two pieces meet or nearly meet."""
-    (low, high), (other_low, other_high) = (
-        (piece.hull.vertices.min(axis=0), piece.hull.vertices.max(axis=0))
-        for piece in (one, other)
-    )
+    (low, high), (other_low, other_high) = one.hull.bounds, other.hull.bounds
     return bool(((low - _NEAR <= other_high) & (other_low - _NEAR <= high)).all())

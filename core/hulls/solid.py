@@ -111,7 +111,7 @@ class Solid:
         """
         if not parts.any():  # there is only part 0
             return 0
-        low, high = hull.vertices.min(axis=0), hull.vertices.max(axis=0)
+        low, high = hull.bounds
         near = ((low <= self.samples) & (self.samples <= high)).all(axis=1)
         near[near] = hull.heights(self.samples[near]) <= 0
         return int(np.bincount(parts[self.triangles[near]], minlength=1).argmax())

@@ -34,13 +34,14 @@ def fragments_of(
     rows = [np.zeros(0, dtype=np.int64)]
     triangles, n_done = np.arange(len(corners)), 0
     while len(corners):
-        ready = edge_lengths(corners).max(axis=1) <= longest
+        lengths = edge_lengths(corners)
+        ready = lengths.max(axis=1) <= longest
         if n_done + len(corners) > _MOST:
             ready[:] = True
         done.append(corners[ready])
         rows.append(triangles[ready])
         n_done += int(ready.sum())
-        corners = halved(corners[~ready])
+        corners = halved(corners[~ready], lengths[~ready])
         triangles = np.tile(triangles[~ready], 2)
     return np.concatenate(done), np.concatenate(rows)
 
@@ -71,12 +72,16 @@ def reach_of(
     return centers, np.sqrt(np.einsum("tcd,tcd->tc", arms, arms).max(axis=1))
 
 
-def halved(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def halved(
+    corners: NDArray[np.float64], lengths: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Return triangles cut in two at the middle of their longest edges, (2 T, 3, 3).
 
     Parameters
     ----------
     corners : (T, 3, 3) float
+    lengths : (T, 3) float
+        Of their edges, as `edge_lengths` returns them.
 
     Returns
     -------
@@ -84,7 +89,7 @@ def halved(corners: NDArray[np.float64]) -> NDArray[np.float64]:
         One half of each triangle, then the other halves.
     """
     n = len(corners)
-    first = edge_lengths(corners).argmax(axis=1)
+    first = lengths.argmax(axis=1)
     # Each triangle from the start of its longest edge on.
     turn = (first[:, None] + np.arange(3)) % 3
     turned = corners[np.arange(n)[:, None], turn]

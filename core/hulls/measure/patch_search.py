@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .fragments import halved
+from .fragments import edge_lengths, halved
 
 # Patches left over in one round; with more, their bounds stand as they are.
 _MOST_PATCHES = 60_000
@@ -91,8 +91,8 @@ def _smaller(
     """Return halves of patches, or the patches if nothing is known of them yet."""
     if np.isinf(high).all():
         return corners
-    corners = halved(corners)
+    corners = halved(corners, edge_lengths(corners))
     for _ in range(_HALVINGS):
         if len(corners) < _FEW_PATCHES:
-            corners = halved(corners)
+            corners = halved(corners, edge_lengths(corners))
     return corners

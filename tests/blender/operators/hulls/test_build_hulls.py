@@ -26,7 +26,8 @@ def polyhedron(obj):
     triangles = np.array([list(each.vertices) for each in mesh.loop_triangles])
     a, b, c = np.moveaxis(vertices[triangles], 1, 0)
     volume = np.einsum("fd,fd->f", a, np.cross(b, c)).sum() / 6
-    return Hull(vertices, triangles, np.zeros((0, 4)), volume)
+    planes = np.column_stack([np.cross(b - a, c - a), np.zeros(len(a))])
+    return Hull(vertices, triangles, planes, volume)
 
 
 def positions(obj):
