@@ -78,7 +78,8 @@ class Hull:
         for start in range(0, m, step):  # corner by corner: NumPy's minima take less
             some = corners[start : start + step].swapaxes(0, 1).reshape(-1, 3)
             heights = (normals @ some.T + offsets).reshape(len(normals), c, -1)
-            highest[start : start + step] = heights.min(axis=1).max(axis=0)
+            lowest = heights.min(axis=1) if c > 1 else heights[:, 0]
+            highest[start : start + step] = lowest.max(axis=0)
         return highest
 
     @cached_property

@@ -44,8 +44,9 @@ def contour(
     lone_under = n_under[met] == 1
     alone = np.where(lone_under[:, None], under[met], ~under[met])
     turn = (alone.argmax(axis=1)[:, None] + np.arange(3)) % 3
-    a, b, c = np.moveaxis(np.take_along_axis(corners[met], turn[..., None], 1), 1, 0)
-    over = np.take_along_axis(heights[met], turn, axis=1)[..., None]
+    rows = met[:, None]
+    a, b, c = corners[rows, turn].swapaxes(0, 1)
+    over = heights[rows, turn][..., None]
     ab = a + over[:, 0] / (over[:, 0] - over[:, 1]) * (b - a)
     ac = a + over[:, 0] / (over[:, 0] - over[:, 2]) * (c - a)
     ends = np.stack([ab, ac], axis=1)

@@ -60,20 +60,19 @@ class HoleEdges:
         if len(self._ends) == 0 or len(points) == 0:
             return found
         reach = radii + _GRAIN / 2
-        flat = np.delete(points, axis, axis=1)
-        ranks = range(1, _NEIGHBORS + 1)
-        away, rows = self._trees[axis].query(
-            flat, ranks, distance_upper_bound=reach.max()
-        )
-        near = away <= reach[:, None]
-        found[:, near[:, -1]] = len(self._ends)
-        beside = np.flatnonzero(near[:, 0] & ~near[:, -1])
-        most = near[beside].sum(axis=1).max(initial=0)
-        near, rows, radii = (
-            near[beside, :most],
-            rows[beside, :most],
-            radii[beside, None],
-        )
+        tree, flat = self._trees[axis], np.delete(points, axis, axis=1)
+        nearest = tree.query(flat, distance_upper_bound=reach.max())[0]
+        beside = np.flatnonzero(nearest <= reach)  # often none, and the rest takes longer
+        reach, ranks = reach[beside, None], range(1, _NEIGHBORS + 1)
+        if len(beside) == 0:
+            return found
+        away, rows = tree.query(flat[beside], ranks, distance_upper_bound=reach.max())
+        near = away <= reach
+        few = ~near[:, -1]
+        found[:, beside[~few]] = len(self._ends)
+        most = near[few].sum(axis=1).max(initial=0)
+        near, rows, beside = near[few, :most], rows[few, :most], beside[few]
+        radii = radii[beside, None]
         ends = self._ends[np.where(near, rows, 0)] - points[beside, None, None]
         heights = ends[..., axis].mean(axis=2)
         one, other = np.moveaxis(ends[..., [(axis + 1) % 3, (axis + 2) % 3]], 2, 0)
