@@ -36,50 +36,77 @@ class HoleEdges:
         middles = self._ends.mean(axis=1)
         self._trees = [cKDTree(np.delete(middles, axis, axis=1)) for axis in range(3)]
 
-    def losses(
-        self, axis: int, points: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> NDArray[np.int64]:
-        """Return how much less often rays may leave the mesh from elsewhere in regions.
-
-        That is, leave it more often than they enter it, less than from the center.
+    def surely_inside(
+        self,
+        points: NDArray[np.float64],
+        radii: NDArray[np.float64],
+        leaving: NDArray[np.int64],
+    ) -> NDArray[np.bool_]:
+        """Return in which regions most rays say that all of it is inside.
 
         Parameters
         ----------
-        axis : int
         points : (M, 3) float
             Centers of the regions.
         radii : (M,) float
             No point of a region is farther from its center.
+        leaving : (3, 2, M) int
+            How many more triangles rays from the centers leave than enter: for each
+            axis, rays against it and along it.
 
         Returns
         -------
-        (2, M) int
-            For rays against the axis, and along it: at most so much.
+        (M,) bool
+        """
+        near = np.stack([self._is_near(axis, points, radii) for axis in range(3)])
+        # Where no edge is near, rays from elsewhere say what those from the center do.
+        votes = ((leaving > 0).sum(axis=1) * ~near).sum(axis=0)
+        for axis in range(3):
+            open_votes = 2 * near[axis:].sum(axis=0)
+            rows = np.flatnonzero(near[axis] & (votes <= 3) & (votes + open_votes > 3))
+            losses = self._losses(axis, points[rows], radii[rows])
+            votes[rows] += (leaving[axis][:, rows] > losses).sum(axis=0)
+        return votes > 3
+
+    def _is_near(
+        self, axis: int, points: NDArray[np.float64], radii: NDArray[np.float64]
+    ) -> NDArray[np.bool_]:
+        """Return beside which regions, seen along an axis, edges of holes are, (M,)."""
+        if len(self._ends) == 0 or len(points) == 0:
+            return np.zeros(len(points), dtype=bool)
+        reach = radii + _GRAIN / 2
+        flat = np.delete(points, axis, axis=1)
+        away = self._trees[axis].query(flat, distance_upper_bound=reach.max())[0]
+        return away <= reach
+
+    def _losses(
+        self, axis: int, points: NDArray[np.float64], radii: NDArray[np.float64]
+    ) -> NDArray[np.int64]:
+        """Return how much less often rays may leave the mesh from elsewhere in regions.
+
+        That is, leave it more often than they enter it, less than from the center:
+        (2, M), for rays against the axis, and along it, at most so much.
         """
         found = np.zeros((2, len(points)), dtype=np.int64)
-        if len(self._ends) == 0 or len(points) == 0:
+        if len(points) == 0:
             return found
-        reach = radii + _GRAIN / 2
-        tree, flat = self._trees[axis], np.delete(points, axis, axis=1)
-        nearest = tree.query(flat, distance_upper_bound=reach.max())[0]
-        beside = np.flatnonzero(nearest <= reach)  # often none, and the rest takes longer
-        reach, ranks = reach[beside, None], range(1, _NEIGHBORS + 1)
-        if len(beside) == 0:
-            return found
-        away, rows = tree.query(flat[beside], ranks, distance_upper_bound=reach.max())
-        near = away <= reach
+        reach, ranks = radii + _GRAIN / 2, range(1, _NEIGHBORS + 1)
+        flat = np.delete(points, axis, axis=1)
+        away, rows = self._trees[axis].query(
+            flat, ranks, distance_upper_bound=reach.max()
+        )
+        near = away <= reach[:, None]
         few = ~near[:, -1]
-        found[:, beside[~few]] = len(self._ends)
+        found[:, ~few] = len(self._ends)
         most = near[few].sum(axis=1).max(initial=0)
-        near, rows, beside = near[few, :most], rows[few, :most], beside[few]
-        radii = radii[beside, None]
-        ends = self._ends[np.where(near, rows, 0)] - points[beside, None, None]
+        near, rows, radii = near[few, :most], rows[few, :most], radii[few, None]
+        ends = self._ends[np.where(near, rows, 0)] - points[few, None, None]
         heights = ends[..., axis].mean(axis=2)
         one, other = np.moveaxis(ends[..., [(axis + 1) % 3, (axis + 2) % 3]], 2, 0)
         near &= _from_origin(one, other) <= radii
         for way, (first, last) in enumerate([(other, one), (one, other)]):
             passed = near & ((2 * way - 1) * heights > -radii - _GRAIN / 2)
-            found[way, beside] = _most_crossed(first, last, passed)
+            found[way, few] = _most_crossed(first, last, passed)
         return found
 
 

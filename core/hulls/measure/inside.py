@@ -100,18 +100,14 @@ class InsideTest:
             Of those, whether surely nothing but the surface leads outside.
         """
         local, small = centers @ AXES.T, radii <= largest
-        leaving = [np.array([*self._leaving(k, local)]) for k in range(self._n_axes)]
-        inside = (np.concatenate(leaving) > 0).sum(axis=0) > self._n_axes
+        leaving = np.array([[*self._leaving(k, local)] for k in range(self._n_axes)])
+        inside = (leaving > 0).sum(axis=(0, 1)) > self._n_axes
         if self._n_axes == 1:  # nothing but the surface is between inside and outside
             return inside, inside & small
-        whole, undecided = np.zeros_like(inside), inside & small
-        votes = np.zeros(len(centers), dtype=np.int64)
-        for axis, more in enumerate(leaving):
-            rows = np.flatnonzero(undecided)
-            losses = self._hole_edges.losses(axis, local[rows], radii[rows])
-            votes[rows] += (more[:, rows] > losses).sum(axis=0)
-            whole |= votes > self._n_axes
-            undecided &= ~whole & (votes + 2 * (2 - axis) > self._n_axes)
+        whole, rows = inside & small, np.flatnonzero(inside & small)
+        whole[rows] = self._hole_edges.surely_inside(
+            local[rows], radii[rows], leaving[..., rows]
+        )
         return inside & (whole | (radii > min(_NARROW, largest))), whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
