@@ -182,11 +182,12 @@ def components_at_once(
     n_nodes : int
     """
     keys = np.unique(pairs[:, 0].astype(np.int64) * n_nodes + pairs[:, 1])
-    if len(keys) > _FEW_PAIRS:
+    pairs = np.stack(np.divmod(keys, n_nodes), axis=1)
+    if len(pairs) > _FEW_PAIRS:
         graph = graph_of(pairs, n_nodes)
         return connected_components(graph, directed=False)[1].astype(np.int64)
     found = np.arange(n_nodes)
-    for one, other in zip(*np.divmod(keys, n_nodes), strict=True):
+    for one, other in pairs:
         low, high = sorted((found[one], found[other]))
         found[found == high] = low
     return np.unique(found, return_inverse=True)[1].reshape(-1)

@@ -120,7 +120,8 @@ def _pieces(
         kept = np.flatnonzero(parts == part)
         if not at_seams[kept].any():
             continue
-        place = np.where(parts == part, 1 + at_seams, 0)
+        place = np.zeros_like(parts)
+        place[kept] = 1 + at_seams[kept]
         make = partial(PartSurface, graph, kept, at_seams)
         surface = memo.surfaces.recall(digest(place), make)
         count = partial(count_pairs, memo, kept)
