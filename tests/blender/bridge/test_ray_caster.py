@@ -5,7 +5,6 @@ from brute_caster import BruteCaster
 from weak_convex_decomposition.core.sight import ray_caster
 from weak_convex_decomposition.core.sight.ray_caster import caster_in_steps
 from weak_convex_decomposition.core.steps.progress import run
-from weak_convex_decomposition.operators.bridge.rays import bvh
 from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.rays.choice import choose_ray_caster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
@@ -13,14 +12,12 @@ from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 PRECISION = 1e-5  # casters work in single precision, the shapes have size 2
 
 
-@pytest.fixture(params=["bvh", "bvh of many triangles", "several trees", "embree"])
+@pytest.fixture(params=["bvh", "several trees", "embree"])
 def make_caster(request, monkeypatch):
     if request.param == "several trees":
         monkeypatch.setattr(ray_caster, "_MOST_TRIANGLES", 5)
         return lambda mesh: run(caster_in_steps(mesh, BvhRayCaster))
     if request.param != "embree":
-        if request.param != "bvh":
-            monkeypatch.setattr(bvh, "_FEW_TRIANGLES", 0)
         return BvhRayCaster
     pytest.importorskip("embreex")
     from weak_convex_decomposition.operators.bridge.rays.embree import EmbreeRayCaster
