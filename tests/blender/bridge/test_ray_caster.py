@@ -86,3 +86,10 @@ def test_answers_are_integers_and_floats(suzanne, make_caster):
 
 def test_blender_casts_its_own_rays():
     assert choose_ray_caster() is BvhRayCaster
+
+
+def test_nothing_is_added_to_the_file(suzanne):
+    mesh = read_shape(suzanne)
+    before = bpy.data.meshes.new("before").session_uid  # numbers are given in turn
+    BvhRayCaster(mesh)
+    assert bpy.data.meshes.new("after").session_uid == before + 1
