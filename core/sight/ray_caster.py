@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
 
-# Most triangles in one tree: Blender takes 0.06 s for it. Smaller trees would take less,
-# but rays longer: a quarter more for a million triangles in eleven trees, not six.
+# Most triangles in one tree: Blender takes 0.06 s for it. Smaller trees take less, but
+# rays longer: a quarter more for a million triangles in eleven trees, not six.
 _MOST_TRIANGLES = 100_000
 
 
