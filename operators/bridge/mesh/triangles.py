@@ -68,18 +68,13 @@ def ask(
     Answers
     """
     counts = np.bincount(faces, minlength=len(mesh.polygons))
-    starts = _first_corners(counts)
-    if len(faces) == 0 or starts[-1] + counts[-1] + 2 != len(corners):
+    if len(faces) == 0 or counts.sum() + 2 * len(counts) != len(corners):
         return _all_asked(mesh, counts)
     asked = counts > 2
     quads = np.flatnonzero(counts == 2)
-    columns = np.ascontiguousarray(places.T)
-    least = _BESIDE * np.abs(columns).max()
-    with np.errstate(over="ignore", invalid="ignore"):  # such quads are not plain
-        for start in range(0, len(quads), _BLOCK):
-            block = quads[start : start + _BLOCK]
-            at = corners[starts[block] + np.arange(4)[:, None]]
-            asked[block] = ~_plain(np.take(columns, at, axis=1), least)
+    if len(quads):
+        firsts = _first_corners(counts)[quads]
+        asked[quads] = ~_are_plain(firsts, places, corners)
     rows = np.flatnonzero(asked[faces]) if asked.any() else quads[:0]
     if len(rows) > _FEW * len(faces):
         return _all_asked(mesh, counts)
@@ -121,8 +116,24 @@ def corners_of_triangles(answers: Answers) -> Steps[IntArray]:
 def _first_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the first corner of each face, (P,), from its number of triangles."""
     sizes = counts + 2
-    firsts: NDArray[np.int64] = np.cumsum(sizes) - sizes
+    firsts: NDArray[np.int64] = np.cumsum(sizes)
+    firsts -= sizes
     return firsts
+
+
+def _are_plain(
+    firsts: NDArray[np.int64], places: FloatArray, corners: IntArray
+) -> NDArray[np.bool_]:
+    """Return which quads are `_plain`, (Q,), from the first corner of each."""
+    columns = np.ascontiguousarray(places.T)
+    least = _BESIDE * np.abs(columns).max()
+    plain = np.empty(len(firsts), dtype=bool)
+    with np.errstate(over="ignore", invalid="ignore"):  # such quads are not plain
+        for start in range(0, len(firsts), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            at = corners[firsts[block] + np.arange(4)[:, None]]
+            plain[block] = _plain(np.take(columns, at, axis=1), least)
+    return plain
 
 
 def _plain(quads: FloatArray, least: float) -> NDArray[np.bool_]:
