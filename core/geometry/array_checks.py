@@ -124,6 +124,24 @@ def rows_of_three(values: object, name: str, whole: bool = False) -> NDArray[Any
     return array
 
 
+def check_surface(vertices: NDArray[Any], n_triangles: int) -> None:
+    """Raise if there are no triangles, or coordinates (V, 3) are not finite.
+
+    Raises
+    ------
+    DecompositionError
+    """
+    if n_triangles == 0:
+        raise DecompositionError(
+            "The mesh has no faces; add faces or choose another object."
+        )
+    if not np.isfinite(vertices).all():
+        raise DecompositionError(
+            "The mesh has coordinates that are not finite numbers; delete or"
+            " repair those vertices (Mesh > Clean Up)."
+        )
+
+
 def check_size(low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
     """Raise an error if areas and volumes of a shape would leave double precision.
 

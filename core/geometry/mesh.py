@@ -12,7 +12,13 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
 from ..steps.progress import Progress, Steps, run, within
-from .array_checks import check_size, checked_numbers, rows_of_three, welded
+from .array_checks import (
+    check_size,
+    check_surface,
+    checked_numbers,
+    rows_of_three,
+    welded,
+)
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
 _LEAST_AREA = 1e-9
@@ -68,15 +74,7 @@ class TriangleMesh:
         triangles = _kept(triangles, np.int64)
         polygons = checked_numbers(self.polygons, "Polygons", whole=True)
         polygons = _kept(polygons, np.int64)
-        if len(triangles) == 0:
-            raise DecompositionError(
-                "The mesh has no faces; add faces or choose another object."
-            )
-        if not np.isfinite(vertices).all():
-            raise DecompositionError(
-                "The mesh has coordinates that are not finite numbers; delete or"
-                " repair those vertices (Mesh > Clean Up)."
-            )
+        check_surface(vertices, len(triangles))
         if triangles.min() < 0 or triangles.max() >= len(vertices):
             raise DecompositionError(
                 "The mesh has faces that refer to missing vertices; repair it first."

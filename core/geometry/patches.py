@@ -122,8 +122,10 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
     yield Progress("Patches", 0.0)
     area = graph.areas.sum() / n_patches
     # A mirror plane through the origin halves cubes, so that patches are symmetric.
-    cells = np.round(graph.centers / np.sqrt(area)).astype(np.int64) @ _CELL_NUMBERS
-    yield Progress("Patches", 0.2)
+    cells = np.zeros(graph.n_polygons, dtype=np.int64)
+    for column, number in zip(graph.centers.T, _CELL_NUMBERS, strict=True):
+        cells += np.round(column / np.sqrt(area)).astype(np.int64) * number
+        yield Progress("Patches", 0.2)
     inside = cells[graph.neighbors[:, 0]] == cells[graph.neighbors[:, 1]]
     smooth = np.abs(graph.bends) <= _SHARP
     yield Progress("Patches", 0.4)

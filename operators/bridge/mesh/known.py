@@ -12,8 +12,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.steps.progress import Progress, Steps, run
 from .attributes import FloatArray, IntArray, read_floats, read_ints
-from .triangles import corners_of_triangles
+from .triangles import Answers, ask, corners_of_triangles
 
 Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
 
@@ -45,7 +46,7 @@ class Known(NamedTuple):
         sizes = len(mesh.vertices), len(mesh.loops)
         if sizes != (len(self.places), len(self.corners)):
             return False  # Blender need not find the triangles
-        if not np.array_equal(self.places, _positions(mesh)):
+        if not np.array_equal(self.places, vertex_positions(mesh)):
             return False
         if not np.array_equal(self.corners, corner_vertices(mesh)):
             return False
@@ -63,7 +64,14 @@ _latest: Known | None = None
 
 
 def triangles_of(mesh: bpy.types.Mesh) -> Triangles:
+    """Return at once what `triangles_in_steps` returns."""
+    return run(triangles_in_steps(mesh))
+
+
+def triangles_in_steps(mesh: bpy.types.Mesh) -> Steps[Triangles]:
     """Return the vertices of a mesh, its triangles, and the face of each triangle.
+
+    The mesh is read at once, so that it may change before the steps are done.
 
     Returns
     -------
@@ -71,19 +79,37 @@ def triangles_of(mesh: bpy.types.Mesh) -> Triangles:
     triangles : (T, 3) int
     faces : (T,) int
     """
+    if _latest is not None and _latest.is_of(mesh):
+        return _known(_latest)
+    faces, corners = _faces_of_triangles(mesh), corner_vertices(mesh)
+    places = vertex_positions(mesh)
+    answers = ask(mesh, faces, places, corners)
+    return _understood(faces, places, corners, answers)
+
+
+def _known(latest: Known) -> Steps[Triangles]:
+    """Return the triangles of the latest mesh."""
+    yield from ()
+    return latest.triangles
+
+
+def _understood(
+    faces: IntArray, places: FloatArray, corners: IntArray, answers: Answers
+) -> Steps[Triangles]:
+    """Return the triangles of a mesh from what was read, and keep them."""
     global _latest
-    if _latest is None or not _latest.is_of(mesh):
-        faces, corners = _faces_of_triangles(mesh), corner_vertices(mesh)
-        places = _positions(mesh)
-        cut = corners_of_triangles(mesh, faces, places, corners)
-        arrays = (
-            places.astype(np.float64),
-            corners.astype(np.int64)[cut],
-            faces.astype(np.int64),
-        )
-        for array in arrays:
-            array.flags.writeable = False  # a shape need not copy it
-        _latest = Known(places, corners, faces, arrays, {})
+    cut = yield from corners_of_triangles(answers)
+    arrays: list[NDArray[Any]] = []
+    for make in (
+        lambda: places.astype(np.float64),
+        lambda: corners[cut].astype(np.int64),
+        lambda: faces.astype(np.int64),
+    ):
+        yield Progress("Surface", 0.0)
+        arrays.append(make())
+        arrays[-1].flags.writeable = False  # a shape need not copy it
+    vertices, triangles, of_triangles = arrays
+    _latest = Known(places, corners, faces, (vertices, triangles, of_triangles), {})
     return _latest.triangles
 
 
@@ -148,7 +174,7 @@ def _faces_of_triangles(mesh: bpy.types.Mesh) -> IntArray:
     return read_ints(mesh.loop_triangle_polygons, "value")
 
 
-def _positions(mesh: bpy.types.Mesh) -> FloatArray:
+def vertex_positions(mesh: bpy.types.Mesh) -> FloatArray:
     """Return the positions of the vertices, (V, 3)."""
     places = mesh.attributes.get("position")
     if places is None or mesh.is_editmode:  # attributes look empty in Edit Mode

@@ -8,11 +8,13 @@ where that is not plain to see, it has to be asked.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.steps.progress import Progress, Steps
 from .attributes import FloatArray, IntArray, read_ints
 
 # Quads that are looked at together: their arrays fit into the cache.
@@ -24,12 +26,31 @@ _BESIDE = 1e-5
 _ALIKE = 0.1
 # To ask for single triangles is quicker, if they are at most this share of all.
 _FEW = 0.05
+_READING = Progress("Surface", 0.0)
 
 
-def corners_of_triangles(
+class Answers(NamedTuple):
+    """What Blender was asked of a mesh; how it cuts the other faces follows from it.
+
+    Attributes
+    ----------
+    counts : (P,) int
+        Number of triangles of each face.
+    rows : (R,) int
+        Triangles that Blender was asked for.
+    corners : (R, 3) int32
+        Their corners.
+    """
+
+    counts: NDArray[np.int64]
+    rows: NDArray[np.int64]
+    corners: IntArray
+
+
+def ask(
     mesh: bpy.types.Mesh, faces: IntArray, places: FloatArray, corners: IntArray
-) -> IntArray:
-    """Return the corners of each triangle of a mesh, as Blender cuts its faces.
+) -> Answers:
+    """Ask Blender for the triangles that have to be asked for.
 
     Parameters
     ----------
@@ -44,35 +65,75 @@ def corners_of_triangles(
 
     Returns
     -------
-    (T, 3) int32
+    Answers
     """
     counts = np.bincount(faces, minlength=len(mesh.polygons))
-    starts = np.cumsum(counts + 2) - counts - 2
-    if len(faces) == 0 or starts[-1] + counts[-1] + 2 != len(corners):
-        return _all_asked(mesh)
+    if len(faces) == 0 or counts.sum() + 2 * len(counts) != len(corners):
+        return _all_asked(mesh, counts)
     asked = counts > 2
     quads = np.flatnonzero(counts == 2)
-    columns = np.ascontiguousarray(places.T)
-    least = _BESIDE * np.abs(columns).max()
-    with np.errstate(over="ignore", invalid="ignore"):  # such quads are not plain
-        for start in range(0, len(quads), _BLOCK):
-            block = quads[start : start + _BLOCK]
-            at = corners[starts[block] + np.arange(4)[:, None]]
-            asked[block] = ~_plain(np.take(columns, at, axis=1), least)
+    if len(quads):
+        firsts = _first_corners(counts)[quads]
+        asked[quads] = ~_are_plain(firsts, places, corners)
     rows = np.flatnonzero(asked[faces]) if asked.any() else quads[:0]
     if len(rows) > _FEW * len(faces):
-        return _all_asked(mesh)
+        return _all_asked(mesh, counts)
+    triangles = mesh.loop_triangles
+    told = [triangles[row].loops[:] for row in rows.tolist()]
+    return Answers(counts, rows, np.array(told, dtype=np.int32).reshape(-1, 3))
+
+
+def corners_of_triangles(answers: Answers) -> Steps[IntArray]:
+    """Return the corners of each triangle of a mesh, as Blender cuts its faces.
+
+    Parameters
+    ----------
+    answers : Answers
+        The mesh itself may have changed since.
+
+    Returns
+    -------
+    Steps of (T, 3) int32
+    """
+    counts = answers.counts
+    n_triangles = int(counts.sum())
+    if len(answers.rows) == n_triangles:
+        return answers.corners
+    yield _READING
     # The triangles of a plain quad share its first corner.
-    found = np.empty((len(faces), 3), dtype=np.int32)
+    found = np.empty((n_triangles, 3), dtype=np.int32)
+    starts = _first_corners(counts)
     found[:, 0] = np.repeat(starts, counts)
-    found[:, 1] = np.arange(1, len(faces) + 1) + np.repeat(
+    yield _READING
+    found[:, 1] = np.arange(1, n_triangles + 1) + np.repeat(
         starts - np.cumsum(counts) + counts, counts
     )
     found[:, 2] = found[:, 1] + 1
-    triangles = mesh.loop_triangles
-    for row in rows.tolist():
-        found[row] = triangles[row].loops[:]
+    found[answers.rows] = answers.corners
     return found
+
+
+def _first_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the first corner of each face, (P,), from its number of triangles."""
+    sizes = counts + 2
+    firsts: NDArray[np.int64] = np.cumsum(sizes)
+    firsts -= sizes
+    return firsts
+
+
+def _are_plain(
+    firsts: NDArray[np.int64], places: FloatArray, corners: IntArray
+) -> NDArray[np.bool_]:
+    """Return which quads are `_plain`, (Q,), from the first corner of each."""
+    columns = np.ascontiguousarray(places.T)
+    least = _BESIDE * np.abs(columns).max()
+    plain = np.empty(len(firsts), dtype=bool)
+    with np.errstate(over="ignore", invalid="ignore"):  # such quads are not plain
+        for start in range(0, len(firsts), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            at = corners[firsts[block] + np.arange(4)[:, None]]
+            plain[block] = _plain(np.take(columns, at, axis=1), least)
+    return plain
 
 
 def _plain(quads: FloatArray, least: float) -> NDArray[np.bool_]:
@@ -102,6 +163,7 @@ def _dot(one: Sequence[FloatArray], other: Sequence[FloatArray]) -> FloatArray:
     return ax * bx + ay * by + az * bz
 
 
-def _all_asked(mesh: bpy.types.Mesh) -> IntArray:
-    """Return the corners of all triangles, (T, 3), as Blender tells them."""
-    return read_ints(mesh.loop_triangles, "loops", 3)
+def _all_asked(mesh: bpy.types.Mesh, counts: NDArray[np.int64]) -> Answers:
+    """Return the corners of all triangles, as Blender tells them."""
+    corners = read_ints(mesh.loop_triangles, "loops", 3)
+    return Answers(counts, np.arange(len(corners)), corners)

@@ -7,9 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ....core.geometry.array_checks import check_surface
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
-from ..mesh.known import triangles_of
+from ....core.geometry.shape import Shape
+from ....core.steps.progress import Progress, Steps, run
+from ..mesh.known import triangles_in_steps, vertex_positions
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
 from .converting import mesh_of
@@ -18,7 +21,12 @@ from .converting import mesh_of
 _SAME_SCALE = 1e-5
 
 
-def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
+def read_shape(obj: bpy.types.Object) -> Shape:
+    """Return at once what `shape_in_steps` returns."""
+    return run(shape_in_steps(obj))
+
+
+def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     """Return the triangles of an object's mesh, without modifiers, or its points.
 
     Coordinates are in object space, in Blender units. If the object's scale differs by
@@ -26,20 +34,37 @@ def read_shape(obj: bpy.types.Object) -> TriangleMesh | PointCloud:
     user sees. Mirroring is left out: it changes no line of sight, and would turn the
     triangles inside out.
 
+    All is read at once, so that the object may change before the steps are done.
+
+    Returns
+    -------
+    Steps of TriangleMesh or PointCloud
+
     Raises
     ------
     DecompositionError
-        If an object has no usable faces or points, or a scale of zero.
+        At once, if an object has no usable faces or points, or a scale of zero.
     """
     factors = stretch(obj)
     if is_cloud(obj):
-        read = normals_of(obj)
-        # Stretching tilts normals the other way.
-        normals = None if read is None else read.astype(np.float64) / factors
-        return PointCloud(positions_of(obj).astype(np.float64) * factors, normals)
+        return as_steps(_cloud(obj, factors))
     flush_edits(obj)
     with mesh_of(obj) as mesh:
-        return read_mesh(mesh, factors)
+        return _mesh_in_steps(mesh, factors)
+
+
+def _cloud(obj: bpy.types.Object, factors: NDArray[np.float64]) -> PointCloud:
+    """Return the points of an object, its coordinates multiplied by factors (3,)."""
+    read = normals_of(obj)
+    # Stretching tilts normals the other way.
+    normals = None if read is None else read.astype(np.float64) / factors
+    return PointCloud(positions_of(obj).astype(np.float64) * factors, normals)
+
+
+def as_steps(shape: Shape) -> Steps[Shape]:
+    """Return steps that return a shape."""
+    yield from ()
+    return shape
 
 
 def read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMesh:
@@ -50,10 +75,24 @@ def read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMes
     DecompositionError
         If the mesh has no usable faces.
     """
-    vertices, triangles, polygons = triangles_of(mesh)
-    vertices = vertices * factors
-    vertices.flags.writeable = False  # as the others: the shape need not copy it
-    return TriangleMesh(vertices, triangles, polygons)
+    return run(_mesh_in_steps(mesh, factors))
+
+
+def _mesh_in_steps(
+    mesh: bpy.types.Mesh, factors: NDArray[np.float64]
+) -> Steps[TriangleMesh]:
+    """Return what `read_mesh` returns; the mesh is read and checked at once."""
+    check_surface(vertex_positions(mesh), len(mesh.polygons))
+    read = triangles_in_steps(mesh)
+
+    def work() -> Steps[TriangleMesh]:
+        vertices, triangles, polygons = yield from read
+        yield Progress("Surface", 0.0)
+        vertices = vertices * factors
+        vertices.flags.writeable = False  # as the others: the shape need not copy it
+        return TriangleMesh(vertices, triangles, polygons)
+
+    return work()
 
 
 def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:

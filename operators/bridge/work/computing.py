@@ -20,7 +20,7 @@ from ....core.results.hulls import HullDecomposition
 from ....core.results.parts import Decomposition, Measurement
 from ....core.results.views import Picture
 from ....core.steps.processes import Processes
-from ....core.steps.progress import Progress, Steps, within
+from ....core.steps.progress import Progress, Steps, run, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
 from ..parts.read import part_identities, part_labels
@@ -28,7 +28,7 @@ from ..parts.rows import hull_shapes
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
-from ..read.shape import read_shape, scene_unit
+from ..read.shape import as_steps, scene_unit, shape_in_steps
 from ..refusals import hull_refusal
 from ..stored.record import check_records, noted_parameters
 from .libraries import with_libraries
@@ -53,21 +53,24 @@ def decompose_object(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    notes, shape = _read(obj, seen)
+    notes, reading = _read(obj, seen)
 
     def work() -> Steps[Decomposition]:
-        cache = session_cache()
+        shape, cache = (yield from reading), session_cache()
         steps = core.decompose_in_steps(shape, parameters, cache, None, rough)
         return (yield from steps)
 
     return with_libraries(notes, work())
 
 
-def _read(obj: bpy.types.Object, seen: SeenMesh | None) -> tuple[Notes, Shape]:
-    """Return the shape of an object, or as it is seen, and what to say of that."""
+def _read(obj: bpy.types.Object, seen: SeenMesh | None) -> tuple[Notes, Steps[Shape]]:
+    """Return what to say of an object's shape, and the steps that end in it.
+
+    It is the one that is `seen`, if that is given.
+    """
     if seen is not None:
-        return seen.notes, seen.shape
-    return reading_notes(obj), read_shape(obj)
+        return seen.notes, as_steps(seen.shape)
+    return reading_notes(obj), shape_in_steps(obj)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -79,9 +82,10 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
         At once, if the object cannot be read.
     """
     check_records(obj)
-    notes, shape = reading_notes(obj), read_shape(obj)
+    notes, reading = _read(obj, None)
 
     def work() -> Steps[Measurement]:
+        shape = yield from reading
         return (yield from core.measure_in_steps(shape, parameters, session_cache()))
 
     return with_libraries(notes, work())
@@ -98,14 +102,14 @@ def measure_selection_of(
         At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
-    notes, shape, faces = reading_notes(obj), read_shape(obj), selected_faces(obj)
+    (notes, reading), faces = _read(obj, None), selected_faces(obj)
     if not faces.any():
         raise DecompositionError(
             "No faces are selected; select the faces to measure in Edit Mode."
         )
 
     def work() -> Steps[Measurement]:
-        cache = session_cache()
+        shape, cache = (yield from reading), session_cache()
         return (yield from core.measure_in_steps(shape, parameters, cache, faces))
 
     return with_libraries(notes, work())
@@ -121,9 +125,10 @@ def point_viewer_of(
     DecompositionError
         At once, if the object cannot be read.
     """
-    notes, shape = reading_notes(obj), read_shape(obj)
+    notes, reading = _read(obj, None)
 
     def work() -> Steps[core.PointViewer]:
+        shape = yield from reading
         prepared = yield from within(session_cache().prepare(shape), 0.0, 0.4)
         viewer = core.point_viewer_in_steps(prepared, parameters)
         return (yield from within(viewer, 0.4, 1.0))
@@ -140,7 +145,7 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
         At once, if the object cannot be read, or has no record of its parts.
     """
     parameters = noted_parameters(obj)
-    labels, shape = part_labels(obj), read_shape(obj)
+    labels, reading = part_labels(obj), shape_in_steps(obj)
     if labels is None or parameters is None:
         raise DecompositionError(
             f"{obj.name} has no record of its parts; decompose it again."
@@ -148,7 +153,7 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
     colors = np.array([srgb_of(each.color) for each in part_identities(obj)])
 
     def work() -> Steps[Picture]:
-        cache = session_cache()
+        shape, cache = (yield from reading), session_cache()
         prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
         memo = yield from within(cache.see(prepared, parameters), 0.1, 0.9)
         yield Progress("Picture", 0.9)
@@ -188,17 +193,17 @@ def build_hulls_of(
     if reason:
         raise DecompositionError(f"{reason}.")
     check_records(obj)
-    (notes, shape), labels = _read(obj, seen), part_labels(obj)
+    (notes, read), labels = _read(obj, seen), part_labels(obj)
     if seen is not None and labels is not None:
         labels = labels[seen.origins] if seen.corresponds else None
     kinds = hull_shapes(obj) if labels is not None else {}
     rest = parameters.seed, scene_unit(obj), kinds
     if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
-        given = shape, hull_parameters, core.ShapeCache(core.no_rays), labels, *rest
-        return with_libraries(notes, processes.steps(core.build_hulls_in_steps, *given))
+        job = run(read), hull_parameters, core.ShapeCache(core.no_rays), labels, *rest
+        return with_libraries(notes, processes.steps(core.build_hulls_in_steps, *job))
 
     def work() -> Steps[HullDecomposition]:
-        cache, known, start = session_cache(), labels, 0.0
+        shape, cache, known, start = (yield from read), session_cache(), labels, 0.0
         if known is None and hull_parameters.pieces == "PARTS":
             start = 0.4
             parts = core.decompose_in_steps(shape, parameters, cache)

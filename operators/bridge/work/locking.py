@@ -26,7 +26,7 @@ from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
-from ..read.shape import read_shape
+from ..read.shape import as_steps, shape_in_steps
 from ..refusals import edit_refusal
 from ..stored.record import record_of
 from ..stored.versions import psi_by_k_of
@@ -131,10 +131,10 @@ def _decompose_rest(
     rest = _parameters_of_rest(parameters, parts, held)
     before, by_hand = parts.labels, parts.by_hand
     if seen is None:
-        notes, shape = reading_notes(obj), read_shape(obj)
+        notes, reading = reading_notes(obj), shape_in_steps(obj)
         areas = face_areas(obj, len(before))
     else:
-        notes, shape, areas = seen.notes, seen.shape, seen.areas
+        notes, reading, areas = seen.notes, as_steps(seen.shape), seen.areas
         before, by_hand = before[seen.origins], by_hand[seen.origins]
     if parameters.seams == "CUT":
         notes = (*notes, _NOT_CUT)
@@ -142,7 +142,7 @@ def _decompose_rest(
 
     def work() -> Steps[Edited]:
         yield from load_libraries()
-        cache = session_cache()
+        shape, cache = (yield from reading), session_cache()
         some = members if held.any() else None
         running = core.decompose_in_steps(shape, rest, cache, some)
         run = yield from within(running, 0.0, 0.6)

@@ -22,7 +22,7 @@ from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
-from ..read.shape import read_shape
+from ..read.shape import shape_in_steps
 from ..read.target import Target
 from ..stored.identity import Identity
 from ..stored.record import EVALUATED, ORIGINAL, note_mesh
@@ -135,13 +135,13 @@ def edit_object(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    parts, shape = present_parts(obj), read_shape(obj)
+    parts, reading = present_parts(obj), shape_in_steps(obj)
     parameters = parts.parameters
     notes = reading_notes(obj)
 
     def work() -> Steps[Edited]:
         yield from load_libraries()
-        cache = session_cache()
+        shape, cache = (yield from reading), session_cache()
         prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
         memo = yield from within(cache.see(prepared, parameters), 0.1, 0.5)
         steps = make_change(shape, memo, parts)

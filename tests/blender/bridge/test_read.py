@@ -3,11 +3,14 @@ import numpy as np
 import pytest
 from hand_made import activate, mesh_object
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.operators.bridge.mesh import known
 from weak_convex_decomposition.operators.bridge.read.reading_notes import (
     reading_notes,
 )
 from weak_convex_decomposition.operators.bridge.read.shape import (
     read_shape,
+    shape_in_steps,
 )
 
 HEXAGON = [(np.cos(a), np.sin(a), 0.0) for a in np.linspace(0, 2 * np.pi, 7)[:-1]]
@@ -109,6 +112,32 @@ def test_edit_mode_changes_are_read():
     assert mesh.n_polygons == 24
     assert len(mesh.triangles) == 48
     assert cube.mode == "EDIT"
+
+
+@pytest.mark.parametrize("change", ["move", "subdivide", "delete"])
+def test_the_mesh_may_change_once_it_is_read(suzanne, change):
+    before = read_shape(suzanne)
+    known.forget()
+    steps = shape_in_steps(suzanne)
+    if change == "move":
+        for vertex in suzanne.data.vertices:
+            vertex.co.z *= 2
+        suzanne.data.update()
+    elif change == "subdivide":
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.subdivide()
+        bpy.ops.object.mode_set(mode="OBJECT")
+    else:
+        bpy.data.meshes.remove(suzanne.data)
+    after = run(steps)
+    for name in ("vertices", "triangles", "polygons"):
+        assert np.array_equal(getattr(after, name), getattr(before, name))
+
+
+def test_bad_meshes_are_refused_before_any_step():
+    bpy.ops.mesh.primitive_circle_add()  # edges only
+    with pytest.raises(DecompositionError, match="no faces"):
+        shape_in_steps(bpy.context.active_object)
 
 
 def test_reading_leaves_the_mesh_as_it_is(suzanne):

@@ -92,7 +92,7 @@ def test_progress_is_told_and_other_events_pass(suzanne, window, monkeypatch):
     assert len(shares) > 5
 
 
-@pytest.mark.parametrize(("drawing", "seconds"), [(0.001, 0.2), (0.1, 1.0), (0.8, 5.0)])
+@pytest.mark.parametrize(("drawing", "seconds"), [(0.001, 0.2), (0.1, 2.0), (0.8, 5.0)])
 def test_progress_is_drawn_less_often_where_that_takes_long(
     suzanne, window, monkeypatch, drawing, seconds
 ):
