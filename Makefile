@@ -96,7 +96,7 @@ bench-hulls: venv ## Compare hulls with CoACD's and V-HACD's: MESHES=directory
 	@[ -n "$(MESHES)" ] || { echo "Name the directory of meshes: MESHES=directory"; exit 1; }
 	@$(VENV)/bin/python -m venv .venv-hulls
 	@.venv-hulls/bin/pip install -qq --disable-pip-version-check \
-	  coacd==1.0.14 vhacdx trimesh embreex numpy scipy
+	  coacd==1.0.14 vhacdx trimesh embreex numpy pillow scipy
 	@PYTHONPATH=tests/support PYTHONDONTWRITEBYTECODE=1 .venv-hulls/bin/python \
 	  tests/benchmarks/hulls/rivals.py "$(MESHES)" build/bench_hulls "$(VENV)/bin/python"
 
