@@ -11,9 +11,12 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
 
-# Most triangles in one tree: Blender takes 0.06 s for it. Smaller trees take less, but
-# rays longer: a quarter more for a million triangles in eleven trees, not six.
-_MOST_TRIANGLES = 100_000
+# Triangles in a tree: Blender takes 0.06 s for it. Smaller trees take less, but rays
+# longer: a quarter more for a million triangles in eleven trees, not six.
+_IN_A_TREE = 100_000
+# Most trees: rays ask all of them. With more triangles, there are more in each tree; of
+# ten million, a tree takes 0.3 s.
+_MOST_TREES = 20
 
 
 class RayCaster(Protocol):
@@ -65,7 +68,7 @@ def caster_in_steps(mesh: TriangleMesh, make_caster: MakeCaster) -> Steps[RayCas
     """
     yield Progress("Ray tree", 0.0)
     n_triangles = len(mesh.triangles)
-    n_trees = -(-n_triangles // _MOST_TRIANGLES)
+    n_trees = min(-(-n_triangles // _IN_A_TREE), _MOST_TREES)
     if n_trees == 1:
         return make_caster(mesh)
     # Slices along the longest axis: most rays miss most of them.

@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.geometry.mesh import blocks
 from ....core.steps.progress import Progress, Steps, run
 from .attributes import FloatArray, IntArray, read_floats, read_ints
 from .triangles import Answers, ask, corners_of_triangles
@@ -99,17 +100,17 @@ def _understood(
     """Return the triangles of a mesh from what was read, and keep them."""
     global _latest
     cut = yield from corners_of_triangles(answers)
-    arrays: list[NDArray[Any]] = []
-    for make in (
-        lambda: places.astype(np.float64),
-        lambda: corners[cut].astype(np.int64),
-        lambda: faces.astype(np.int64),
-    ):
+    triangles = np.empty(cut.shape, dtype=np.int64)
+    for rows in blocks(len(cut)):
         yield Progress("Surface", 0.0)
-        arrays.append(make())
-        arrays[-1].flags.writeable = False  # a shape need not copy it
-    vertices, triangles, of_triangles = arrays
-    _latest = Known(places, corners, faces, (vertices, triangles, of_triangles), {})
+        triangles[rows] = corners[cut[rows]]
+    yield Progress("Surface", 0.0)
+    vertices = places.astype(np.float64)
+    yield Progress("Surface", 0.0)
+    arrays = vertices, triangles, faces.astype(np.int64)
+    for array in arrays:
+        array.flags.writeable = False  # a shape need not copy it
+    _latest = Known(places, corners, faces, arrays, {})
     return _latest.triangles
 
 

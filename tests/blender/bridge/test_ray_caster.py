@@ -15,7 +15,7 @@ PRECISION = 1e-5  # casters work in single precision, the shapes have size 2
 @pytest.fixture(params=["bvh", "several trees", "embree"])
 def make_caster(request, monkeypatch):
     if request.param == "several trees":
-        monkeypatch.setattr(ray_caster, "_MOST_TRIANGLES", 5)
+        monkeypatch.setattr(ray_caster, "_IN_A_TREE", 5)
         return lambda mesh: run(caster_in_steps(mesh, BvhRayCaster))
     if request.param != "embree":
         return BvhRayCaster

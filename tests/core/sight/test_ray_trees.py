@@ -9,7 +9,7 @@ from weak_convex_decomposition.core.steps.progress import run
 
 @pytest.mark.parametrize("most", [1, 7, 100, 319])
 def test_several_trees_hit_what_one_hits(most, monkeypatch):
-    monkeypatch.setattr(ray_caster, "_MOST_TRIANGLES", most)
+    monkeypatch.setattr(ray_caster, "_IN_A_TREE", most)
     mesh = shapes.sphere(2)
     random = np.random.default_rng(0)
     starts, ways = random.uniform(-1.5, 1.5, (2, 300, 3))
@@ -22,7 +22,7 @@ def test_several_trees_hit_what_one_hits(most, monkeypatch):
 
 
 def test_each_tree_is_a_step(monkeypatch):
-    monkeypatch.setattr(ray_caster, "_MOST_TRIANGLES", 100)
+    monkeypatch.setattr(ray_caster, "_IN_A_TREE", 100)
     made = []
 
     def make_caster(mesh):
