@@ -16,6 +16,7 @@ PRECISION = 1e-5  # casters work in single precision, the shapes have size 2
 def make_caster(request, monkeypatch):
     if request.param == "several trees":
         monkeypatch.setattr(ray_caster, "_IN_A_TREE", 5)
+        monkeypatch.setattr(ray_caster, "_MOST_TREES", 1000)
         return lambda mesh: run(caster_in_steps(mesh, BvhRayCaster))
     if request.param != "embree":
         return BvhRayCaster

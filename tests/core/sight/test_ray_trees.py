@@ -10,6 +10,7 @@ from weak_convex_decomposition.core.steps.progress import run
 @pytest.mark.parametrize("most", [1, 7, 100, 319])
 def test_several_trees_hit_what_one_hits(most, monkeypatch):
     monkeypatch.setattr(ray_caster, "_IN_A_TREE", most)
+    monkeypatch.setattr(ray_caster, "_MOST_TREES", 320)
     mesh = shapes.sphere(2)
     random = np.random.default_rng(0)
     starts, ways = random.uniform(-1.5, 1.5, (2, 300, 3))
@@ -21,14 +22,27 @@ def test_several_trees_hit_what_one_hits(most, monkeypatch):
     assert 50 < (expected >= 0).sum() < 250
 
 
+def noting(sizes):
+    """Return what makes casters, and notes how many triangles each has."""
+
+    def make_caster(mesh):
+        sizes.append(len(mesh.triangles))
+        return BruteCaster(mesh)
+
+    return make_caster
+
+
 def test_each_tree_is_a_step(monkeypatch):
     monkeypatch.setattr(ray_caster, "_IN_A_TREE", 100)
     made = []
-
-    def make_caster(mesh):
-        made.append(len(mesh.triangles))
-        return BruteCaster(mesh)
-
-    counts = [len(made) for _ in caster_in_steps(shapes.sphere(2), make_caster)]
-    assert set(np.diff([*counts, len(made)])) == {0, 1}
+    counts = [len(made) for _ in caster_in_steps(shapes.sphere(2), noting(made))]
+    # Triangles are chosen in one step, and their tree is made in the next.
+    assert counts == [0, 0, 0, 1, 1, 2, 2, 3, 3]
     assert made == [80] * 4
+
+
+def test_there_are_no_more_trees_than_rays_can_ask(monkeypatch):
+    monkeypatch.setattr(ray_caster, "_IN_A_TREE", 1)
+    made = []
+    run(caster_in_steps(shapes.sphere(2), noting(made)))
+    assert made == [16] * 20
