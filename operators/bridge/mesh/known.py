@@ -12,10 +12,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.geometry.mesh import blocks
 from ....core.steps.progress import Progress, Steps, run
 from .attributes import FloatArray, IntArray, read_floats, read_ints
-from .triangles import Answers, ask, corners_of_triangles
+from .triangles import Asked, ask, cut_in_steps
 
 Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
 
@@ -42,12 +41,16 @@ class Known(NamedTuple):
     triangles: Triangles
     asked: dict[str, NDArray[Any]]
 
-    def is_of(self, mesh: bpy.types.Mesh) -> bool:
-        """Return whether a mesh has these vertices and faces."""
+    def is_of(self, mesh: bpy.types.Mesh, places: FloatArray | None = None) -> bool:
+        """Return whether a mesh has these vertices and faces.
+
+        Its vertices are read if their `places` are not given.
+        """
         sizes = len(mesh.vertices), len(mesh.loops)
         if sizes != (len(self.places), len(self.corners)):
             return False  # Blender need not find the triangles
-        if not np.array_equal(self.places, vertex_positions(mesh)):
+        places = vertex_positions(mesh) if places is None else places
+        if not np.array_equal(self.places, places):
             return False
         if not np.array_equal(self.corners, corner_vertices(mesh)):
             return False
@@ -69,10 +72,18 @@ def triangles_of(mesh: bpy.types.Mesh) -> Triangles:
     return run(triangles_in_steps(mesh))
 
 
-def triangles_in_steps(mesh: bpy.types.Mesh) -> Steps[Triangles]:
+def triangles_in_steps(
+    mesh: bpy.types.Mesh, places: FloatArray | None = None
+) -> Steps[Triangles]:
     """Return the vertices of a mesh, its triangles, and the face of each triangle.
 
     The mesh is read at once, so that it may change before the steps are done.
+
+    Parameters
+    ----------
+    mesh : bpy.types.Mesh
+    places : (V, 3) float32, optional
+        Its `vertex_positions`, if they were read already.
 
     Returns
     -------
@@ -80,12 +91,11 @@ def triangles_in_steps(mesh: bpy.types.Mesh) -> Steps[Triangles]:
     triangles : (T, 3) int
     faces : (T,) int
     """
-    if _latest is not None and _latest.is_of(mesh):
+    places = vertex_positions(mesh) if places is None else places
+    if _latest is not None and _latest.is_of(mesh, places):
         return _known(_latest)
     faces, corners = _faces_of_triangles(mesh), corner_vertices(mesh)
-    places = vertex_positions(mesh)
-    answers = ask(mesh, faces, places, corners)
-    return _understood(faces, places, corners, answers)
+    return _understood(faces, places, corners, ask(mesh, faces))
 
 
 def _known(latest: Known) -> Steps[Triangles]:
@@ -95,15 +105,11 @@ def _known(latest: Known) -> Steps[Triangles]:
 
 
 def _understood(
-    faces: IntArray, places: FloatArray, corners: IntArray, answers: Answers
+    faces: IntArray, places: FloatArray, corners: IntArray, asked: Asked
 ) -> Steps[Triangles]:
     """Return the triangles of a mesh from what was read, and keep them."""
     global _latest
-    cut = yield from corners_of_triangles(answers)
-    triangles = np.empty(cut.shape, dtype=np.int64)
-    for rows in blocks(len(cut)):
-        yield Progress("Surface", 0.0)
-        triangles[rows] = corners[cut[rows]]
+    triangles = yield from cut_in_steps(asked, places, corners)
     yield Progress("Surface", 0.0)
     vertices = places.astype(np.float64)
     yield Progress("Surface", 0.0)

@@ -1,14 +1,14 @@
-"""How Blender cuts faces into triangles: told quickly for those that are plain quads.
+"""How faces are cut into triangles.
 
-Blender tells the corners of triangles one by one, which takes 0.1 s for a million. But
-it cuts a quad between its first and third corner, unless that line is not inside. Only
-where that is not plain to see, it has to be asked.
+Blender tells the corners of triangles one by one, which takes 0.1 s for a million, and
+its choice between the two ways to cut a quad depends on whether it knows the normals of
+faces. So it is asked only for faces with more corners.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -17,19 +17,13 @@ from numpy.typing import NDArray
 from ....core.steps.progress import Progress, Steps
 from .attributes import FloatArray, IntArray, read_ints
 
-# Quads that are looked at together: their arrays fit into the cache.
+# Faces that are looked at together: their arrays fit into the cache.
 _BLOCK = 2**14
-# The second and fourth corner are plainly beside the line, if they are this far from
-# it, as a share of the largest coordinate. Blender rounds to a tenth of this.
-_BESIDE = 1e-5
-# Both halves plainly face the same way: the cosine between them is above this.
-_ALIKE = 0.1
 # To ask for single triangles is quicker, if they are at most this share of all.
 _FEW = 0.05
-_READING = Progress("Surface", 0.0)
 
 
-class Answers(NamedTuple):
+class Asked(NamedTuple):
     """What Blender was asked of a mesh; how it cuts the other faces follows from it.
 
     Attributes
@@ -37,7 +31,7 @@ class Answers(NamedTuple):
     counts : (P,) int
         Number of triangles of each face.
     rows : (R,) int
-        Triangles that Blender was asked for.
+        Triangles of the faces with more than four corners.
     corners : (R, 3) int32
         Their corners.
     """
@@ -47,10 +41,8 @@ class Answers(NamedTuple):
     corners: IntArray
 
 
-def ask(
-    mesh: bpy.types.Mesh, faces: IntArray, places: FloatArray, corners: IntArray
-) -> Answers:
-    """Ask Blender for the triangles that have to be asked for.
+def ask(mesh: bpy.types.Mesh, faces: IntArray) -> Asked:
+    """Ask Blender for the triangles of faces with more than four corners.
 
     Parameters
     ----------
@@ -58,6 +50,32 @@ def ask(
         With its triangles made.
     faces : (T,) int32
         The face of each triangle.
+
+    Returns
+    -------
+    Asked
+    """
+    counts = np.bincount(faces, minlength=len(mesh.polygons))
+    large = counts > 2
+    rows = np.flatnonzero(large[faces] if large.any() else large[:0])
+    triangles = mesh.loop_triangles
+    if len(rows) > _FEW * len(faces):
+        return Asked(counts, rows, read_ints(triangles, "loops", 3)[rows])
+    told = [triangles[row].loops[:] for row in rows.tolist()]
+    return Asked(counts, rows, np.array(told, dtype=np.int32).reshape(-1, 3))
+
+
+def cut_in_steps(
+    asked: Asked, places: FloatArray, corners: IntArray
+) -> Steps[NDArray[np.int64]]:
+    """Cut all faces of a mesh into triangles.
+
+    A quad is cut between its first and third corner, unless the other two lie on the
+    same side of that line.
+
+    Parameters
+    ----------
+    asked : Asked
     places : (V, 3) float32
         The vertices.
     corners : (C,) int32
@@ -65,105 +83,55 @@ def ask(
 
     Returns
     -------
-    Answers
+    Steps of (T, 3) int
+        The vertices of each triangle.
     """
-    counts = np.bincount(faces, minlength=len(mesh.polygons))
-    if len(faces) == 0 or counts.sum() + 2 * len(counts) != len(corners):
-        return _all_asked(mesh, counts)
-    asked = counts > 2
-    quads = np.flatnonzero(counts == 2)
-    if len(quads):
-        firsts = _first_corners(counts)[quads]
-        asked[quads] = ~_are_plain(firsts, places, corners)
-    rows = np.flatnonzero(asked[faces]) if asked.any() else quads[:0]
-    if len(rows) > _FEW * len(faces):
-        return _all_asked(mesh, counts)
-    triangles = mesh.loop_triangles
-    told = [triangles[row].loops[:] for row in rows.tolist()]
-    return Answers(counts, rows, np.array(told, dtype=np.int32).reshape(-1, 3))
-
-
-def corners_of_triangles(answers: Answers) -> Steps[IntArray]:
-    """Return the corners of each triangle of a mesh, as Blender cuts its faces.
-
-    Parameters
-    ----------
-    answers : Answers
-        The mesh itself may have changed since.
-
-    Returns
-    -------
-    Steps of (T, 3) int32
-    """
-    counts = answers.counts
-    n_triangles = int(counts.sum())
-    if len(answers.rows) == n_triangles:
-        return answers.corners
-    yield _READING
-    # The triangles of a plain quad share its first corner.
-    found = np.empty((n_triangles, 3), dtype=np.int32)
-    starts = _first_corners(counts)
-    found[:, 0] = np.repeat(starts, counts)
-    yield _READING
-    found[:, 1] = np.arange(1, n_triangles + 1) + np.repeat(
-        starts - np.cumsum(counts) + counts, counts
-    )
-    found[:, 2] = found[:, 1] + 1
-    found[answers.rows] = answers.corners
+    found = np.empty((int(asked.counts.sum()), 3), dtype=np.int64)
+    done = 0
+    for counts, firsts in _blocks_of_faces(asked.counts):
+        yield Progress("Surface", 0.0)
+        starts = np.cumsum(counts) - counts
+        cut = np.arange(counts.sum())[:, None] + (0, 1, 2)
+        cut += np.repeat(firsts - starts, counts)[:, None]
+        cut[:, 0] = np.repeat(firsts, counts)
+        quads = np.flatnonzero(counts == 2)
+        around = corners[firsts[quads] + np.arange(4)[:, None]]
+        turned = starts[quads[_are_folded(places[around].astype(float))]]
+        cut[turned, 2] += 1
+        cut[turned + 1, 0] += 1
+        found[done : done + len(cut)] = corners[cut]
+        done += len(cut)
+    found[asked.rows] = corners[asked.corners]
     return found
 
 
-def _first_corners(counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the first corner of each face, (P,), from its number of triangles."""
-    sizes = counts + 2
-    firsts: NDArray[np.int64] = np.cumsum(sizes)
-    firsts -= sizes
-    return firsts
+def _blocks_of_faces(
+    counts: NDArray[np.int64],
+) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Yield the numbers of triangles of some faces at a time, and their first corners.
 
-
-def _are_plain(
-    firsts: NDArray[np.int64], places: FloatArray, corners: IntArray
-) -> NDArray[np.bool_]:
-    """Return which quads are `_plain`, (Q,), from the first corner of each."""
-    columns = np.ascontiguousarray(places.T)
-    least = _BESIDE * np.abs(columns).max()
-    plain = np.empty(len(firsts), dtype=bool)
-    with np.errstate(over="ignore", invalid="ignore"):  # such quads are not plain
-        for start in range(0, len(firsts), _BLOCK):
-            block = slice(start, start + _BLOCK)
-            at = corners[firsts[block] + np.arange(4)[:, None]]
-            plain[block] = _plain(np.take(columns, at, axis=1), least)
-    return plain
-
-
-def _plain(quads: FloatArray, least: float) -> NDArray[np.bool_]:
-    """Return which quads (3, 4, Q) are plainly convex along their first diagonal, (Q,).
-
-    `least` is how far its other corners have to be from it.
+    Together, all faces of a large mesh would take much memory.
     """
-    two, across, four = np.moveaxis(quads[:, 1:] - quads[:, :1], 1, 0)
-    before, after = _cross(two, across), _cross(across, four)
-    areas, areas_after = _dot(before, before), _dot(after, after)
-    smaller = np.minimum(areas, areas_after)
-    plain: NDArray[np.bool_] = smaller > np.square(least) * _dot(across, across)
-    return plain & (
-        _dot(before, after) > _ALIKE * np.sqrt(areas) * np.sqrt(areas_after)
-    )
+    first = 0
+    for start in range(0, len(counts), _BLOCK):
+        block = counts[start : start + _BLOCK]
+        ends = first + np.cumsum(block + 2)
+        yield block, ends - block - 2
+        first = ends[-1]
 
 
-def _cross(one: FloatArray, other: FloatArray) -> tuple[FloatArray, ...]:
+def _are_folded(quads: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which quads (4, Q, 3) fold over the line from first to third corner, (Q,).
+
+    Their two triangles would face away from each other.
+    """
+    two, across, four = (np.ascontiguousarray(each.T) for each in quads[1:] - quads[0])
+    (ax, ay, az), (bx, by, bz) = _cross(two, across), _cross(across, four)
+    folded: NDArray[np.bool_] = ax * bx + ay * by + az * bz < 0
+    return folded
+
+
+def _cross(one: NDArray[Any], other: NDArray[Any]) -> tuple[NDArray[Any], ...]:
     """Return the three columns of the cross products of vectors, both (3, Q)."""
     (ax, ay, az), (bx, by, bz) = one, other
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-
-
-def _dot(one: Sequence[FloatArray], other: Sequence[FloatArray]) -> FloatArray:
-    """Return the dot products (Q,) of vectors in three columns."""
-    (ax, ay, az), (bx, by, bz) = one, other
-    return ax * bx + ay * by + az * bz
-
-
-def _all_asked(mesh: bpy.types.Mesh, counts: NDArray[np.int64]) -> Answers:
-    """Return the corners of all triangles, as Blender tells them."""
-    corners = read_ints(mesh.loop_triangles, "loops", 3)
-    return Answers(counts, np.arange(len(corners)), corners)

@@ -82,8 +82,9 @@ def _mesh_in_steps(
     mesh: bpy.types.Mesh, factors: NDArray[np.float64]
 ) -> Steps[TriangleMesh]:
     """Return what `read_mesh` returns; the mesh is read and checked at once."""
-    check_surface(vertex_positions(mesh), len(mesh.polygons))
-    read = triangles_in_steps(mesh)
+    places = vertex_positions(mesh)
+    check_surface(places, len(mesh.polygons))
+    read = triangles_in_steps(mesh, places)
 
     def work() -> Steps[TriangleMesh]:
         vertices, triangles, polygons = yield from read
