@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from .parts.matching import settled as settled
     from .parts.pairs import mirror_pairs as mirror_pairs
     from .parts.part_memo import PartMemo as PartMemo
-    from .parts.seam_smoothing import smooth_seams as smooth_seams
+    from .parts.seams.smoothing import smooth_seams as smooth_seams
     from .pictures import draw_picture as draw_picture
     from .sight.point_view import PointViewer as PointViewer
     from .sight.point_view import point_viewer_in_steps as point_viewer_in_steps
@@ -69,7 +69,7 @@ _HOMES = {
     "describe": "parts.describe",
     "mirror_pairs": "parts.pairs",
     "PartMemo": "parts.part_memo",
-    "smooth_seams": "parts.seam_smoothing",
+    "smooth_seams": "parts.seams.smoothing",
     "draw_picture": "pictures",
     "PointViewer": "sight.point_view",
     "point_viewer_in_steps": "sight.point_view",

@@ -11,7 +11,7 @@ from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..results.parts import Decomposition
 from ..sight.visibility import Visibility
-from .partition import count_parts
+from .part_psi import count_parts
 
 # A face with fewer samples is small: its samples say little.
 _ENOUGH_SAMPLES = 8

@@ -9,12 +9,13 @@ from ..results.parts import Decomposition
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on
-from .fine_seams import labels_of_nodes, seams_take_long
+from .first_look import guess, is_quick
 from .merging.bends import with_bends_kept
 from .part_count import PartCountSearch
 from .part_memo import PartMemo
-from .partition import Partitioner, count_parts
-from .seams import SeamCutter
+from .partition import Partitioner
+from .seams.cutter import SeamCutter
+from .seams.fine import labels_of_nodes, seams_take_long
 
 
 @on_one_thread
@@ -31,8 +32,9 @@ def find_parts(
         They may differ from the parameters of the visibility in settings that do not
         affect samples or lines of sight.
     rough : bool, optional
-        Whether a first look at a large mesh is enough: seams may run along patches,
-        and as many parts may be found as last time, if their number is not given.
+        Whether a first look is enough, if the parts themselves would take long. If
+        their number is not given, it is the best of the parts that were tried last.
+        Seams of a large mesh may run along patches.
 
     Returns
     -------
@@ -49,19 +51,18 @@ def find_parts(
         parameters.max_parts,
         cut.searches,
     )
-    wanted = search.given(parameters.parts) if parameters.parts else search.best()
-    searched = (parameters.min_parts, parameters.max_parts) in cut.searches
-    rough = rough and memo.patches is not None
-    likely_k = parameters.parts or memo.latest_k
-    guesses = rough and likely_k > 0 and not searched
+    likely_k = parameters.parts or (search.rated(memo.tried)[1] if memo.tried else 0)
+    guesses = rough and likely_k > 0 and not is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
-        wanted = with_bends_kept(search, partitioner, parameters)
+        guesses, wanted = False, with_bends_kept(search, partitioner, parameters)
     elif guesses:
-        wanted = search.guessed(likely_k)
+        wanted = guess(search, likely_k)
+    else:
+        wanted = search.given(parameters.parts) if parameters.parts else search.best()
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
+    if not guesses:
+        memo.tried = yield from search.tried()
     rough = rough and (guesses or seams_take_long(memo, parameters, seams))
-    if not parameters.parts:
-        memo.latest_k = count_parts(seams.parts)
     finer = labels_of_nodes(memo, parameters, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)
     labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]

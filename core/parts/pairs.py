@@ -11,7 +11,7 @@ from ..geometry.face_graph import FaceGraph
 from ..geometry.symmetry import Side
 from ..steps.progress import Steps
 from .part_memo import PartMemo
-from .partition import count_parts
+from .part_psi import count_parts
 
 Pairs: TypeAlias = tuple[tuple[int, int], ...]
 
@@ -67,11 +67,14 @@ def _pairs_of(
     images, sources = side.images, side.sources
     np.add.at(shared, (parts[sources], parts[images]), areas[images])
     totals = np.bincount(parts, areas, n_parts)
-    centers = np.bincount(parts, areas * graph.centers[:, 0], n_parts) / totals
+    moments = np.bincount(parts, areas * graph.centers[:, 0], n_parts)
     found = []
     for source, image in np.argwhere(shared > 0).tolist():
         least = _ENOUGH * max(totals[source], totals[image])
         if source != image and shared[source, image] >= least:
-            left_first = centers[source] > centers[image]
+            # The areas are not 0: of a large mesh, a small part may own no patch.
+            left_first = (
+                moments[source] / totals[source] > moments[image] / totals[image]
+            )
             found.append((source, image) if left_first else (image, source))
     return found

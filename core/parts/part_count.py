@@ -9,8 +9,9 @@ from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
 from .part_memo import Candidate
-from .partition import Partitioner, count_parts
-from .seams import SeamCutter, Seams
+from .part_psi import count_parts
+from .partition import Partitioner
+from .seams.cutter import SeamCutter, Seams
 
 # Psi grows more and more slowly with k. A k is good enough if its psi is below the
 # largest psi by at most this share of the largest gain over one part.
@@ -56,6 +57,11 @@ class PartCountSearch:
         First and last number that is tried.
     memo : Memo
         Maps the first and last number to the candidate for each number of parts.
+
+    Attributes
+    ----------
+    partitioner, seams, low, high
+        As given.
     """
 
     def __init__(
@@ -66,10 +72,10 @@ class PartCountSearch:
         high: int,
         memo: Memo[tuple[int, int], dict[int, Candidate]],
     ) -> None:
-        self._partitioner = partitioner
-        self._seams = seams
+        self.partitioner = partitioner
+        self.seams = seams
         self._creases = CreaseParts(partitioner)
-        self._low, self._high = low, high
+        self.low, self.high = low, high
         self._memo = memo
 
     def best(self) -> Steps[Search]:
@@ -89,20 +95,13 @@ class PartCountSearch:
         Steps of Search
             The steps yield `Progress`; `run` returns the search.
         """
-        tried = yield from within(self._candidates(self._low, self._high), 0.0, 0.9)
-        psi_by_k = self._psi_of_sight(tried)
-        guessed = self._partitioner.visibility.is_guessed
-        narrow = _GAIN_TOLERANCE if guessed else _WIDE_TOLERANCE
-        best_k = self._good_enough(psi_by_k, narrow)[0]
-        if not tried[best_k].even:
-            wide = self._good_enough(psi_by_k, _WIDE_TOLERANCE)
-            even = (k for k in wide if tried[k].even and k <= _MORE * best_k)
-            best_k = min(even, default=best_k)
-        seams = yield from within(self._seams.cut(tried[best_k].parts), 0.9, 1.0)
-        parts = self._creases.better(seams.parts, self._low, self._high)
+        tried = yield from within(self.tried(), 0.0, 0.9)
+        psi_by_k, best_k = self.rated(tried)
+        seams = yield from within(self.seams.cut(tried[best_k].parts), 0.9, 1.0)
+        parts = self._creases.better(seams.parts, self.low, self.high)
         if parts is not seams.parts:
             seams, best_k = Seams(parts), count_parts(parts)
-            psi_by_k |= {best_k: self._partitioner.psi_seen(parts)}
+            psi_by_k |= {best_k: self.partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), best_k)
 
     def given(self, n_parts: int) -> Steps[Search]:
@@ -126,50 +125,66 @@ class PartCountSearch:
         chosen = searched.seams.parts
         if count_parts(chosen) == n_parts:
             return searched
-        fewest = min(n_parts, self._low)
-        tried = yield from within(self._candidates(fewest, self._high), 0.6, 0.7)
-        if n_parts > self._high:
+        fewest = min(n_parts, self.low)
+        tried = yield from within(self._candidates(fewest, self.high), 0.6, 0.7)
+        if n_parts > self.high:
             tried = yield from within(self._with_more(tried, n_parts), 0.7, 0.8)
         made = min(n_parts, max(tried))
-        seams = yield from within(self._seams.cut(tried[made].parts), 0.8, 0.9)
+        seams = yield from within(self.seams.cut(tried[made].parts), 0.8, 0.9)
         psi_by_k = self._psi_of_sight({made: tried[made]}) | searched.psi_by_k
-        nested = self._partitioner.resized(chosen, made)
-        smooth = yield from within(self._seams.cut(nested), 0.9, 1.0)
+        steps = self.partitioner.resized_in_steps(chosen, made)
+        nested = yield from within(steps, 0.9, 0.9)
+        smooth = yield from within(self.seams.cut(nested), 0.9, 1.0)
         parts = self._creases.better(seams.parts, made, made, nested, smooth.parts)
         if parts is not seams.parts:
             seams = Seams(parts)
-            psi_by_k |= {made: self._partitioner.psi_seen(parts)}
+            psi_by_k |= {made: self.partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 
-    def guessed(self, n_parts: int) -> Steps[Search]:
-        """Return about the parts that `given` returns, without a search.
+    @property
+    def searched(self) -> bool:
+        """Whether all numbers were tried before."""
+        return (self.low, self.high) in self._memo
+
+    def tried(self) -> Steps[dict[int, Candidate]]:
+        """Return the candidate for one part, and for each number that is tried."""
+        return self._candidates(self.low, self.high)
+
+    def alone(self, n_parts: int) -> Steps[Candidate]:
+        """Return the candidate for a number of parts, found without the others."""
+        found = yield from within(self._candidate(n_parts), 0.0, 0.8)
+        one = {count_parts(found.parts): found}
+        (found,) = (yield from within(self._evened(one), 0.8, 1.0)).values()
+        return found
+
+    def rated(self, tried: dict[int, Candidate]) -> tuple[dict[int, float], int]:
+        """Return psi by lines of sight of each candidate, and the best number of parts.
 
         Parameters
         ----------
-        n_parts : int
-
-        Returns
-        -------
-        Steps of Search
-            It has the psi of no other number, and 0 as `best_k`.
+        tried : dict of int to Candidate
+            They may have been found with other parameters.
         """
-        found = yield from within(self._candidate(n_parts), 0.0, 0.5)
-        alone = {count_parts(found.parts): found}
-        tried = yield from within(self._evened(alone), 0.5, 0.6)
-        (found,) = tried.values()
-        seams = yield from within(self._seams.cut(found.parts), 0.6, 1.0)
-        return Search(seams, self._psi_of_sight(tried), 0)
+        psi_by_k = self._psi_of_sight(tried)
+        guessed = self.partitioner.visibility.is_guessed
+        narrow = _GAIN_TOLERANCE if guessed else _WIDE_TOLERANCE
+        best_k = self._good_enough(psi_by_k, narrow)[0]
+        if tried[best_k].even:
+            return psi_by_k, best_k
+        wide = self._good_enough(psi_by_k, _WIDE_TOLERANCE)
+        even = (k for k in wide if tried[k].even and k <= _MORE * best_k)
+        return psi_by_k, min(even, default=best_k)
 
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
         """Return each k whose gain lacks at most a share, or the sampling error."""
-        most, by = max(psi_by_k.values()), self._partitioner
+        most, by = max(psi_by_k.values()), self.partitioner
         share = tolerance * _strictness(by.parameters.alpha)
         enough = most - max(2 * by.negligible, share * (most - psi_by_k[1]))
         return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
 
     def _psi_of_sight(self, tried: dict[int, Candidate]) -> dict[int, float]:
         """Return psi of candidates by lines of sight alone (eq. 5)."""
-        seen = self._partitioner.psi_seen
+        seen = self.partitioner.psi_seen
         return {k: seen(candidate.parts) for k, candidate in tried.items()}
 
     def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
@@ -178,7 +193,7 @@ class PartCountSearch:
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
-        tried = {1: self._partitioner.candidate(1)}
+        tried = {1: self.partitioner.candidate(1)}
         for turn, n_parts in enumerate(range(low, high + 1)):
             steps = within_turn(self._candidate(n_parts), turn, high + 1 - low)
             candidate = yield from within(steps, 0.0, 0.8)
@@ -189,7 +204,7 @@ class PartCountSearch:
         for n_parts in range(most - 1, low - 1, -1):
             done = (most - n_parts) / (most + 1 - low)
             yield Progress("Number of parts", 0.8 + 0.1 * done)
-            tried[n_parts] = self._partitioner.better(n_parts, most)
+            tried[n_parts] = self.partitioner.better(n_parts, most)
         return (yield from within(self._evened(tried), 0.9, 1.0))
 
     def _with_more(
@@ -201,15 +216,15 @@ class PartCountSearch:
         return (yield from within(self._evened(more), 0.8, 1.0))
 
     def _candidate(self, n_parts: int) -> Steps[Candidate]:
-        """Return the partitioner's candidate, found in two steps of equal length."""
-        yield Progress("Number of parts", 0.0)
-        self._partitioner.plain(n_parts)  # half of the work; the memo keeps it
+        """Return the partitioner's candidate."""
+        # Half of the work; the memo keeps it.
+        yield from within(self.partitioner.plain_in_steps(n_parts), 0.0, 0.5)
         yield Progress("Number of parts", 0.5)
-        return self._partitioner.candidate(n_parts)
+        return self.partitioner.candidate(n_parts)
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:
         """Replace candidates by symmetric ones whose psi is not clearly lower."""
-        by = self._partitioner
+        by = self.partitioner
         if not by.by_psi:
             return tried
         found: dict[int, Candidate] = {}

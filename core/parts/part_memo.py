@@ -99,14 +99,14 @@ class PartMemo:
         Maps the digest of labels and alpha to the labels after all moves.
     surfaces : Memo
         Maps the digest of a part's place to its surface.
-    latest_k : int
-        The number of parts where none was given last, 0 at first.
+    tried : dict of int to Candidate
+        The candidates of the latest search, by number of parts; none at first.
     """
 
     def __init__(self, visibility: Visibility, most_nodes: int = MOST_NODES) -> None:
         self.visibility = visibility
         self.patches: Patches | None = None
-        self.latest_k = 0
+        self.tried: dict[int, Candidate] = {}
         self._most_nodes = most_nodes
         self._transfer: Transfer | None = None
         self._nearest: NearestSamples | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from functools import partial
 
 import numpy as np
@@ -12,23 +12,19 @@ from ..clusters.kmeans import cluster
 from ..clusters.moves import raise_psi
 from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
-from ..sight.pair_tally import PairTally
-from ..sight.pair_visibility import PairVisibility
 from ..steps.memo import digest
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, run
 from .merging.pieces import connected_parts, merge_to
 from .part_memo import Candidate, PartMemo
+from .part_psi import PartPsi, count_parts
 
 # Weight of positions (in diagonals) relative to coordinates of the embedding.
 _PLACE_WEIGHT = 1e-3
 # If k clusters make fewer than k parts, try so many additional clusters, in turn.
-_MORE_CLUSTERS = (0, 1, 2, 4, 8)
-# Sampling error of psi, times √N: with other N samples, the psi of a shape differs by
-# about twice this over √N.
-_NEGLIGIBLE = 0.1
+_TRIES = (0, 1, 2, 4, 8)
 
 
-class Partitioner:
+class Partitioner(PartPsi):
     """Splits a shape into connected parts, for any number of parts k.
 
     Parameters
@@ -39,29 +35,25 @@ class Partitioner:
 
     Attributes
     ----------
-    visibility : Visibility
-    transfer : Transfer
     graph : FaceGraph
         Graph of the nodes that get labels.
     by_psi : bool
         Whether parts and seams are refined by psi.
-    negligible : float
-        Differences of psi below this are sampling error.
     smallest_area : float
         Connected pieces below this area, in squared diagonals, join a neighbor.
     """
 
     def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
-        self.parameters = parameters
-        self.visibility = memo.visibility
-        self.transfer = memo.transfer
+        super().__init__(memo, parameters)
         self.graph = self.transfer.graph
         self.by_psi = parameters.refinement == "PSI"
-        self.negligible = _NEGLIGIBLE / np.sqrt(len(memo.visibility.samples))
         self.smallest_area = parameters.smallest_part * self.graph.areas.sum()
-        self._memo = memo
         self._cut = memo.cut(parameters)
         self._of_clusters = memo.clusters(parameters)
+
+    def knows(self, n_parts: int) -> bool:
+        """Return whether the `candidate` for `n_parts` is known already."""
+        return n_parts in self._cut.candidates
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts and their psi; fewer parts if no more are possible."""
@@ -129,25 +121,6 @@ class Partitioner:
         """Return the parts after those on one side are copied to the other side."""
         return self._pieces(side.copied(parts, self.graph))
 
-    def tally(self, parts: NDArray[np.int64]) -> PairTally:
-        """Count likely and known pairs of samples by parts (P,) of the nodes."""
-        return self._counted(self.visibility.likely_pairs, parts)
-
-    def _counted(self, pairs: PairVisibility, parts: NDArray[np.int64]) -> PairTally:
-        """Count pairs of samples by parts (P,) of the nodes, each kind once."""
-        labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
-        key = digest(labels), n_parts, pairs is self.visibility.psi_pairs
-        return self._memo.tallies.recall(key, lambda: pairs.tally(labels, n_parts))
-
-    def psi(self, parts: NDArray[np.int64]) -> float:
-        """Return psi (eq. 5) of parts (P,) of the nodes, from likely pairs."""
-        return self.tally(parts).psi(self.parameters.alpha)
-
-    def psi_seen(self, parts: NDArray[np.int64]) -> float:
-        """Return psi (eq. 5) of parts (P,) of the nodes, from lines of sight alone."""
-        tally = self._counted(self.visibility.psi_pairs, parts)
-        return tally.psi(self.parameters.alpha)
-
     def partition(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` connected parts; fewer if no more are possible.
 
@@ -171,22 +144,31 @@ class Partitioner:
         )
         parts = self.tidied(self._on_nodes(raised, n_clusters), n_parts)
         # Psi may be higher with fewer parts: split those where psi loses least.
-        moved = self._split(parts, n_parts)
+        moved = run(self._split_in_steps(parts, n_parts))
         return max(
             moved, plain, key=lambda parts: (count_parts(parts), self.psi(parts))
         )
 
     def plain(self, n_parts: int) -> NDArray[np.int64]:
         """Return `n_parts` connected parts (P,) from k-means, not refined by psi."""
-        whole = np.zeros(self.graph.n_polygons, dtype=np.int64)
-        return self._cut.plain.recall(n_parts, lambda: self._split(whole, n_parts))
+        return run(self.plain_in_steps(n_parts))
 
-    def _split(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+    def plain_in_steps(self, n_parts: int) -> Steps[NDArray[np.int64]]:
+        """Return the steps that end in `plain`."""
+        whole = np.zeros(self.graph.n_polygons, dtype=np.int64)
+        return self._cut.plain.recall_steps(
+            n_parts, lambda: self._split_in_steps(whole, n_parts)
+        )
+
+    def _split_in_steps(
+        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = _TRIES
+    ) -> Steps[NDArray[np.int64]]:
         """Split parts along the borders of k-means' clusters, up to `n_parts` parts."""
         most = parts
-        for more in _MORE_CLUSTERS:
+        for more in tries:
             if count_parts(most) >= n_parts:
                 break
+            yield Progress("Number of parts", 0.0)
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self._on_nodes(labels, n_clusters)
             finer = parts * n_clusters + clusters
@@ -234,17 +216,27 @@ class Partitioner:
         """Return the parts, merged down to `n_parts` if there are more."""
         return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
-    def resized(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
-        """Return parts (P,) split or merged so that there are `n_parts`."""
-        return self._at_most(n_parts, self._split(parts, n_parts))
+    def resized_in_steps(
+        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = _TRIES
+    ) -> Steps[NDArray[np.int64]]:
+        """Return parts (P,) split or merged so that there are `n_parts`.
+
+        Parameters
+        ----------
+        parts : (P,) int
+        n_parts : int
+        tries : sequence of int, optional
+            How many more clusters than parts to split by, in turn, until they do.
+
+        Returns
+        -------
+        Steps of (P,) int
+        """
+        split = yield from self._split_in_steps(parts, n_parts, tries)
+        return self._at_most(n_parts, split)
 
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Merge parts (P,) where psi loses least, until `n_parts` are left."""
         borders = self.graph.borders(parts, count_parts(parts)).toarray()
         alpha = self.parameters.alpha
         return merge_to(n_parts, self.tally(parts), borders, alpha)[parts]
-
-
-def count_parts(parts: NDArray[np.int64]) -> int:
-    """Return the number of parts K of labels (P,) in 0…K − 1."""
-    return int(parts.max()) + 1

@@ -7,11 +7,13 @@ once when their number is asked for.
 from __future__ import annotations
 
 import atexit
+from contextlib import suppress
 from dataclasses import replace
 from typing import TypeAlias, TypeVar
 
 import bpy
 
+from ...core.errors import DecompositionError
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
@@ -38,20 +40,23 @@ _current: tuple[Wanted, Job[object]] | None = None
 def start(found: Edited) -> None:
     """Find the parts for numbers near that of a run, of the latest shape, from now on.
 
-    Other numbers are looked for in the same way only if all faces are free. Numbers
-    above the highest that are tried anyway would need more eigenvectors, which take a
-    tenth of a second at once.
+    Other numbers are looked for in the same way only if all faces are free.
     """
     if found.by_hand is not None or found.faces is not None:
         return
-    parameters = found.parameters
-    near = [found.decomposition.n_parts + step for step in _NEAR]
-    near = [n for n in near if 1 < n <= parameters.max_parts]
-    _wanted[:] = [
-        (replace(parameters, parts=n), rough) for rough in (True, False) for n in near
-    ]
+    near = _near(found.parameters, found.decomposition.n_parts)
+    _wanted[:] = [(wanted, rough) for rough in (True, False) for wanted in near]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
+
+
+def _near(parameters: Parameters, n_parts: int) -> list[Parameters]:
+    """Return the parameters of allowed numbers of parts near one."""
+    near = []
+    for number in (n_parts + step for step in _NEAR):
+        with suppress(DecompositionError):
+            near += [replace(parameters, parts=number)] if number > 1 else []
+    return near
 
 
 def go_on() -> float | None:

@@ -11,7 +11,7 @@ from weak_convex_decomposition.core.parts.find import find_parts
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
 from weak_convex_decomposition.core.parts.part_memo import PartMemo
 from weak_convex_decomposition.core.parts.partition import Partitioner
-from weak_convex_decomposition.core.parts.seams import SeamCutter
+from weak_convex_decomposition.core.parts.seams.cutter import SeamCutter
 from weak_convex_decomposition.core.sight.prepared import prepare_in_steps
 from weak_convex_decomposition.core.sight.ray_march import RayMarcher
 from weak_convex_decomposition.core.sight.visibility import (

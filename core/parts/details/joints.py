@@ -17,7 +17,7 @@ from ..describe import by_size, describe
 from ..merging.pieces import connected_parts
 from ..part_memo import PartMemo
 from ..partition import Partitioner
-from ..seam_smoothing import smooth_seams
+from ..seams.smoothing import smooth_seams
 from .limb_joints import LimbJoints
 from .seen import count_pairs, seen_apart
 from .spikes import find_spikes

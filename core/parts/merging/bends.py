@@ -5,8 +5,9 @@ from __future__ import annotations
 from ...parameters.parts import Parameters
 from ...steps.progress import Steps, within, within_turn
 from ..part_count import PartCountSearch, Search
-from ..partition import Partitioner, count_parts
-from ..seams import Seams
+from ..part_psi import count_parts
+from ..partition import Partitioner
+from ..seams.cutter import Seams
 from .limbs import LimbMerger
 
 

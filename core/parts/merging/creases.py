@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ...sight.pair_visibility import sums_by_label
-from ..partition import Partitioner, count_parts
+from ...steps.progress import run
+from ..part_psi import count_parts
+from ..partition import Partitioner
 from .flush import flush_seams
 from .pieces import connected_parts, merge_to
 
@@ -114,7 +116,8 @@ class CreaseParts:
         found, n_pieces = list(others), count_parts(self.parts)
         if n_pieces > 1:
             n_parts = min(max(n_pieces, low), high)
-            found.append(self._partitioner.resized(self.parts, n_parts))
+            steps = self._partitioner.resized_in_steps(self.parts, n_parts)
+            found.append(run(steps))
             found.append(self._with_loops(rivals, high))
         found = [each for each in found if low <= count_parts(each) <= high]
         return max([rivals, *found], key=self._worth) if found else rivals

@@ -17,7 +17,8 @@ from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
 from ...geometry.frames import unit
 from ...steps.progress import Progress, Steps
-from ..partition import Partitioner, count_parts
+from ..part_psi import count_parts
+from ..partition import Partitioner
 
 # Largest ratio of the thicknesses of two parts of one limb.
 _MOST_RATIO = 1.3

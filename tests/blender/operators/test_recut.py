@@ -5,7 +5,7 @@ import json
 import bpy
 import pytest
 from snapshot import snapshot
-from weak_convex_decomposition.core.parts import seams
+from weak_convex_decomposition.core.parts.seams import cutter
 from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.running import ahead
 from weak_convex_decomposition.operators.settings import RECUT
@@ -123,7 +123,7 @@ def test_parts_found_ahead_are_those_of_a_run(suzanne, settings, monkeypatch, sl
         if ahead.go_on() is None:
             break
     if slices > 1:  # nothing is left to be cut for the numbers beside
-        monkeypatch.setattr(seams, "cut_seams", None)
+        monkeypatch.setattr(cutter, "cut_seams", None)
     for parts in (5, 3, 6, 2):
         settings.parts = parts
         assert record(suzanne)["k"] == parts

@@ -6,7 +6,7 @@ import shapes
 from computed import graph_of
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parts.editing import compacted, give, merge, mirror
-from weak_convex_decomposition.core.parts.seam_smoothing import smooth_seams
+from weak_convex_decomposition.core.parts.seams.smoothing import smooth_seams
 from weak_convex_decomposition.core.steps.progress import run
 
 

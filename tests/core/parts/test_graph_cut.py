@@ -5,9 +5,9 @@ import pytest
 import shapes
 from computed import graph_of as graph_of_mesh
 from weak_convex_decomposition.core.geometry.face_graph import FaceGraph
-from weak_convex_decomposition.core.parts import graph_cut
-from weak_convex_decomposition.core.parts.graph_cut import cut_seams
-from weak_convex_decomposition.core.parts.seams import distances_to_parts
+from weak_convex_decomposition.core.parts.seams import graph_cut
+from weak_convex_decomposition.core.parts.seams.cutter import distances_to_parts
+from weak_convex_decomposition.core.parts.seams.graph_cut import cut_seams
 from weak_convex_decomposition.core.steps.progress import run
 
 

@@ -10,7 +10,7 @@ from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
 from weak_convex_decomposition.core.parts.part_memo import Candidate
-from weak_convex_decomposition.core.parts.seams import Seams
+from weak_convex_decomposition.core.parts.seams.cutter import Seams
 from weak_convex_decomposition.core.steps.memo import Memo
 from weak_convex_decomposition.core.steps.progress import run
 

@@ -5,7 +5,8 @@ import pytest
 import shapes
 from computed import cut_seams_of, search_part_count
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.partition import Partitioner, count_parts
+from weak_convex_decomposition.core.parts.part_psi import count_parts
+from weak_convex_decomposition.core.parts.partition import Partitioner
 
 
 def two_ls():

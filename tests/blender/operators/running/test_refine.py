@@ -68,14 +68,30 @@ def test_it_becomes_what_a_run_gives(rough, change):
     assert found == as_by_a_run(rough, **change)
 
 
-def test_without_a_number_it_has_as_many_parts_as_before(rough):
-    run_number = as_by_a_run(rough, parts=0)
-    n_parts = len(rough.wcd_parts)
-    look_first(rough, parts=0, alpha=0.3)
-    assert is_rough(rough)
-    assert record_of(rough)["k"] == n_parts
-    assert refined(rough) == as_by_a_run(rough, parts=0, alpha=0.3) != run_number
-    assert len(rough.wcd_parts) != n_parts
+def test_without_a_number_it_has_the_best_of_those_tried_last(rough):
+    as_by_a_run(rough, parts=0)
+    known = len(rough.wcd_parts)
+    for alpha, more in ((0.3, False), (9.0, True)):
+        look_first(rough, parts=0, alpha=alpha)
+        assert is_rough(rough)
+        assert (record_of(rough)["k"] > known) == more
+        assert refined(rough) == as_by_a_run(rough, parts=0, alpha=alpha)
+        assert (len(rough.wcd_parts) > known) == more
+
+
+@pytest.mark.parametrize("few", [300, 20_000])
+def test_above_the_highest_number_tried_it_has_the_number_too(
+    suzanne, monkeypatch, few
+):
+    monkeypatch.setattr(cache, "PartMemo", partial(PartMemo, most_nodes=few))
+    bpy.ops.wcd.decompose(samples=200, parts=4)
+    for parts in (18, 24):
+        look_first(suzanne, parts=parts)
+        assert is_rough(suzanne)
+        assert record_of(suzanne)["k"] == parts
+        assert refined(suzanne) == as_by_a_run(suzanne, parts=parts)
+        look_first(suzanne, parts=parts)
+        assert not is_rough(suzanne)  # they are known now
 
 
 def test_the_chart_keeps_its_numbers_meanwhile(rough):

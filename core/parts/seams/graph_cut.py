@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
-from ..geometry.face_graph import FaceGraph
-from ..steps.progress import Progress, Steps
+from ...geometry.face_graph import FaceGraph
+from ...steps.progress import Progress, Steps
 
 # Cost of a seam as long as the square root of the area, at lambda = 1.
 _SEAM_UNIT = 0.02

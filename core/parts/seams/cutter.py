@@ -7,11 +7,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..clusters.moves import MoveGains
-from ..steps.memo import Memo, digest
-from ..steps.progress import Steps, within
+from ...clusters.moves import MoveGains
+from ...steps.memo import Memo, digest
+from ...steps.progress import Steps, within
+from ..part_psi import count_parts
+from ..partition import Partitioner
 from .graph_cut import SWEEPS, cut_seams
-from .partition import Partitioner, count_parts
 
 # Largest cost of a label for a sample.
 _MOST_DISLIKE = 4.0
@@ -78,8 +79,17 @@ class SeamCutter:
         Steps of Seams
             The steps yield `Progress`; `run` returns the new parts.
         """
-        key = self._smoothness, digest(parts)
-        return self._memo.recall_steps(key, lambda: self._cut(parts, enough))
+        return self._memo.recall_steps(
+            self._key(parts), lambda: self._cut(parts, enough)
+        )
+
+    def knows(self, parts: NDArray[np.int64]) -> bool:
+        """Return whether parts (P,) with smooth seams are known already."""
+        return self._key(parts) in self._memo
+
+    def _key(self, parts: NDArray[np.int64]) -> tuple[float, bytes]:
+        """Return the key under which parts with smooth seams are kept."""
+        return self._smoothness, digest(parts)
 
     def _cut(self, parts: NDArray[np.int64], enough: float | None) -> Steps[Seams]:
         """Return the parts with smooth seams."""

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
-from ..geometry.face_graph import FaceGraph
-from ..steps.progress import Steps
+from ...geometry.face_graph import FaceGraph
+from ...steps.progress import Steps
 from .graph_cut import cut_seams
 
 # Distance from a part at which a polygon's cost for that part is 1, as a share of the

@@ -11,13 +11,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.patches import Patches
-from ..parameters.parts import Parameters
-from ..steps.memo import Memo, digest
-from ..steps.progress import Progress, Steps, within
-from .part_memo import PartMemo
-from .partition import Partitioner, count_parts
-from .seams import SeamCutter, Seams
+from ...geometry.patches import Patches
+from ...parameters.parts import Parameters
+from ...steps.memo import Memo, digest
+from ...steps.progress import Progress, Steps, within
+from ..part_memo import PartMemo
+from ..part_psi import count_parts
+from ..partition import Partitioner
+from .cutter import SeamCutter, Seams
 
 # Patches this far from a seam are opened, too. No cut moves a seam across more.
 _RINGS = 1

@@ -1,0 +1,66 @@
+"""Counts pairs of samples by parts: how good parts are by psi."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..parameters.parts import Parameters
+from ..sight.pair_tally import PairTally
+from ..sight.pair_visibility import PairVisibility
+from ..steps.memo import digest
+from .part_memo import PartMemo
+
+# Sampling error of psi, times √N: with other N samples, the psi of a shape differs by
+# about twice this over √N.
+_NEGLIGIBLE = 0.1
+
+
+class PartPsi:
+    """Tells the psi of any parts of a shape.
+
+    Parameters
+    ----------
+    memo : PartMemo
+        The visibility; it also keeps what was counted.
+    parameters : Parameters
+
+    Attributes
+    ----------
+    parameters : Parameters
+    visibility : Visibility
+    transfer : Transfer
+    negligible : float
+        Differences of psi below this are sampling error.
+    """
+
+    def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
+        self.parameters = parameters
+        self.visibility = memo.visibility
+        self.transfer = memo.transfer
+        self.negligible = _NEGLIGIBLE / np.sqrt(len(memo.visibility.samples))
+        self._memo = memo
+
+    def tally(self, parts: NDArray[np.int64]) -> PairTally:
+        """Count likely and known pairs of samples by parts (P,) of the nodes."""
+        return self._counted(self.visibility.likely_pairs, parts)
+
+    def _counted(self, pairs: PairVisibility, parts: NDArray[np.int64]) -> PairTally:
+        """Count pairs of samples by parts (P,) of the nodes, each kind once."""
+        labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
+        key = digest(labels), n_parts, pairs is self.visibility.psi_pairs
+        return self._memo.tallies.recall(key, lambda: pairs.tally(labels, n_parts))
+
+    def psi(self, parts: NDArray[np.int64]) -> float:
+        """Return psi (eq. 5) of parts (P,) of the nodes, from likely pairs."""
+        return self.tally(parts).psi(self.parameters.alpha)
+
+    def psi_seen(self, parts: NDArray[np.int64]) -> float:
+        """Return psi (eq. 5) of parts (P,) of the nodes, from lines of sight alone."""
+        tally = self._counted(self.visibility.psi_pairs, parts)
+        return tally.psi(self.parameters.alpha)
+
+
+def count_parts(parts: NDArray[np.int64]) -> int:
+    """Return the number of parts K of labels (P,) in 0…K − 1."""
+    return int(parts.max()) + 1

@@ -1,0 +1,1 @@
+"""Seams between parts: where they run, and how smooth they are."""
