@@ -15,16 +15,18 @@ from ..core.steps.progress import Steps, run
 from .bridge.read.evaluated import SeenMesh, read_as, which_mesh
 from .bridge.read.target import Target
 from .bridge.refusals import recut_refusal
-from .bridge.stored.record import noted_mesh, noted_parameters
+from .bridge.stored.record import noted_mesh, noted_parameters, record_of
+from .bridge.stored.versions import n_faces_of
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
-# Seconds that a slider waits for the parts; after that a modal run finds them. Steps
-# end up to 0.01 s late, and to write parts takes 0.03 s on a mesh of 126,000 faces.
-_MOMENT = 0.06
+# Seconds that a slider waits for the parts; after that a modal run finds them. To write
+# parts takes time for each face, and steps end up to 0.01 s late: 0.1 s in all.
+_MOMENT = 0.083
+_WRITING = 2.5e-7
 # Seconds until the next try to start a modal run.
 _RETRY = 0.02
 
@@ -148,7 +150,8 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         began = time.perf_counter()
         self._rough = obj.mode == "OBJECT"
         key, job = self._key(context, obj), Job(self._begin(context, obj))
-        if job.advance(began + _MOMENT - time.perf_counter()):
+        moment = _MOMENT - _WRITING * n_faces_of(record_of(obj))
+        if job.advance(began + moment - time.perf_counter()):
             self._commit(obj, job.result())
         else:
             _begun = key, job

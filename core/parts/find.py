@@ -56,7 +56,7 @@ def find_parts(
     if parameters.bends == "KEEP":
         guesses, wanted = False, with_bends_kept(search, partitioner, parameters)
     elif guesses:
-        wanted = guess(search, likely_k)
+        wanted = guess(search, likely_k, cut.looks)
     else:
         wanted = search.given(parameters.parts) if parameters.parts else search.best()
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)

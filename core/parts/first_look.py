@@ -11,11 +11,13 @@ from ..steps.memo import Memo
 from ..steps.progress import Steps, run, within
 from .part_count import PartCountSearch, Search
 from .part_psi import count_parts
-from .seams.cutter import SeamCutter
+from .seams.cutter import SeamCutter, Seams
 
 # How many more clusters than parts to split by, in turn: with two more, one k-means is
 # mostly enough.
 _TRIES = (2, 8)
+# One sweep of the cut brings seams near their places.
+_SWEEPS = 1
 
 
 def is_quick(search: PartCountSearch, n_parts: int) -> bool:
@@ -35,7 +37,9 @@ def is_quick(search: PartCountSearch, n_parts: int) -> bool:
     return search.seams.knows(tried[min(n_parts, max(tried))].parts)
 
 
-def guess(search: PartCountSearch, n_parts: int) -> Steps[Search]:
+def guess(
+    search: PartCountSearch, n_parts: int, memo: Memo[tuple[float, bytes], Seams]
+) -> Steps[Search]:
     """Return about the parts that the search gives for a number of parts.
 
     Parameters
@@ -43,34 +47,24 @@ def guess(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     search : PartCountSearch
         Nothing is searched for. Numbers it has tried are known.
     n_parts : int
+    memo : Memo
+        Maps a smoothness and the digest of parts to the parts with their seams cut.
 
     Returns
     -------
     Steps of Search
         It has the psi of no other number, and 0 as `best_k`.
     """
-    if search.searched and n_parts > search.high:
-        return _split_further(search, n_parts)
-    return _candidate(search, n_parts)
-
-
-def _candidate(search: PartCountSearch, n_parts: int) -> Steps[Search]:
-    """Return the search's candidate for a number, without its rivals."""
+    by, enough = search.partitioner, None
     if search.searched:
         tried = yield from search.tried()
-        found = tried[min(n_parts, max(tried))]
+        parts = tried[min(n_parts, max(tried))].parts
+        if n_parts > search.high:
+            steps = by.resized_in_steps(parts, n_parts, _TRIES)
+            parts = yield from within(steps, 0.0, 0.6)
+            enough = -np.inf  # what k-means alone would find takes long to know
     else:
-        found = yield from within(search.alone(n_parts), 0.0, 0.6)
-    seams = yield from within(search.seams.cut(found.parts), 0.6, 1.0)
-    psi = search.partitioner.psi_seen(found.parts)
-    return Search(seams, {count_parts(found.parts): psi}, 0)
-
-
-def _split_further(search: PartCountSearch, n_parts: int) -> Steps[Search]:
-    """Split the parts for the highest number tried; seams may cost any psi."""
-    tried, by = (yield from search.tried()), search.partitioner
-    steps = by.resized_in_steps(tried[max(tried)].parts, n_parts, _TRIES)
-    parts = yield from within(steps, 0.0, 0.6)
-    cutter = SeamCutter(by, Memo(), 1)
-    seams = yield from within(cutter.cut(parts, -np.inf), 0.6, 1.0)
+        parts = (yield from within(search.alone(n_parts), 0.0, 0.6)).parts
+    cutter = SeamCutter(by, memo, _SWEEPS)
+    seams = yield from within(cutter.cut(parts, enough), 0.6, 1.0)
     return Search(seams, {count_parts(parts): by.psi_seen(parts)}, 0)

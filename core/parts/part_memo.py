@@ -58,9 +58,9 @@ class CutMemo:
         Maps the number of a side and the digest of parts to symmetric parts.
     searches : Memo
         Maps the first and last number tried to the candidate for each number.
-    seams, fine : Memo
-        Map a smoothness and the digest of parts to the parts with their seams cut, and
-        parts of patches to those of the nodes in them.
+    seams, looks, fine : Memo
+        Map a smoothness and the digest of parts to the parts with their seams cut, well
+        or for a first look, and parts of patches to those of the nodes in them.
     """
 
     def __init__(self) -> None:
@@ -70,6 +70,7 @@ class CutMemo:
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
         self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
+        self.looks: Memo[tuple[float, bytes], Any] = Memo(32)
         self.fine: Memo[tuple[float, bytes], NDArray[np.uint16]] = Memo(16)
 
 

@@ -1,4 +1,4 @@
-"""Find the parts for the next numbers ahead, in slices, while nothing else runs.
+"""Find the parts for other numbers ahead, in slices, while nothing else runs.
 
 Nothing is written. The session's cache keeps what is found, so that parts follow at
 once when their number is asked for.
@@ -7,13 +7,15 @@ once when their number is asked for.
 from __future__ import annotations
 
 import atexit
+from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TypeAlias, TypeVar
 
 import bpy
 
 from ...core.errors import DecompositionError
+from ...core.parameters.parameter import info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
@@ -27,6 +29,8 @@ Wanted: TypeAlias = tuple[Parameters, bool]
 
 # What is added to the number of parts. One more or less comes first.
 _NEAR = (1, -1, 2, -2)
+# The highest number that sliders show.
+_USUAL = next(int(info_of(f).usual) for f in fields(Parameters) if f.name == "parts")
 # Seconds of work in a slice, and between two slices: the hand may soon ask for more.
 # Steps end some 20 ms late.
 _SLICE = 0.02
@@ -38,25 +42,32 @@ _current: tuple[Wanted, Job[object]] | None = None
 
 
 def start(found: Edited) -> None:
-    """Find the parts for numbers near that of a run, of the latest shape, from now on.
+    """Find parts for numbers near that of a run, of the latest shape, from now on.
 
-    Other numbers are looked for in the same way only if all faces are free.
+    After them come first looks at those for all usual numbers. Numbers are looked for
+    in the same way only if all faces are free.
     """
     if found.by_hand is not None or found.faces is not None:
         return
-    near = _near(found.parameters, found.decomposition.n_parts)
-    _wanted[:] = [(wanted, rough) for rough in (True, False) for wanted in near]
+    n_parts = found.decomposition.n_parts
+    near = _with_numbers(found.parameters, [n_parts + step for step in _NEAR])
+    usual = _with_numbers(found.parameters, range(2, _USUAL + 1))
+    _wanted[:] = [
+        *((each, True) for each in near),
+        *((each, False) for each in near),
+        *((each, True) for each in usual),
+    ]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
 
 
-def _near(parameters: Parameters, n_parts: int) -> list[Parameters]:
-    """Return the parameters of allowed numbers of parts near one."""
-    near = []
-    for number in (n_parts + step for step in _NEAR):
+def _with_numbers(parameters: Parameters, numbers: Iterable[int]) -> list[Parameters]:
+    """Return the parameters with other numbers of parts, as far as they are allowed."""
+    found = []
+    for number in numbers:
         with suppress(DecompositionError):
-            near += [replace(parameters, parts=number)] if number > 1 else []
-    return near
+            found += [replace(parameters, parts=number)] if number > 1 else []
+    return found
 
 
 def go_on() -> float | None:

@@ -22,7 +22,7 @@ _SLICE = 0.02
 _PAUSE = 0.001
 # Seconds between two updates of the progress, least and most, and how many times longer
 # than its drawing: a large scene or a slow display must not slow down the work.
-_LOOKS = (0.2, 5.0)
+_LOOKS = (0.5, 5.0)
 _DRAWING = 20.0
 
 

@@ -1,4 +1,4 @@
-"""Live, Pick Parts and the overlay in a real window, on Suzanne with 126,000 faces.
+"""Live, Pick Parts and the overlay in a real window: Suzanne, 7,872 and 126,000 faces.
 
     blender --python tests/window/drive.py -- tests/benchmarks/speed/live_in_window.py
 
@@ -31,8 +31,9 @@ from weak_convex_decomposition.operators.viewport import pick_parts
 sys.path.append(str(Path(__file__).parent))
 from in_window import Pulse
 
-UP, DOWN = range(3, 13), range(11, 2, -1)
-DETAILS, FINER = (1.75, 1.5, 1.25, 1.0), (2.25, 2.5, 2.75, 3.0)
+UP, DOWN, FAR = range(3, 13), range(11, 2, -1), (5, 11, 16, 20, 24)
+DETAILS, FINER = (1.75, 1.5, 1.0, 0.5), (2.25, 2.5, 3.0, 5.0)
+SMALLEST = (0.002, 0.01, 0.02, 0.03)
 
 
 class View:
@@ -129,6 +130,27 @@ def drawing(hands):
     return (time.process_time() - before) / 5
 
 
+def settings(hands, pulse, view):
+    """Change all that Live follows."""
+    scene = bpy.context.scene.wcd
+    scene.live = False
+    scene.parts, scene.alpha, scene.smallest_part = 0, 2.0, 0.005
+    decompose(hands)
+    yield from live(pulse, view, "parts", (*UP, *DOWN), 0.5)
+    yield from live(pulse, view, "alpha", DETAILS, 0.5)
+    scene.parts = 0
+    yield from live(pulse, view, "alpha", FINER, 0.5)
+    yield from live(pulse, view, "smallest_part", SMALLEST, 0.5)
+    for name, values, rest, exact in (
+        ("parts", FAR, 0.5, False),
+        ("parts", UP, 5.0, False),
+        ("parts", UP, 0.5, True),
+    ):
+        scene.live = False
+        decompose(hands)
+        yield from live(pulse, view, name, values, rest, exact)
+
+
 def steps(hands):
     bpy.context.preferences.system.viewport_aa = "OFF"
     pulse, view = Pulse(), View()
@@ -136,16 +158,10 @@ def steps(hands):
     ahead.go_on = pulse.timed(ahead.go_on)
     refine.go_on = pulse.timed(refine.go_on)
     yield from hands.open_sidebar()
-    hands.suzanne(4)
-    decompose(hands)
-    yield from live(pulse, view, "parts", (*UP, *DOWN), 0.5)
-    yield from live(pulse, view, "alpha", DETAILS, 0.5)
-    bpy.context.scene.wcd.parts = 0
-    yield from live(pulse, view, "alpha", FINER, 0.5)
-    for rest, exact in ((5.0, False), (0.5, True)):
-        bpy.context.scene.wcd.live = False
-        decompose(hands)
-        yield from live(pulse, view, "parts", UP, rest, exact)
+    for subdivisions in (2, 4):
+        hands.suzanne(subdivisions)
+        print(f"{len(bpy.context.active_object.data.polygons):,} faces")
+        yield from settings(hands, pulse, view)
     bpy.context.scene.wcd.live = False
     yield from hovering(hands, pulse)
     before = drawing(hands)
