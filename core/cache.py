@@ -144,7 +144,7 @@ class ShapeCache:
         ----------
         parameters : Parameters
         rough : bool, optional
-            Whether a first look at the parts of a large mesh is enough.
+            Whether a first look at the parts is enough.
 
         Returns
         -------

@@ -44,7 +44,7 @@ def decompose_in_steps(
     members : (P,) bool, optional
         Polygons, or points, to split; all if left out. Rays cross the whole shape.
     rough : bool, optional
-        Whether a first look at the parts of a large mesh is enough.
+        Whether a first look at the parts is enough.
 
     Returns
     -------

@@ -25,8 +25,8 @@ from .settings import parameters_from, properties_for
 
 # Seconds that a slider waits for the parts; after that a modal run finds them. To write
 # parts takes time for each face, and steps end up to 0.01 s late: 0.1 s in all.
-_MOMENT = 0.083
-_WRITING = 2.5e-7
+_MOMENT = 0.08
+_WRITING = 1.6e-7
 # Seconds until the next try to start a modal run.
 _RETRY = 0.02
 
@@ -37,7 +37,7 @@ _begun: tuple[Any, Job[Edited]] | None = None
 class _Recut(Replacement):
     """Half an operator that replaces parts by those of the settings in the sidebar.
 
-    In a window, parts of a large mesh are a first look, which `refine` replaces.
+    In a window, parts that take long are a first look, which `refine` replaces.
     """
 
     _needs_seams = _rough = False

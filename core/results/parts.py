@@ -45,8 +45,8 @@ class Decomposition:
     pairs : tuple of (int, int)
         Parts that are mirror images across X: the one at larger X, then the other.
     rough : bool
-        Whether these parts are a first look at those of a large mesh: their seams run
-        along patches of faces, and details are not looked for.
+        Whether these are a first look at the parts: found without a search for rivals
+        and details. On a large mesh, their seams run along patches of faces.
 
     Examples
     --------

@@ -24,7 +24,7 @@ from ..bridge.work.session_cache import session_cache
 from . import modal, refine
 
 T = TypeVar("T")
-# Parameters, and whether a first look at a large mesh's parts is enough.
+# Parameters, and whether a first look at the parts is enough.
 Wanted: TypeAlias = tuple[Parameters, bool]
 
 # What is added to the number of parts. One more or less comes first.
@@ -42,21 +42,19 @@ _current: tuple[Wanted, Job[object]] | None = None
 
 
 def start(found: Edited) -> None:
-    """Find parts for numbers near that of a run, of the latest shape, from now on.
+    """Find parts of the latest shape for other numbers than that of a run, from now on.
 
-    After them come first looks at those for all usual numbers. Numbers are looked for
-    in the same way only if all faces are free.
+    First come looks at those for all usual numbers, from the nearest, then the parts
+    themselves for near ones. Other numbers are looked for in the same way only if all
+    faces are free.
     """
     if found.by_hand is not None or found.faces is not None:
         return
     n_parts = found.decomposition.n_parts
     near = _with_numbers(found.parameters, [n_parts + step for step in _NEAR])
     usual = _with_numbers(found.parameters, range(2, _USUAL + 1))
-    _wanted[:] = [
-        *((each, True) for each in near),
-        *((each, False) for each in near),
-        *((each, True) for each in usual),
-    ]
+    looks = [(each, True) for each in (*near, *usual)]
+    _wanted[:] = [*looks, *((each, False) for each in near)]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
 

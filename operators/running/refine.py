@@ -1,7 +1,7 @@
-"""Replace a first look at the parts of a large mesh by the parts themselves.
+"""Replace a first look at parts by the parts themselves.
 
-While settings change, parts of large meshes are shown with seams along patches of
-faces. Here the run that the settings ask for is made, in slices, while nothing else
+While settings change, parts that would take long are shown as `core.parts.first_look`
+finds them, and those of large meshes with seams along patches of faces. Here the run that the settings ask for is made, in slices, while nothing else
 runs. It belongs to the undo step of the first look. So it is made again if undo brings
 that back, and files never keep a first look.
 """

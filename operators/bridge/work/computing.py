@@ -45,7 +45,7 @@ def decompose_object(
 ) -> Steps[Decomposition]:
     """Return the steps that decompose an object, or its mesh as it is `seen`.
 
-    If they may be `rough`, the parts of a large mesh are only a first look.
+    If they may be `rough`, parts that would take long are only a first look.
 
     Raises
     ------

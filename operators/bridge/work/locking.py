@@ -61,8 +61,7 @@ def decompose_unlocked(
     seen : SeenMesh, optional
         The mesh as it is seen, to be used in place of the object's own.
     rough : bool, optional
-        Whether a first look at the parts of a large mesh is enough; only if the run
-        covers all faces.
+        Whether a first look at the parts is enough; only if the run covers all faces.
 
     Returns
     -------

@@ -130,25 +130,26 @@ def drawing(hands):
     return (time.process_time() - before) / 5
 
 
-def settings(hands, pulse, view):
-    """Change all that Live follows."""
+def anew(hands):
+    """Decompose with default settings."""
     scene = bpy.context.scene.wcd
     scene.live = False
     scene.parts, scene.alpha, scene.smallest_part = 0, 2.0, 0.005
     decompose(hands)
+
+
+def settings(hands, pulse, view):
+    """Change all that Live follows."""
+    anew(hands)
     yield from live(pulse, view, "parts", (*UP, *DOWN), 0.5)
     yield from live(pulse, view, "alpha", DETAILS, 0.5)
-    scene.parts = 0
+    anew(hands)
     yield from live(pulse, view, "alpha", FINER, 0.5)
+    anew(hands)
     yield from live(pulse, view, "smallest_part", SMALLEST, 0.5)
-    for name, values, rest, exact in (
-        ("parts", FAR, 0.5, False),
-        ("parts", UP, 5.0, False),
-        ("parts", UP, 0.5, True),
-    ):
-        scene.live = False
-        decompose(hands)
-        yield from live(pulse, view, name, values, rest, exact)
+    for values, rest, exact in ((FAR, 0.5, False), (UP, 5.0, False), (UP, 0.5, True)):
+        anew(hands)
+        yield from live(pulse, view, "parts", values, rest, exact)
 
 
 def steps(hands):
