@@ -158,22 +158,28 @@ def print_many_shells() -> None:
         print(f"{name:20}{seconds:9.2f}{n_triangles:12,}{n_rays:10,}{found.n_parts:7}")
 
 
-def recut_seconds(obj: bpy.types.Object, change: dict[str, float]) -> float:
+def recut_seconds(
+    obj: bpy.types.Object, change: dict[str, float], rough: bool
+) -> float:
     """Return what other settings take after a run with default ones, writing too."""
     forget()
     run(decompose_object(obj, PARAMETERS))
     parameters, before = replace(PARAMETERS, **change), time.process_time()
-    write_parts(obj, run(decompose_object(obj, parameters)), parameters)
+    found = run(decompose_object(obj, parameters, rough=rough))
+    write_parts(obj, found, parameters)
     return time.process_time() - before
 
 
 def print_recuts(obj: bpy.types.Object, n_runs: int) -> None:
     """Print the seconds of each change of the settings."""
-    print(f"\n{'re-cut':20}{'seconds':>9}")
+    print(f"\n{'re-cut':20}{'first look':>12}{'parts':>9}")
     for change in RECUTS:
-        seconds = statistics.median(recut_seconds(obj, change) for _ in range(n_runs))
+        look, parts = (
+            statistics.median(recut_seconds(obj, change, rough) for _ in range(n_runs))
+            for rough in (True, False)
+        )
         ((name, value),) = change.items()
-        print(f"{name + ' ' + str(value):20}{seconds:9.2f}", flush=True)
+        print(f"{name + ' ' + str(value):20}{look:12.2f}{parts:9.2f}", flush=True)
 
 
 def main() -> int:
