@@ -105,8 +105,12 @@ def by_the_menu(hands, chin):
 
 
 def by_the_wheel(hands):
-    """Alt and the wheel change the number of parts; without Alt the view moves."""
-    before = n_parts()
+    """Alt and the wheel change the number of parts; without Alt the view moves.
+
+    Esc and right-click go back to the number before, names and all; Enter keeps it.
+    """
+    before, noted = n_parts(), bpy.context.active_object["wcd"]
+    number = bpy.context.scene.wcd.parts
     yield from hover(hands, BROW)
     view = hands.area.spaces.active.region_3d
     distance = view.view_distance
@@ -119,6 +123,20 @@ def by_the_wheel(hands):
     yield 0.5
     assert view.view_distance < distance
     assert n_parts() == before + 2
+    yield from hands.press("Escape")
+    yield lambda: bpy.context.active_object["wcd"] == noted
+    assert (n_parts(), bpy.context.scene.wcd.parts) == (before, number)
+    assert picking.current is not None
+    yield 0.5
+    hands.picture("back", hands.area)
+    for leave, expected in (("click", before), ("Return", before + 1)):
+        yield from hover(hands, BROW)
+        yield from press(hands, 4, "alt")
+        yield lambda: n_parts() == before + 1 and not running.current
+        yield 0.3
+        yield from press(hands, 3) if leave == "click" else hands.press(leave)
+        yield lambda expected=expected: n_parts() == expected
+        assert picking.current.turning is None
 
 
 def steps(hands):
