@@ -104,6 +104,24 @@ def by_the_menu(hands, chin):
     yield lambda: n_parts() == before
 
 
+def renamed(hands, chin):
+    """Type a name in the dialog of the pie, with no click into it, and undo that."""
+    yield from hover(hands, CHIN)
+    yield from hands.press("w")
+    yield 0.5
+    yield from hands.press("7")
+    yield 0.5
+    hands._do("type", "Jaw")
+    yield 0.3
+    hands.picture("rename", hands.area)
+    yield from hands.press("Return")  # ends the name, and the other one the dialog
+    yield 0.3
+    yield from hands.press("Return")
+    yield lambda: rows()[0] == "Jaw"
+    yield from hands.undo()
+    yield lambda: rows()[0] == chin
+
+
 def by_the_wheel(hands):
     """Alt and the wheel change the number of parts; without Alt the view moves.
 
@@ -150,6 +168,7 @@ def steps(hands):
     yield lambda: picking.current is not None
     _, chin = yield from choosing(hands)
     yield from by_the_menu(hands, chin)
+    yield from renamed(hands, chin)
     yield from by_the_wheel(hands)
     yield from hover(hands, NOWHERE)
     assert picking.current.row() is None
