@@ -137,6 +137,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         self._picking.merging, self._picking.turning = False, None
         if turning is not None and not merging:
             self._asked = self._cut_last = 0
+            modal.stop()  # the cut that runs, if any
             turning.take_back()
         if merging or turning is not None:
             picking.tell(bpy.context)

@@ -4,65 +4,9 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from hand_made import decompose_by_hand, in_mode
-from presses import Pressed, Window
+from hand_made import decompose_by_hand
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.read import part_identities
 from weak_convex_decomposition.operators.viewport import pick_parts, picking
-
-
-class Viewport:
-    """A stand-in for a viewport in a window, with a part under the cursor or none."""
-
-    def __init__(self, monkeypatch):
-        self.under, self.header, self.window = None, None, Window()
-        self.region = SimpleNamespace(tag_redraw=lambda: None)
-        self.inside = True
-        monkeypatch.setattr(
-            pick_parts,
-            "viewport_at",
-            lambda _, x, y: (self.region, x, y) if self.inside else None,
-        )
-        monkeypatch.setattr(pick_parts, "part_at", lambda *_: self.under)
-        monkeypatch.setattr(picking, "show_header", self.show_header)
-        monkeypatch.setattr(
-            picking.modal, "show_status", lambda _, text: setattr(self, "status", text)
-        )
-        self.pressed = Pressed(pick_parts.WCD_OT_pick_parts)
-
-    def show_header(self, text):
-        self.header = text
-
-    def start(self):
-        answer = self.pressed.invoke(self.context, SimpleNamespace())
-        assert answer == {"RUNNING_MODAL"}
-
-    @property
-    def context(self):
-        return SimpleNamespace(
-            active_object=bpy.context.active_object,
-            window_manager=self.window,
-            workspace=SimpleNamespace(name="Layout"),
-            scene=bpy.context.scene,
-        )
-
-    def event(self, kind, value="PRESS", **keys):
-        keys = {"ctrl": False, "alt": False, "shift": False, "oskey": False, **keys}
-        event = SimpleNamespace(type=kind, value=value, mouse_x=5, mouse_y=6, **keys)
-        return self.pressed.modal(self.context, event)
-
-    def hover(self, obj, number):
-        self.under = None if obj is None else (obj, number)
-        assert self.event("MOUSEMOVE", "NOTHING") == {"PASS_THROUGH"}
-
-
-@pytest.fixture
-def viewport(monkeypatch, suzanne):
-    decompose_by_hand(suzanne, 4)
-    viewport = Viewport(monkeypatch)
-    viewport.start()
-    yield viewport
-    picking.stop()
 
 
 def rows(obj):
@@ -140,44 +84,6 @@ def test_the_wheel_changes_the_number_of_parts(viewport, suzanne):
     viewport.event("PAGE_DOWN")
     assert len(suzanne.wcd_parts) == 3
     assert bpy.context.scene.wcd.parts == 3
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("by", ["ESC", "RIGHTMOUSE"])
-def test_esc_and_right_click_go_back_to_the_number_before(viewport, by, mode):
-    bpy.context.scene.wcd.samples = 100
-    suzanne = bpy.context.active_object
-    suzanne.wcd_parts[0].name = "Head"
-    suzanne.wcd_parts[3].chosen = True
-    in_mode(suzanne, mode)
-    viewport.hover(suzanne, 2)
-    bpy.ops.ed.undo_push(message="before")
-    before = snapshot(suzanne) if mode == "OBJECT" else suzanne["wcd"]
-    for _ in range(3):
-        viewport.event("WHEELUPMOUSE", alt=True)
-    viewport.event("PAGE_DOWN")
-    assert len(part_identities(suzanne)) == 6
-    assert viewport.status.startswith("Click or Enter: keep 6 parts, Esc")
-    for kind in ("MIDDLEMOUSE", "NUMPAD_1", "WHEELUPMOUSE", "LEFT_ALT"):
-        viewport.event(kind)  # to look at them from another side
-    viewport.event(by)
-    viewport.event(by, "RELEASE")
-    suzanne = bpy.context.active_object
-    assert (snapshot(suzanne) if mode == "OBJECT" else suzanne["wcd"]) == before
-    assert bpy.context.scene.wcd.parts == 0
-    assert picking.current is not None
-    assert viewport.event("ESC") == {"FINISHED"}
-
-
-@pytest.mark.parametrize("by", ["RET", "LEFTMOUSE", "TAB"])
-def test_whatever_else_is_pressed_keeps_the_number(viewport, suzanne, by):
-    bpy.context.scene.wcd.samples = 100
-    bpy.ops.ed.undo_push(message="before")
-    viewport.event("WHEELUPMOUSE", alt=True)
-    viewport.event(by)
-    assert viewport.status.endswith("Esc: end")
-    assert viewport.event("ESC") == {"FINISHED"}
-    assert len(bpy.context.active_object.wcd_parts) == 5
 
 
 def test_the_menu_acts_on_the_part_under_the_cursor(viewport, suzanne, monkeypatch):
