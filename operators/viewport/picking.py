@@ -101,7 +101,8 @@ def tell(context: bpy.types.Context) -> None:
 
 def _keys(context: bpy.types.Context) -> str:
     """Return which keys there are, for the status bar."""
-    turning, obj = current and current.turning, context.active_object
+    turning = current.turning if current else None
+    obj = context.active_object
     if turning is None or obj is None:
         return _KEYS
     return _TURNED.format(record_of(obj).get("k", 0), turning.n_before)
