@@ -103,7 +103,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         remove_views(obj)
         erase_images(obj)
         clear(obj)
-        if is_cut(obj) and not bring_back(obj):
+        if is_cut(obj) and obj.data.is_editable and not bring_back(obj):
             self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")
         if CARRIER_TAG in obj:
             clear_carrier(obj)

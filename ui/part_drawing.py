@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.parts.palette import srgb_of
 from ..operators.bridge.parts.read import noted_identities
-from ..operators.bridge.parts.rows import chosen_numbers
+from ..operators.bridge.parts.rows import chosen_numbers, look_left
 from ..operators.bridge.refusals import faces_refusal
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_parts
+from ..operators.viewport.viewports import redraw
 from .through_hulls import draw_through, forget, transparent_hulls
 
 # How opaque the colors of an overlay are: less in Edit Mode, where edges are seen.
@@ -27,6 +28,9 @@ _OPAQUE = (0.65, 0.3)
 _HOVERED = (1.0, 1.0, 1.0, 0.14)
 _CHOSEN = (1.0, 1.0, 1.0, 0.1)
 _NONE = (1.0, 1.0, 1.0, 0.0)
+# Most faces of an object on which a click in the table shows the part by itself: they
+# are read in a tenth of a second.
+_MOST_AT_A_CLICK = 150_000
 # Widths of borders, in points at interface scale 1.
 _HOVERED_WIDTH = 2.5
 _CHOSEN_WIDTH = 2.0
@@ -49,6 +53,8 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`."""
+    if bpy.app.timers.is_registered(redraw):
+        bpy.app.timers.unregister(redraw)
     while _handlers:
         bpy.types.SpaceView3D.draw_handler_remove(_handlers.pop(), "WINDOW")
     forget()
@@ -66,7 +72,7 @@ def _draw() -> None:
     _draw_colors(context, overlaid)
     _draw_chosen(context)
     _draw_hovered()
-    if overlaid or picking.current is not None or context.scene.wcd.highlight:
+    if overlaid or _shows_chosen(context):
         hulls = transparent_hulls(context)
         if hulls:
             draw_through(hulls, lambda: _draw_on_white(context))
@@ -97,10 +103,26 @@ def _draw_on_white(context: bpy.types.Context) -> None:
     _draw_hovered()
 
 
+def _shows_chosen(context: bpy.types.Context) -> bool:
+    """Return whether chosen parts are shown: always, or a moment after a click.
+
+    Then the viewports are drawn once more after that moment.
+    """
+    if picking.current is not None or context.scene.wcd.highlight:
+        return True
+    obj = context.active_object
+    if obj is None or obj.type != "MESH" or len(obj.data.polygons) > _MOST_AT_A_CLICK:
+        return False
+    left = look_left(obj)
+    if left and not bpy.app.timers.is_registered(redraw):
+        bpy.app.timers.register(redraw, first_interval=left)
+    return left > 0
+
+
 def _draw_chosen(context: bpy.types.Context) -> None:
     """Draw the border of the chosen parts, while parts are picked or highlighted."""
     obj = context.active_object
-    if picking.current is None and not context.scene.wcd.highlight:
+    if not _shows_chosen(context):
         return
     if (
         obj is None

@@ -55,6 +55,7 @@ class WCD_UL_parts(bpy.types.UIList):
         line.prop(row, "chosen", text="", icon=tick, emboss=False)
         swatch = line.row()
         swatch.scale_x = _SWATCH
+        swatch.enabled = obj.data.is_editable  # not if it is linked from a library
         swatch.prop(row, "color", text="")
         line.prop(row, "name", text="", emboss=False)
         texts = _figures(figures, place, hulls_of(obj))

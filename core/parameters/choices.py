@@ -43,7 +43,8 @@ PSI_PAIRS = (
     Choice(
         "UNIFORM",
         "Uniform Pairs",
-        "Pairs drawn at random: an unbiased estimate",
+        "60,000 pairs drawn at random, besides those that Rays finds: an unbiased"
+        " estimate",
     ),
     Choice(
         "RAYS",

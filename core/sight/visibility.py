@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 
 from ..errors import DecompositionError
 from ..geometry.sampling import Samples, take_samples
@@ -41,7 +42,8 @@ class LinesOfSight:
     samples : Samples
         N points on the surface.
     affinity_pairs : PairVisibility
-        Pairs of the LoS matrix M (eq. 3): all pairs, or those found by cones of rays.
+        Pairs of the LoS matrix M (eq. 3): all pairs, or those that rays were cast for.
+        Every sample sees itself.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1).
     """
@@ -148,7 +150,18 @@ def find_lines_of_sight(
     else:
         steps = see_all_pairs(*looking)
     pairs = yield from within(steps, 0.02, 1.0)
-    return LinesOfSight(samples, pairs, pairs)
+    return LinesOfSight(samples, _all_seeing_themselves(pairs), pairs)
+
+
+def _all_seeing_themselves(pairs: PairVisibility) -> PairVisibility:
+    """Return pairs in which each sample sees itself; random pairs may leave that out.
+
+    A sample that sees none, not even itself, has no place in the embedding.
+    """
+    if not isinstance(pairs.visible, sparse.csr_array):
+        return pairs
+    itself = sparse.diags_array(np.float32(pairs.visible.diagonal() == 0))
+    return replace(pairs, visible=sparse.csr_array(pairs.visible + itself))
 
 
 def _samples_of(

@@ -12,7 +12,13 @@ from typing import Any, TypeAlias
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
 from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME, WHOLE_MESH
-from .stored.record import has_record, is_rough, noted_parameters, record_of
+from .stored.record import (
+    beside_parts,
+    has_record,
+    is_rough,
+    noted_parameters,
+    record_of,
+)
 from .stored.restore import has_parts, read_restore
 
 # An object of Blender, or None if there is no active one.
@@ -38,16 +44,24 @@ def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
         )
     if obj.type not in WORKED_ON:
         return f"{obj.name} is not a mesh; select a mesh or a point cloud"
-    if not obj.is_editable or (writes_mesh and not obj.data.is_editable):
-        return (
-            f"{obj.name} is linked from a library and cannot be changed; make it local"
-            " first (Object > Relations > Make Local)"
-        )
+    reason = library_refusal(obj, writes_mesh)
+    if reason:
+        return reason
     if obj.mode not in {"OBJECT", "EDIT"}:
         return "Parts are made in Object or Edit Mode; switch the mode"
     if obj.mode == "EDIT" and is_cloud(obj):
         return "Parts of points are made in Object Mode; leave Edit Mode"
     return None
+
+
+def library_refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
+    """Return why an object, or its mesh, cannot be changed."""
+    if obj.is_editable and (obj.data.is_editable or not writes_mesh):
+        return None
+    return (
+        f"{obj.name} is linked from a library and cannot be changed; make it local"
+        " first (Object > Relations > Make Local)"
+    )
 
 
 def measure_refusal(obj: Candidate) -> str | None:
@@ -80,6 +94,8 @@ def recut_refusal(obj: Candidate) -> str | None:
 def clear_refusal(obj: Candidate) -> str | None:
     """Return why nothing can be cleared from an object."""
     reason = refusal(obj, writes_mesh=False)
+    if reason is None and has_parts(obj) and not beside_parts(obj):
+        reason = library_refusal(obj)  # parts of a linked mesh are the library's
     cut = reason is None and WHOLE_MESH in obj.data
     marked = reason is None and obj.type == "MESH" and has_marked_seams(obj.data)
     if reason is None and not (cut or marked or has_record(obj)):

@@ -117,6 +117,11 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
         self.name = active_row(obj).name
         return context.window_manager.invoke_props_dialog(self)
 
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the name, ready to be typed."""
+        self.layout.activate_init = True
+        self.layout.prop(self, "name", text="")
+
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         active_row(obj).name = self.name
         reason = noted_refusal(obj)

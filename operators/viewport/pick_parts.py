@@ -15,6 +15,7 @@ from . import picking
 from .choose_parts import choose
 from .part_at import make_tree, part_at
 from .shown_parts import shown_parts
+from .turning import Turning, keeps
 from .viewports import viewport_at
 
 # The pie menu, which `ui` draws.
@@ -23,6 +24,7 @@ _MENU = "WCD_MT_pick"
 _WHEELS = {"WHEELUPMOUSE": 1, "WHEELDOWNMOUSE": -1}
 _PAGES = {"PAGE_UP": 1, "PAGE_DOWN": -1}
 _FEWEST, _MOST = 2, 256
+_ENTER = {"RET", "NUMPAD_ENTER"}
 
 
 class WCD_OT_pick_parts(bpy.types.Operator):
@@ -32,7 +34,8 @@ class WCD_OT_pick_parts(bpy.types.Operator):
     bl_label = "Pick Parts"
     bl_description = (
         "Point at parts in the viewport. Click to choose one, Shift-click to add one,"
-        " right-click for a menu. Alt and the mouse wheel change the number of parts"
+        " right-click for a menu. Alt and the mouse wheel change the number of parts;"
+        " Esc goes back to the number before"
     )
     bl_options: ClassVar[set[str]] = set()
 
@@ -83,7 +86,17 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             return self._open_menu(context)
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
+        if self._keep(context, event) and event.type in _ENTER:
+            return {"RUNNING_MODAL"}
         return self._press(context, event)
+
+    def _keep(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Keep the number of parts that the wheel asked for if a press means that."""
+        kept = self._picking.turning is not None and keeps(event)
+        if kept:
+            self._picking.turning = None
+            picking.tell(context)
+        return kept
 
     def _press(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Take a pressed key or button."""
@@ -119,10 +132,15 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         return {"PASS_THROUGH"}
 
     def _escape(self, context: bpy.types.Context) -> set[str]:
-        """Leave a merge that waits for a click, else the picking."""
-        if self._picking.merging:
-            self._picking.merging = False
-            picking.tell(context)
+        """Leave a merge that waits, or the numbers of the wheel, else the picking."""
+        merging, turning = self._picking.merging, self._picking.turning
+        self._picking.merging, self._picking.turning = False, None
+        if turning is not None and not merging:
+            self._asked = self._cut_last = 0
+            modal.stop()  # the cut that runs, if any
+            turning.take_back()
+        if merging or turning is not None:
+            picking.tell(bpy.context)
             return {"RUNNING_MODAL"}
         picking.stop()
         return {"FINISHED"}
@@ -149,7 +167,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
     def _open_menu(self, context: bpy.types.Context) -> set[str]:
         """Open the menu for the part under the cursor; leave where there is none."""
         obj, row = self._picking.object(), self._picking.row()
-        if row is None or self._picking.merging:
+        if row is None or self._picking.merging or self._picking.turning:
             return self._escape(context)
         if obj != context.active_object or row.number not in chosen_numbers(obj):
             _choose(obj, row.number, extend=False)
@@ -161,8 +179,11 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         obj = context.active_object
         if edit_refusal(obj) is None:
             now = self._asked or len(part_identities(obj))
+            if self._picking.turning is None:
+                self._picking.turning = Turning.of(obj)
             self._asked = min(max(now + step, _FEWEST), _MOST)
             self._cut(context)
+            picking.tell(context)
 
     def _cut(self, context: bpy.types.Context) -> None:
         """Cut the active object into as many parts as were asked for, as the chart."""
@@ -172,6 +193,8 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             self._asked = self._cut_last = 0
             return
         self._cut_last = self._asked
+        if self._picking.turning is not None:
+            self._picking.turning.n_steps += 1
         self._call(bpy.ops.wcd.choose_part_count, parts=self._asked)
 
     def _call(self, operator: Any, **values: int) -> None:

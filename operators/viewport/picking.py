@@ -12,12 +12,14 @@ import bpy
 from ..bridge.parts.rows import WCD_PG_part
 from ..bridge.stored.record import record_of
 from ..running import modal
+from .turning import Turning
 from .viewports import redraw, show_header
 
 _KEYS = (
     "Click: choose, Shift-Click: add, Right-Click or W: menu,"
     " Alt-Wheel or Page Up and Down: number of parts, Esc: end"
 )
+_TURNED = "Click or Enter: keep {} parts, Esc or Right-Click: back to {}"
 
 
 @dataclass
@@ -34,12 +36,15 @@ class Picking:
         Where the cursor is in its window.
     merging : bool
         Whether the next part that is clicked is merged with the chosen ones.
+    turning : Turning or None
+        What the wheel has done since the number of parts was kept last.
     """
 
     workspace: str
     hovered: tuple[int, int] | None = None
     place: tuple[int, int] = (0, 0)
     merging: bool = False
+    turning: Turning | None = None
 
     def row(self) -> WCD_PG_part | None:
         """Return the row of the part under the cursor, None if there is none."""
@@ -90,8 +95,17 @@ def tell(context: bpy.types.Context) -> None:
         return
     show_header(_header(context))
     if modal.busy() is None:
-        modal.show_status(current.workspace, _KEYS)
+        modal.show_status(current.workspace, _keys(context))
     redraw()
+
+
+def _keys(context: bpy.types.Context) -> str:
+    """Return which keys there are, for the status bar."""
+    turning = current.turning if current else None
+    obj = context.active_object
+    if turning is None or obj is None:
+        return _KEYS
+    return _TURNED.format(record_of(obj).get("k", 0), turning.n_before)
 
 
 def _header(context: bpy.types.Context) -> str:

@@ -147,6 +147,14 @@ def test_odd_surfaces_have_parts(make, sight):
     assert np.isfinite(found.ranks).all()
 
 
+@pytest.mark.parametrize("make", [shapes.open_box, shapes.dumbbell])
+@pytest.mark.parametrize("sight", ["BLOCKS", "ALL_PAIRS", "CONE"])
+def test_parts_are_found_with_one_ray_a_sample(make, sight):
+    found = split_up(make(), samples=200, sight=sight, rays=1)
+    assert found.n_parts >= 1
+    assert np.isfinite(found.ranks).all()
+
+
 def test_polygons_without_area_get_a_part_too():
     mesh = shapes.l_shape()
     flat = shapes.mesh_of(mesh.vertices[:3], [(0, 0, 1), (2, 2, 2)])

@@ -14,7 +14,14 @@ from ..stored.names import (
     WHOLE_LAYER,
     WHOLE_MESH,
 )
-from ..stored.record import check_records, forget_parts, forget_result
+from ..stored.record import (
+    beside_parts,
+    check_records,
+    forget_parts,
+    forget_result,
+    record_of,
+    write_record,
+)
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from .kept_materials import drop_kept, marked_groups
 from .materials import discard_unused, is_ours, name_of, our_materials
@@ -23,8 +30,14 @@ from .slots import take_out_of_slots
 
 
 def clear(obj: bpy.types.Object) -> None:
-    """Remove everything of ours from an object, its mesh and the file."""
-    check_records(obj)
+    """Remove everything of ours from an object, its mesh and the file.
+
+    The parts of a mesh that is linked from a library stay, on the object, too.
+    """
+    if check_records(obj) and not obj.data.is_editable:
+        own, record = beside_parts(obj).keys(), record_of(obj)
+        write_record(obj, {key: record[key] for key in record if key not in own})
+        return
     if obj.type == "MESH":
         unmark_seams(obj.data)
         _forget_joined_cuts(obj)

@@ -10,7 +10,7 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ..mesh.points import is_cloud
-from ..refusals import name_refusal
+from ..refusals import library_refusal, name_refusal
 from ..stored.identity import Identity
 from ..stored.names import HULL_TAG, OVERLAY
 from ..stored.record import change_part, record_of
@@ -40,7 +40,7 @@ def rename_part(
     if restore is None or part is None or name == part.name:
         return name, None
     taken = {each.name for each in identities if each != part}
-    reason = name_refusal(name, part.name, taken)
+    reason = library_refusal(obj) or name_refusal(name, part.name, taken)
     if reason:
         return part.name, reason
     group = obj.type == "MESH" and obj.vertex_groups.get(part.name)
@@ -107,8 +107,11 @@ def color_of_part(obj: bpy.types.Object, number: int) -> Color:
 
 
 def recolor_part(obj: bpy.types.Object, number: int, color: Color) -> None:
-    """Give a part of an object a color, on all that shows it; other objects stay."""
-    for each in identities_of(record_of(obj)):
+    """Give a part of an object a color, on all that shows it; other objects stay.
+
+    Parts of a mesh that is linked from a library keep theirs.
+    """
+    for each in () if library_refusal(obj) else identities_of(record_of(obj)):
         if each.number == number:
             _change(obj, replace(each, color=color))
             show_colors(obj)

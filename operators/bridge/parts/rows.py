@@ -6,6 +6,7 @@ properties, so that undo, saving and copying treat them like all other data.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +23,10 @@ AS_SET = "AS_SET"
 # Why the latest name that was typed was not taken: the object, the number of the part
 # and a sentence. It is not in Blender's data, because undo would bring it back.
 _refused: tuple[int, int, str] | None = None
+# Seconds for which a row that was clicked shows its part in the viewports.
+_LOOK = 1.5
+# The object whose row was clicked latest, and when, by `time.monotonic`.
+_looked: tuple[int, float] | None = None
 
 
 def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -45,6 +50,8 @@ def _tick(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
 
 def _highlight(obj: bpy.types.Object, context: bpy.types.Context) -> None:
     """Take all ticks away when a row is highlighted that is not ticked."""
+    global _looked
+    _looked = obj.session_uid, time.monotonic()
     active = active_row(obj)
     for row in obj.wcd_parts if active and not active.chosen else ():
         if row.chosen:
@@ -125,6 +132,7 @@ def write_rows(
     obj: bpy.types.Object, identities: Iterable[Identity], kept: dict[int, Row]
 ) -> None:
     """Replace the rows of the table; parts that had a row keep its state."""
+    global _looked
     obj.wcd_parts.clear()
     active = 0
     for place, identity in enumerate(identities):
@@ -135,6 +143,7 @@ def write_rows(
         row.hull_shape = before.hull_shape
         active = place if before.active else active
     obj.wcd_active_part = active  # last, because ticks move it
+    _looked = None  # nobody has clicked it
 
 
 def erase_rows(obj: bpy.types.Object) -> None:
@@ -179,6 +188,13 @@ def hull_shapes(obj: bpy.types.Object) -> dict[int, str]:
         for place, each in enumerate(part_identities(obj))
         if chosen.get(each.number, AS_SET) != AS_SET
     }
+
+
+def look_left(obj: bpy.types.Object) -> float:
+    """Return for how many seconds viewports still show a row that was clicked."""
+    if _looked is None or _looked[0] != obj.session_uid:
+        return 0.0
+    return max(_looked[1] + _LOOK - time.monotonic(), 0.0)
 
 
 def active_row(obj: bpy.types.Object) -> Any:

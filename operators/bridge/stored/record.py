@@ -142,7 +142,7 @@ def write_result(
         result[PAST] = past
         for identity in identities:
             change_entries(result, identity.number, {"name": identity.name})
-    beside = _beside_parts(obj)
+    beside = beside_parts(obj)
     for hull in beside.get(_HULLS, {}).get("hulls", ()):
         hull["part"] = None  # it is around a former part
     write_note(obj, RESULT, {**result, **beside})
@@ -225,7 +225,7 @@ def write_hull_record(
     write_note(obj, RESULT, result)
 
 
-def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
+def beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
     """Return the measurements and hulls that are noted on an object."""
     result = record_of(obj)
     return {
@@ -235,7 +235,7 @@ def _beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
 
 def forget_parts(obj: bpy.types.Object) -> None:
     """Remove the record of a decomposition; measurements and hulls stay noted."""
-    kept = _beside_parts(obj)
+    kept = beside_parts(obj)
     write_note(obj, RESULT, {"version": version(), **kept} if kept else {})
 
 

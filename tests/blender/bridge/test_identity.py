@@ -92,6 +92,18 @@ def test_a_duplicate_keeps_identity_and_gets_materials_of_its_own(monkey):
     check_in_step(monkey)
 
 
+def test_a_recolored_part_of_a_duplicate_leaves_the_original_alone(monkey):
+    before = [tuple(row.color) for row in monkey.wcd_parts]
+    bpy.ops.object.duplicate()
+    copy = bpy.context.active_object
+    copy.wcd_parts[1].color = (0.25, 0.5, 0.75)
+    copy.wcd_parts[2].name = "Jaw"
+    assert [tuple(row.color) for row in monkey.wcd_parts] == before
+    assert tuple(copy.wcd_parts[1].color) == (0.25, 0.5, 0.75)
+    check_in_step(copy)
+    check_in_step(monkey)
+
+
 def test_new_parts_get_names_and_colors_that_are_not_in_use(monkey):
     monkey.wcd_parts[1].name = "Part 05"
     bpy.ops.wcd.decompose(**{**FAST, "max_parts": 9}, parts=9)

@@ -4,9 +4,10 @@ import json
 
 import bpy
 import pytest
-from edited import check_in_step
+from edited import check_in_step, parts_of, record_of
 from hand_made import activate, mesh_object
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.parts.rows import noted_refusal
 
 FAST = {"samples": 300}
 
@@ -125,6 +126,28 @@ def test_linked_meshes_are_read_only_but_can_be_measured(library):
     assert bpy.ops.wcd.measure(**FAST) == {"FINISHED"}
     assert bpy.ops.wcd.clear() == {"FINISHED"}
     assert not obj.keys()
+
+
+def test_parts_on_a_linked_mesh_stay_as_they_are(suzanne, tmp_path):
+    bpy.ops.wcd.decompose(**FAST, parts=3)
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    obj = link(path, "objects", "Suzanne").make_local()
+    bpy.context.collection.objects.link(obj)
+    activate(obj)
+    assert obj.data.library
+    color, name = tuple(obj.wcd_parts[0].color), obj.wcd_parts[0].name
+    obj.wcd_parts[0].color = (1.0, 0.0, 0.0)
+    obj.wcd_parts[0].name = "Head"
+    assert (tuple(obj.wcd_parts[0].color), obj.wcd_parts[0].name) == (color, name)
+    assert "linked from a library" in noted_refusal(obj)
+    refused(bpy.ops.wcd.clear, "linked from a library")
+    assert bpy.ops.wcd.measure(**FAST) == {"FINISHED"}
+    assert bpy.ops.wcd.clear() == {"FINISHED"}  # that is the object's own
+    assert "measured" not in record_of(obj)
+    check_in_step(obj)
+    assert len(parts_of(obj)) == 3
 
 
 def test_parts_that_came_with_a_joined_object_are_replaced(suzanne):

@@ -3,14 +3,18 @@
 import json
 
 import bpy
+import numpy as np
 from leftovers import leftovers
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.parts import rows
 from weak_convex_decomposition.operators.bridge.parts.rows import noted_refusal
 from weak_convex_decomposition.operators.running import modal as running
 
 # Where a row of the table has its box and its name, in shares of the sidebar's width.
 _TICK = 0.11
 _NAME = 0.35
+# Seconds between pictures of a row that was clicked.
+_LOOK = 5.0
 
 
 def names():
@@ -38,6 +42,19 @@ def edited(hands, button, expected, columns):
     assert snapshot(bpy.context.active_object) == before
 
 
+def shown_for_a_moment(hands):
+    """Look at the viewport right after a click on a row, and after that moment."""
+    seen = []
+    yield 0.5
+    for name in ("row-clicked", "row-later", "row-last"):
+        seen.append(hands.pixels(name)[100:900, 100:1200])
+        yield _LOOK
+    outlined, still = (
+        int((np.abs(seen[n] - seen[n + 1]).max(axis=2) > 0.2).sum()) for n in (0, 1)
+    )
+    assert outlined > 200 > 20 > still, (outlined, still)
+
+
 def steps(hands):
     hands.open_panels("WCD_PT_parts", "WCD_PT_edit")
     yield from hands.fill_screen()
@@ -54,10 +71,11 @@ def steps(hands):
         yield from hands.click(place)
         yield lambda row=row: bpy.context.active_object.wcd_parts[row].chosen
     yield from edited(hands, "wcd.merge_parts", n_parts - 1, columns=(0.25,))
-    rows = bpy.context.active_object.wcd_parts
-    assert [row.chosen for row in rows[:3]] == [False, True, True]
+    table = bpy.context.active_object.wcd_parts
+    assert [row.chosen for row in table[:3]] == [False, True, True]
 
     # A click on another row takes the ticks away; a name that is taken is refused.
+    rows._LOOK = 0.7 * _LOOK  # long enough where a processor draws
     _, height = yield from hands.find("wcd_parts[3].chosen", columns=(_TICK,))
     region = hands.region()
     place = int(region.x + _NAME * (region.width - 20)), height
@@ -65,7 +83,7 @@ def steps(hands):
     yield lambda: bpy.context.active_object.wcd_active_part == 3
     obj = bpy.context.active_object
     assert not any(row.chosen for row in obj.wcd_parts)
-    yield 0.5
+    yield from shown_for_a_moment(hands)
     hands._do("click", "--repeat", 2, "--delay", 60, 1)
     yield 0.3
     yield from hands.press("ctrl+a")

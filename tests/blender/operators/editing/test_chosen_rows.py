@@ -6,6 +6,7 @@ from edited import parts_of
 from weak_convex_decomposition.operators.bridge.parts.rows import (
     chosen_numbers,
     chosen_parts,
+    look_left,
 )
 
 
@@ -51,6 +52,16 @@ def test_merged_parts_have_the_name_of_the_row_that_was_ticked_first(table):
         table.wcd_parts[row].chosen = True
     bpy.ops.wcd.merge_parts()
     assert [name for name, _, _ in parts_of(table)] == ["Part 02", "Part 03", "Part 04"]
+
+
+def test_a_click_is_looked_at_for_a_moment_and_a_run_is_no_click(table):
+    assert look_left(table) > 1
+    bpy.ops.wcd.refresh_parts()
+    assert look_left(table) == 0
+    bpy.ops.object.duplicate()
+    table.wcd_active_part = 2
+    assert 1 < look_left(table) < 2
+    assert look_left(bpy.context.active_object) == 0
 
 
 def test_ticks_and_the_highlight_outlast_a_run(monkey):

@@ -5,63 +5,8 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from hand_made import decompose_by_hand
-from presses import Pressed, Window
 from snapshot import snapshot
 from weak_convex_decomposition.operators.viewport import pick_parts, picking
-
-
-class Viewport:
-    """A stand-in for a viewport in a window, with a part under the cursor or none."""
-
-    def __init__(self, monkeypatch):
-        self.under, self.header, self.window = None, None, Window()
-        self.region = SimpleNamespace(tag_redraw=lambda: None)
-        self.inside = True
-        monkeypatch.setattr(
-            pick_parts,
-            "viewport_at",
-            lambda _, x, y: (self.region, x, y) if self.inside else None,
-        )
-        monkeypatch.setattr(pick_parts, "part_at", lambda *_: self.under)
-        monkeypatch.setattr(picking, "show_header", self.show_header)
-        monkeypatch.setattr(
-            picking.modal, "show_status", lambda _, text: setattr(self, "status", text)
-        )
-        self.pressed = Pressed(pick_parts.WCD_OT_pick_parts)
-
-    def show_header(self, text):
-        self.header = text
-
-    def start(self):
-        answer = self.pressed.invoke(self.context, SimpleNamespace())
-        assert answer == {"RUNNING_MODAL"}
-
-    @property
-    def context(self):
-        return SimpleNamespace(
-            active_object=bpy.context.active_object,
-            window_manager=self.window,
-            workspace=SimpleNamespace(name="Layout"),
-            scene=bpy.context.scene,
-        )
-
-    def event(self, kind, value="PRESS", **keys):
-        keys = {"ctrl": False, "alt": False, "shift": False, "oskey": False, **keys}
-        event = SimpleNamespace(type=kind, value=value, mouse_x=5, mouse_y=6, **keys)
-        return self.pressed.modal(self.context, event)
-
-    def hover(self, obj, number):
-        self.under = None if obj is None else (obj, number)
-        assert self.event("MOUSEMOVE", "NOTHING") == {"PASS_THROUGH"}
-
-
-@pytest.fixture
-def viewport(monkeypatch, suzanne):
-    decompose_by_hand(suzanne, 4)
-    viewport = Viewport(monkeypatch)
-    viewport.start()
-    yield viewport
-    picking.stop()
 
 
 def rows(obj):

@@ -104,9 +104,31 @@ def by_the_menu(hands, chin):
     yield lambda: n_parts() == before
 
 
+def renamed(hands, chin):
+    """Type a name in the dialog of the pie, with no click into it, and undo that."""
+    yield from hover(hands, CHIN)
+    yield from hands.press("w")
+    yield 0.5
+    yield from hands.press("7")
+    yield 0.5
+    hands._do("type", "Jaw")
+    yield 0.3
+    hands.picture("rename", hands.area)
+    yield from hands.press("Return")  # ends the name, and the other one the dialog
+    yield 0.3
+    yield from hands.press("Return")
+    yield lambda: rows()[0] == "Jaw"
+    yield from hands.undo()
+    yield lambda: rows()[0] == chin
+
+
 def by_the_wheel(hands):
-    """Alt and the wheel change the number of parts; without Alt the view moves."""
-    before = n_parts()
+    """Alt and the wheel change the number of parts; without Alt the view moves.
+
+    Esc and right-click go back to the number before, names and all; Enter keeps it.
+    """
+    before, noted = n_parts(), bpy.context.active_object["wcd"]
+    number = bpy.context.scene.wcd.parts
     yield from hover(hands, BROW)
     view = hands.area.spaces.active.region_3d
     distance = view.view_distance
@@ -119,6 +141,20 @@ def by_the_wheel(hands):
     yield 0.5
     assert view.view_distance < distance
     assert n_parts() == before + 2
+    yield from hands.press("Escape")
+    yield lambda: bpy.context.active_object["wcd"] == noted
+    assert (n_parts(), bpy.context.scene.wcd.parts) == (before, number)
+    assert picking.current is not None
+    yield 0.5
+    hands.picture("back", hands.area)
+    for leave, expected in (("click", before), ("Return", before + 1)):
+        yield from hover(hands, BROW)
+        yield from press(hands, 4, "alt")
+        yield lambda: n_parts() == before + 1 and not running.current
+        yield 0.3
+        yield from press(hands, 3) if leave == "click" else hands.press(leave)
+        yield lambda expected=expected: n_parts() == expected
+        assert picking.current.turning is None
 
 
 def steps(hands):
@@ -132,6 +168,7 @@ def steps(hands):
     yield lambda: picking.current is not None
     _, chin = yield from choosing(hands)
     yield from by_the_menu(hands, chin)
+    yield from renamed(hands, chin)
     yield from by_the_wheel(hands)
     yield from hover(hands, NOWHERE)
     assert picking.current.row() is None
