@@ -43,7 +43,7 @@ PSI_PAIRS = (
     Choice(
         "UNIFORM",
         "Uniform Pairs",
-        "60,000 pairs drawn at random, besides those that Rays finds: an unbiased"
+        "Up to 60,000 pairs drawn at random, for at most half of Rays: an unbiased"
         " estimate",
     ),
     Choice(

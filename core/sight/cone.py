@@ -11,7 +11,9 @@ from scipy.spatial import cKDTree
 
 from ..geometry.frames import cone_directions, fan_directions, with_normals
 from ..geometry.sampling import Samples
+from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps
+from .all_pairs import UNIFORM_PAIRS
 from .lines import RAYS_PER_STEP
 from .pair_visibility import PairVisibility, pair_counts
 from .prepared import PreparedShape
@@ -21,6 +23,27 @@ from .viewpoints import Viewpoints
 _USUAL_RAYS = 30
 # Pairs of samples, (2, M) each.
 Pairs: TypeAlias = list[NDArray[np.int64]]
+
+
+def shared_rays(parameters: Parameters, n_samples: int) -> tuple[int, int]:
+    """Return how many random pairs are cast, and how many rays each cone has left.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        `psi_pairs` and `rays` are used. Pairs take at most half of the rays.
+    n_samples : int
+
+    Returns
+    -------
+    n_pairs, n_rays : int
+        Of all samples together, and of each sample; 0 rays are as many as usual.
+    """
+    n_rays, usual = parameters.rays, parameters.rays == 0
+    if parameters.psi_pairs != "UNIFORM":
+        return 0, n_rays
+    n_pairs = UNIFORM_PAIRS if usual else min(UNIFORM_PAIRS, n_rays // 2 * n_samples)
+    return n_pairs, 0 if usual else n_rays - -(-n_pairs // n_samples)
 
 
 def see_cones(

@@ -15,7 +15,7 @@ from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps, within
 from .all_pairs import see_all_pairs, see_uniform_pairs
 from .blocks import see_blocks
-from .cone import see_cones
+from .cone import see_cones, shared_rays
 from .containers import see_through_containers
 from .likely_pairs import likely_pairs
 from .lines import RayBudget
@@ -135,9 +135,9 @@ def find_lines_of_sight(
     looking = shape.marcher, samples, views
     n_rays = parameters.rays
     if parameters.sight == "CONE":
-        drawn = None
-        if parameters.psi_pairs == "UNIFORM":
-            steps = see_uniform_pairs(*looking, rng)
+        (n_pairs, n_rays), drawn = shared_rays(parameters, len(samples)), None
+        if n_pairs:
+            steps = see_uniform_pairs(*looking, rng, n_pairs)
             drawn = yield from within(steps, 0.02, 0.2)
         steps = see_cones(shape, samples, views, n_rays, parameters.cone_angle)
         in_cones = yield from within(steps, 0.2, 1.0)

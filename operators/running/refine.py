@@ -1,9 +1,10 @@
 """Replace a first look at parts by the parts themselves.
 
 While settings change, parts that would take long are shown as `core.parts.first_look`
-finds them, and those of large meshes with seams along patches of faces. Here the run that the settings ask for is made, in slices, while nothing else
-runs. It belongs to the undo step of the first look. So it is made again if undo brings
-that back, and files never keep a first look.
+finds them, and those of large meshes with seams along patches of faces. Here the run
+that the settings ask for is made, in slices, while nothing else runs. It belongs to the
+undo step of the first look. So it is made again if undo brings that back, and files
+never keep a first look.
 """
 
 from __future__ import annotations

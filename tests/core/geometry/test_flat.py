@@ -134,7 +134,7 @@ def test_a_hand_has_a_palm_and_five_fingers(values):
 def test_cones_lie_flat_in_any_plane():
     turned = changes.moved(HAND, rotation=UPRIGHT)
     for mesh in (HAND, turned):
-        parameters = Parameters(samples=200, rays=10, sight="CONE")
+        parameters = Parameters(samples=200, rays=10, sight="CONE", psi_pairs="RAYS")
         seen = lines_of_sight(mesh, parameters).affinity_pairs.visible
         # Each sample, most of its ten rays, and theirs in turn.
         assert seen.nnz > 200 * (1 + 12)
@@ -186,7 +186,9 @@ def test_a_single_face_says_what_it_needs():
 
 
 def test_samples_on_faces_work():
-    found = split_up(COMB, sampling="FACES", sight="CONE", rays=8, parts=5)
+    found = split_up(
+        COMB, sampling="FACES", sight="CONE", rays=8, psi_pairs="RAYS", parts=5
+    )
     y = graph_of(COMB).centers[:, 1]
     assert found.n_parts == 5
     assert len(set(found.labels[y < 0.7])) == 1

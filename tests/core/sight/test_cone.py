@@ -3,7 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from computed import prepare
+from computed import lines_of_sight, prepare
+from weak_convex_decomposition import Parameters
 from weak_convex_decomposition.core.geometry.frames import (
     cone_directions,
     fan_directions,
@@ -13,7 +14,8 @@ from weak_convex_decomposition.core.sight.all_pairs import (
     see_all_pairs,
     see_uniform_pairs,
 )
-from weak_convex_decomposition.core.sight.cone import see_cones
+from weak_convex_decomposition.core.sight.cone import see_cones, shared_rays
+from weak_convex_decomposition.core.sight.ray_march import RayMarcher
 from weak_convex_decomposition.core.sight.viewpoints import viewpoints
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -142,3 +144,34 @@ def test_uniform_pairs_agree_with_all_pairs(l_views, l_los):
     assert (looked_up == looked_up.T).all()
     assert (visible == looked_up * l_los).all()
     assert known.rank_of_all()[0] == pytest.approx(l_los.mean(), abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("n_rays", "n_samples", "n_pairs", "n_left"),
+    [(0, 300, 60_000, 0), (1, 300, 0, 1), (8, 300, 1200, 4), (8, 50_000, 60_000, 6)],
+)
+def test_pairs_take_half_of_the_rays_at_most(n_rays, n_samples, n_pairs, n_left):
+    parameters = Parameters(rays=n_rays)
+    assert shared_rays(parameters, n_samples) == (n_pairs, n_left)
+    alone = replace(parameters, psi_pairs="RAYS")
+    assert shared_rays(alone, n_samples) == (0, n_rays)
+    if n_rays:
+        assert n_pairs + n_left * n_samples <= n_rays * n_samples
+
+
+@pytest.mark.parametrize("n_rays", [1, 2, 30])
+def test_no_more_lines_start_than_asked_for(monkeypatch, n_rays):
+    started, along = [], RayMarcher.surfaces_along
+
+    def counted(marcher, origins, *rest):
+        started.append(len(origins))
+        return along(marcher, origins, *rest)
+
+    monkeypatch.setattr(RayMarcher, "surfaces_along", counted)
+    sight = lines_of_sight(
+        shapes.l_prism(), Parameters(samples=100, sight="CONE", rays=n_rays)
+    )
+    apart = sight.rank_pairs is not sight.affinity_pairs
+    assert apart == (n_rays > 1)
+    n_pairs = sight.rank_pairs.n_cast if apart else 0
+    assert 0.7 * n_rays * 100 < sum(started) + n_pairs <= n_rays * 100
