@@ -9,7 +9,7 @@ from ..results.parts import Decomposition
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on
-from .first_look import guess, is_quick
+from .first_look import guess, is_quick, likely_number
 from .merging.bends import with_bends_kept
 from .part_count import PartCountSearch
 from .part_memo import PartMemo
@@ -51,7 +51,7 @@ def find_parts(
         parameters.max_parts,
         cut.searches,
     )
-    likely_k = parameters.parts or (search.rated(memo.tried)[1] if memo.tried else 0)
+    likely_k = parameters.parts or likely_number(search, memo.tried)
     guesses = rough and likely_k > 0 and not is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
         guesses, wanted = False, with_bends_kept(search, partitioner, parameters)

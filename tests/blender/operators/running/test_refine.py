@@ -94,6 +94,17 @@ def test_above_the_highest_number_tried_it_has_the_number_too(
         assert not is_rough(suzanne)  # they are known now
 
 
+@pytest.mark.parametrize(("change", "n_parts"), [({"parts": 2}, 2), ({"parts": 0}, 5)])
+def test_it_keeps_to_the_range_of_numbers(rough, change, n_parts):
+    settings = bpy.context.scene.wcd
+    settings.max_parts, settings.min_parts = 6, 5
+    look_first(rough)
+    refined(rough)  # five and six are tried
+    look_first(rough, **change, alpha=2.0 if change["parts"] else 0.3)
+    assert record_of(rough)["k"] == n_parts
+    assert is_rough(rough)
+
+
 def test_the_chart_keeps_its_numbers_meanwhile(rough):
     tried = record_of(rough)["psi_by_k"].keys()
     look_first(rough, alpha=1.0)
