@@ -51,7 +51,7 @@ def find_parts(
         parameters.max_parts,
         cut.searches,
     )
-    likely_k = parameters.parts or likely_number(search, memo.tried)
+    likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
     guesses = rough and likely_k > 0 and not is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
         guesses, wanted = False, with_bends_kept(search, partitioner, parameters)
