@@ -23,9 +23,9 @@ from .running import ahead, modal, refine
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
-# Seconds that a slider waits for the parts; after that a modal run finds them. To write
-# parts takes time for each face, and steps end up to 0.01 s late: 0.1 s in all.
-_MOMENT = 0.08
+# Seconds that a slider waits for the parts, most and least; after that a modal run finds
+# them. To write them takes time for each face, and steps end up to 0.01 s late.
+_MOMENT = (0.08, 0.03)
 _WRITING = 1.6e-7
 # Seconds until the next try to start a modal run.
 _RETRY = 0.02
@@ -150,7 +150,8 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         began = time.perf_counter()
         self._rough = obj.mode == "OBJECT"
         key, job = self._key(context, obj), Job(self._begin(context, obj))
-        moment = _MOMENT - _WRITING * n_faces_of(record_of(obj))
+        writing = _WRITING * n_faces_of(record_of(obj))
+        moment = max(_MOMENT[0] - writing, _MOMENT[1])
         if job.advance(began + moment - time.perf_counter()):
             self._commit(obj, job.result())
         else:

@@ -64,7 +64,7 @@ def _with_numbers(parameters: Parameters, numbers: Iterable[int]) -> list[Parame
     found = []
     for number in numbers:
         with suppress(DecompositionError):
-            found += [replace(parameters, parts=number)] if number > 1 else []
+            found.append(replace(parameters, parts=number))
     return found
 
 
