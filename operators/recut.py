@@ -23,7 +23,7 @@ from .running import ahead, modal, refine
 from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
-# Seconds that a slider waits for the parts, most and least; after that a modal run finds
+# Seconds that a slider waits for parts, most and least; after that a modal run finds
 # them. To write them takes time for each face, and steps end up to 0.01 s late.
 _MOMENT = (0.08, 0.03)
 _WRITING = 1.6e-7
