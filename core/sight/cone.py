@@ -39,11 +39,13 @@ def shared_rays(parameters: Parameters, n_samples: int) -> tuple[int, int]:
     n_pairs, n_rays : int
         Of all samples together, and of each sample; 0 rays are as many as usual.
     """
-    n_rays, usual = parameters.rays, parameters.rays == 0
+    n_rays = parameters.rays
     if parameters.psi_pairs != "UNIFORM":
         return 0, n_rays
-    n_pairs = UNIFORM_PAIRS if usual else min(UNIFORM_PAIRS, n_rays // 2 * n_samples)
-    return n_pairs, 0 if usual else n_rays - -(-n_pairs // n_samples)
+    if n_rays == 0:
+        return UNIFORM_PAIRS, 0
+    n_pairs = min(UNIFORM_PAIRS, n_rays // 2 * n_samples)
+    return n_pairs, n_rays - -(-n_pairs // n_samples)
 
 
 def see_cones(

@@ -53,7 +53,7 @@ def start(found: Edited) -> None:
     n_parts = found.decomposition.n_parts
     near = _with_numbers(found.parameters, [n_parts + step for step in _NEAR])
     usual = _with_numbers(found.parameters, range(2, _USUAL + 1))
-    looks = [(each, True) for each in (*near, *usual)]
+    looks = [(each, True) for each in dict.fromkeys((*near, *usual))]
     _wanted[:] = [*looks, *((each, False) for each in near)]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
