@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
 from ..steps.progress import Progress, Steps, run, within
+from ..steps.rows import blocks
 from .mesh import TriangleMesh
 
 # About the most sides of triangles that are sorted in one step.
@@ -47,16 +48,20 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
     Steps of Edges
     """
     tails = yield from within(mesh.welded_in_steps(), 0.0, 0.4)
-    yield Progress("Surface", 0.4)
     lower, higher = np.empty((2, tails.size), dtype=np.int32)
-    heads = tails[:, [1, 2, 0]]
-    yield Progress("Surface", 0.45)
-    np.minimum(tails, heads, out=lower.reshape(-1, 3))
-    np.maximum(tails, heads, out=higher.reshape(-1, 3))
+    for block in blocks(len(tails)):
+        yield Progress("Surface", 0.4 + 0.1 * block.start / len(tails))
+        heads = tails[block][:, [1, 2, 0]]
+        some = slice(3 * block.start, 3 * block.stop)
+        np.minimum(tails[block], heads, out=lower[some].reshape(-1, 3))
+        np.maximum(tails[block], heads, out=higher[some].reshape(-1, 3))
     yield Progress("Surface", 0.5)
     n_ranges = -(-len(lower) // _MOST_SIDES)
     width = int(lower.max()) // n_ranges + 1
-    range_of = (lower // width).astype(np.int16)
+    range_of = np.empty(len(lower), dtype=np.int16)
+    for block in blocks(len(lower)):
+        yield Progress("Surface", 0.5)
+        range_of[block] = lower[block] // width
     sides, new = np.empty(len(lower), dtype=np.int32), np.empty(len(lower), dtype=bool)
     start = 0
     for number in range(n_ranges):
@@ -69,6 +74,7 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
         ends = np.stack([lower[rows], higher[rows]])
         new[start + 1 : end] = (ends[:, 1:] != ends[:, :-1]).any(axis=0)
         start = end
+    yield Progress("Surface", 1.0)
     return Edges(sides, np.flatnonzero(new))
 
 

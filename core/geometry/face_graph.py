@@ -13,6 +13,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..steps.memo import Memo, digest
 from ..steps.progress import Progress, Steps, within
+from ..steps.rows import blocks
 from .connectivity import (
     Edges,
     components_at_once,
@@ -22,7 +23,7 @@ from .connectivity import (
     shared_edges_in_steps,
 )
 from .frames import unit
-from .mesh import TriangleMesh, blocks
+from .mesh import TriangleMesh
 
 # A seam along an edge costs exp(-CREASE * bend) of the edge's length; `bend` is its
 # concave angle in radians.
@@ -209,24 +210,25 @@ def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
     """
     yield from mesh.normals_in_steps()
     # Area of each polygon, and its center and normal times its area.
-    sums = np.zeros((7, mesh.n_polygons))
+    areas = np.zeros(mesh.n_polygons)
+    centers = np.zeros((len(areas), 3))
+    yield Progress("Surface", 0.0)
+    normals = np.zeros((len(areas), 3))
     for rows in blocks(len(mesh.triangles)):
         yield Progress("Surface", 0.4 * rows.start / len(mesh.triangles))
         weights = mesh.areas[rows]
         middles = mesh.vertices[mesh.triangles[rows]].sum(axis=1) / 3
         columns = [np.ones_like(weights), *middles.T, *mesh.normals[rows].T]
-        for total, column in zip(sums, columns, strict=True):
+        totals = [areas, *centers.T, *normals.T]
+        for total, column in zip(totals, columns, strict=True):
             np.add.at(total, mesh.polygons[rows], weights * column)
-    areas, normals = sums[0].copy(), sums[4:].T.copy()
     for rows in blocks(len(areas)):
-        yield Progress("Surface", 0.4 + 0.03 * rows.start / len(areas))
+        yield Progress("Surface", 0.4 + 0.1 * rows.start / len(areas))
         normals[rows] = unit(normals[rows])
-    centers = sums[1:4].T / np.where(areas > 0, areas, 1.0)[:, None]
-    yield Progress("Surface", 0.46)
+        centers[rows] /= np.where(areas[rows] > 0, areas[rows], 1.0)[:, None]
     # A polygon without area takes a vertex as its center.
-    first = np.zeros(len(areas), dtype=np.int64)
-    first[mesh.polygons[::-1]] = mesh.triangles[::-1, 0]
-    centers[areas == 0] = mesh.vertices[first[areas == 0]]
+    empty = np.flatnonzero((areas == 0)[mesh.polygons])[::-1]
+    centers[mesh.polygons[empty]] = mesh.vertices[mesh.triangles[empty, 0]]
     neighbors, starts = yield from within(shared_edges_in_steps(mesh, edges), 0.5, 0.7)
     lengths, bends = np.empty((2, len(neighbors)))
     for rows in blocks(len(neighbors)):

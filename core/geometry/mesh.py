@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -12,6 +11,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
 from ..steps.progress import Progress, Steps, run, within
+from ..steps.rows import blocks, used_rows
 from .array_checks import (
     check_size,
     check_surface,
@@ -25,8 +25,6 @@ _LEAST_AREA = 1e-9
 # Cell size, in diagonals, of the grid that welds vertices. It allows for the rounding
 # of equal positions to single precision.
 _SAME_PLACE = 1e-6
-# Rows that are computed with in one step: few enough for the processor's cache.
-_BLOCK = 2**16
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,12 +102,11 @@ class TriangleMesh:
     def bounds_in_steps(self) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Return `bounds`, found in short steps."""
         if "bounds" not in self.__dict__:
-            used = np.zeros(len(self.vertices), dtype=bool)
-            for rows in blocks(len(self.triangles)):
-                yield Progress("Surface", 0.5 * rows.start / len(self.triangles))
-                used[self.triangles[rows].ravel()] = True
+            steps = used_rows(self.triangles, len(self.vertices))
+            used = yield from within(steps, 0.0, 0.5)
             yield Progress("Surface", 0.5)
-            columns = [self.vertices[used, axis] for axis in range(3)]
+            kept: Any = slice(None) if used.all() else used
+            columns = [self.vertices[kept, axis] for axis in range(3)]
             low, high = np.array([(each.min(), each.max()) for each in columns]).T
             self.__dict__["bounds"] = low, high
         found: tuple[NDArray[np.float64], NDArray[np.float64]] = self.__dict__["bounds"]
@@ -149,15 +146,20 @@ class TriangleMesh:
         """
         check_size(*(yield from within(self.bounds_in_steps(), 0.0, 0.2)))
         yield Progress("Surface", 0.2)
-        n_triangles = len(self.triangles)
-        if self.n_polygons > n_triangles or not np.bincount(self.polygons).all():
+        complete = self.n_polygons <= len(self.triangles)
+        if complete:
+            steps = used_rows(self.polygons, self.n_polygons)
+            complete = bool((yield from within(steps, 0.2, 0.3)).all())
+        if not complete:
             raise DecompositionError(
                 "The numbers of the polygons have gaps; count them 0, 1, 2 and so on,"
                 " each with a triangle."
             )
         if self.diagonal > 0:
-            scale = self.diagonal
-            scaled = replace(self, vertices=(self.vertices - self.center) / scale)
+            vertices = self.vertices - self.center
+            vertices /= self.diagonal
+            yield Progress("Surface", 0.3)
+            scaled = replace(self, vertices=vertices)
             yield from within(scaled.normals_in_steps(), 0.4, 1.0)
             if scaled.areas.sum() > _LEAST_AREA:
                 return scaled
@@ -226,17 +228,6 @@ class TriangleMesh:
             self.__dict__.update(areas=areas, normals=normals)
         found: NDArray[np.float64] = self.__dict__["normals"]
         return found
-
-
-def blocks(n_rows: int) -> Iterator[slice]:
-    """Yield slices that together cover some rows, each a step's worth of work.
-
-    Parameters
-    ----------
-    n_rows : int
-    """
-    for start in range(0, n_rows, _BLOCK):
-        yield slice(start, min(start + _BLOCK, n_rows))
 
 
 def _kept(array: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..steps.progress import Progress, Steps, within
+from ..steps.rows import blocks
 from .connectivity import components
 from .face_graph import CREASE, FaceGraph
 from .frames import unit
@@ -66,7 +67,9 @@ class Patches:
         found: NDArray[np.int64] = areas.reshape(n_patches, n_labels).argmax(axis=1)
         return found
 
-    def opened(self, chosen: NDArray[np.bool_]) -> tuple[FaceGraph, NDArray[np.int64]]:
+    def opened(
+        self, chosen: NDArray[np.bool_]
+    ) -> Steps[tuple[FaceGraph, NDArray[np.int64]]]:
         """Return the graph in which the nodes of some patches count on their own.
 
         Parameters
@@ -82,11 +85,16 @@ class Patches:
             Place of each of the P nodes in that graph.
         """
         patches = np.flatnonzero(~chosen)
+        yield Progress("Seams", 0.0)
         free = chosen[self.of_nodes]
         nodes = np.flatnonzero(free)
+        yield Progress("Seams", 0.1)
         places = (np.cumsum(~chosen) - 1)[self.of_nodes]
         places[nodes] = len(patches) + np.arange(len(nodes))
-        beside = free[self.fine.neighbors].any(axis=1)
+        beside = np.empty(len(self.fine.neighbors), dtype=bool)
+        for rows in blocks(len(beside)):
+            yield Progress("Seams", 0.2 + 0.7 * rows.start / len(beside))
+            beside[rows] = free[self.fine.neighbors[rows]].any(axis=1)
         fine, coarse = self.fine, self.coarse.part(patches)
         graph = FaceGraph(
             np.concatenate([coarse.areas, fine.areas[nodes]]),
@@ -127,8 +135,8 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
         cells += np.round(column / np.sqrt(area)).astype(np.int64) * number
         yield Progress("Patches", 0.2)
     inside = cells[graph.neighbors[:, 0]] == cells[graph.neighbors[:, 1]]
+    yield Progress("Patches", 0.3)
     smooth = np.abs(graph.bends) <= _SHARP
-    yield Progress("Patches", 0.4)
     steps = components(graph.neighbors[inside & smooth], graph.n_polygons)
     patches = yield from within(steps, 0.4, 0.6)
     crossing = np.flatnonzero(
@@ -205,6 +213,7 @@ def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> Steps[FaceGraph]:
     crossing = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
     keys = np.sort(pairs[crossing], axis=1) @ (n_groups, 1)
     keys, edges = np.unique(keys, return_inverse=True)
+    yield Progress("Patches", 0.6)
     lengths = np.bincount(edges.reshape(-1), graph.lengths[crossing], len(keys))
     costs = np.bincount(edges.reshape(-1), graph.seam_costs[crossing], len(keys))
     shares = np.divide(costs, lengths, out=np.ones(len(keys)), where=lengths > 0)

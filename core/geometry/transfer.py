@@ -79,8 +79,10 @@ class NearestSamples:
             distances, rows = self._tree.query(at, range(1, self._n_nearest + 1))
             away.append(distances / self._spacing)
             nearest.append(rows.astype(np.int32))
+        yield Progress("Surface", 1.0)
         self._rows[numbers[new]] = len(self._away) + np.arange(len(new))
         self._away, self._nearest = np.concatenate(away), np.concatenate(nearest)
+        yield Progress("Surface", 1.0)
         kept = self._rows[numbers]
         return self._away[kept], self._nearest[kept]
 
@@ -124,7 +126,9 @@ def carry(
         block, rows = slice(start, start + _BLOCK), polygon_of[own] - start
         shares.append(_shares(away[block], nearest[block], own, rows, len(samples)))
     yield Progress("Surface", 1.0)
-    return Transfer(samples, polygon_of, graph, nearest, sparse.vstack(shares, "csr"))
+    all_shares = sparse.vstack(shares, "csr")
+    yield Progress("Surface", 1.0)
+    return Transfer(samples, polygon_of, graph, nearest, all_shares)
 
 
 def spacing_of(samples: Samples, graph: FaceGraph) -> float:
@@ -147,16 +151,9 @@ def _shares(
     n_polygons, n_nearest = nearest.shape
     says = (1.0 / (1.0 + distances / _SOFTENING)).ravel()
     rows = np.repeat(np.arange(n_polygons), n_nearest)
-    shares = sparse.csr_array(
-        (
-            np.concatenate([says, np.ones(len(own))]),
-            (
-                np.concatenate([rows, polygon_of]),
-                np.concatenate([nearest.ravel(), own]),
-            ),
-        ),
-        shape=(n_polygons, n_samples),
-    )
+    values = np.concatenate([says, np.ones(len(own))])
+    places = np.c_[[rows, nearest.ravel()], [polygon_of, own]]
+    shares = sparse.csr_array((values, tuple(places)), shape=(n_polygons, n_samples))
     totals = np.asarray(shares.sum(axis=1)).ravel()
     return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)
 

@@ -15,8 +15,8 @@ from ..steps.progress import Progress, Steps
 # longer: a quarter more for a million triangles in eleven trees, not six.
 _IN_A_TREE = 100_000
 # Most trees: rays ask all of them. With more triangles, there are more in each tree; of
-# ten million, a tree takes 0.3 s.
-_MOST_TREES = 20
+# ten million, a tree takes 0.2 s.
+_MOST_TREES = 32
 
 
 class RayCaster(Protocol):

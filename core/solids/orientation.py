@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.mesh import TriangleMesh, blocks
+from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
+from ..steps.rows import blocks
 from .shells import Shells
 
 # Greatest missing area of a solid open shell, as a share of its area. A cube without

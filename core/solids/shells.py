@@ -11,6 +11,7 @@ from ..geometry.connectivity import Edges, components, sort_edges
 from ..geometry.frames import unit
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
+from ..steps.rows import blocks
 
 # Shells are moved inwards by multiples of this depth, in diagonals.
 _LAYER = 1e-5
@@ -76,12 +77,20 @@ def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
     """
     yield Progress("Surface", 0.0)
     sides, first = edges
-    uses = np.diff(first, append=len(sides))
+    uses = np.empty_like(first)
+    uses[:-1], uses[-1] = first[1:], len(sides)
+    uses -= first
+    yield Progress("Surface", 0.02)
     pairs = first[uses == 2]
-    one, other = sides[pairs], sides[pairs + 1]
+    yield Progress("Surface", 0.04)
+    one, other = sides[pairs], sides[1:][pairs]
     yield Progress("Surface", 0.1)
     corners = mesh.welded_triangles
-    forward = (corners < corners[:, [1, 2, 0]]).ravel()
+    forward = np.empty(corners.size, dtype=bool)
+    for block in blocks(len(corners)):
+        some, along = corners[block], forward[3 * block.start : 3 * block.stop]
+        np.less(some, some[:, [1, 2, 0]], out=along.reshape(-1, 3))
+        yield Progress("Surface", 0.1 + 0.05 * block.start / len(corners))
     opposed = forward[one] != forward[other]
     yield Progress("Surface", 0.2)
     neighbors = np.empty((len(one), 2), dtype=one.dtype)

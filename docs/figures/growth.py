@@ -22,7 +22,7 @@ from pathlib import Path
 import bpy  # noqa: F401  # the ray caster needs Blender
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
-from weak_convex_decomposition import TriangleMesh
+from large_shapes import lumpy_ring
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.parameters.parts import Parameters
@@ -36,29 +36,6 @@ STAGES = ("Surface", "Ray tree", "Lines of sight")
 RIVALS = {"CoACD": "coacd-0.05", "V-HACD": "vhacd"}
 PATIENCE = 600
 HULL_TOOLS = Path(__file__).parents[2] / "tests/benchmarks/hulls/hull_tools.py"
-
-
-def lumpy_ring(n_triangles: int) -> TriangleMesh:
-    """Return a closed surface of quads with about so many triangles."""
-    n_across = int(np.sqrt(n_triangles / 8))
-    n_along = 4 * n_across
-    along, across = np.meshgrid(
-        2 * np.pi * np.arange(n_along) / n_along,
-        2 * np.pi * np.arange(n_across) / n_across,
-        indexing="ij",
-    )
-    radii = 0.4 + 0.15 * np.sin(5 * along) + 0.05 * np.sin(3 * across + along)
-    reach = 1 + radii * np.cos(across)
-    points = np.stack(
-        [reach * np.cos(along), reach * np.sin(along), radii * np.sin(across)], axis=-1
-    )
-    a = np.arange(n_along * n_across).reshape(n_along, n_across)
-    b, d = np.roll(a, -1, axis=0), np.roll(a, -1, axis=1)
-    quads = np.stack([a, b, np.roll(b, -1, axis=1), d], axis=-1).reshape(-1, 4)
-    triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-    return TriangleMesh(
-        points.reshape(-1, 3), triangles, np.repeat(np.arange(len(quads)), 2)
-    )
 
 
 def measure(n_triangles: int) -> None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...clusters.moves import MoveGains
 from ...steps.memo import Memo, digest
-from ...steps.progress import Steps, within
+from ...steps.progress import Progress, Steps, within
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .graph_cut import SWEEPS, cut_seams
@@ -104,6 +104,7 @@ class SeamCutter:
             )
         labels = partitioner.transfer.to_samples(parts)
         costs = partitioner.transfer.shares @ self._data_costs(labels, n_parts)
+        yield Progress("Seams", 0.0)
         for share in _SOFTER:
             weight = share * self._smoothness
             steps = cut_seams(partitioner.graph, parts, costs, weight, self._sweeps)

@@ -86,7 +86,7 @@ def _cut(
     for _ in range(_RINGS):
         beside = chosen[coarse.neighbors].any(axis=1)
         chosen[coarse.neighbors[beside]] = True
-    graph, places = patches.opened(chosen)
+    graph, places = yield from within(patches.opened(chosen), 0.0, 0.1)
     yield Progress("Seams", 0.1)
     nodes = places[memo.visibility.nodes]
     opened = np.flatnonzero(chosen[patches.of_nodes])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import bmesh
@@ -10,7 +10,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.steps.progress import Progress, Steps
+from ....core.steps.progress import Progress, Steps, run, within
+from ....core.steps.rows import blocks
 from .known import (
     SLOW,
     Known,
@@ -51,12 +52,10 @@ class ByLabel:
         """Return what labels 0…K − 1 of the faces have on an object now."""
         sums, mesh = sums_by_label(obj, labels, n_labels), obj.data
         if getattr(mesh, "polygons", None):
-            members = _vertices(
-                corner_vertices(mesh), labels[corner_faces(mesh)], n_labels
-            )
+            vertices, faces = corner_vertices(mesh), corner_faces(mesh)
         else:
-            members = _vertices(np.arange(len(labels)), labels, n_labels)
-        return cls([each.tolist() for each in members], sums)
+            vertices = faces = np.arange(len(labels))
+        return cls(run(_vertices(vertices, faces, labels, n_labels)), sums)
 
     @classmethod
     def in_steps(
@@ -85,13 +84,11 @@ class ByLabel:
             if latest_of(find().data) is not known:
                 return None
             known.read(find().data, name)
-        yield Progress("Writing", 0.5)
-        sums = _sums(labels, n_labels, known.asked["areas"], known.asked["centers"])
-        yield Progress("Writing", 0.7)
-        of_corners = labels[known.asked["corner_faces"]]
-        members = list(_vertices(known.corners, of_corners, n_labels))
-        yield Progress("Writing", 0.9)
-        return cls([each.tolist() for each in members], sums, known)
+        places = known.asked["areas"], known.asked["centers"]
+        sums = yield from within(_sums(labels, n_labels, *places), 0.5, 0.7)
+        faces = known.asked["corner_faces"]
+        finding = _vertices(known.corners, faces, labels, n_labels)
+        return cls((yield from within(finding, 0.7, 1.0)), sums, known)
 
     def is_of(self, obj: bpy.types.Object) -> bool:
         """Return whether an object surely has the faces that were read."""
@@ -121,13 +118,14 @@ def sums_by_label(
     """
     if is_cloud(obj):
         places = positions_of(obj)
-        return _sums(labels, n_labels, np.ones(len(places)), places)
+        return run(_sums(labels, n_labels, np.ones(len(places)), places))
     if obj.data.is_editmode:
         faces = bmesh.from_edit_mesh(obj.data).faces
         areas = np.array([face.calc_area() for face in faces])
         centers = np.array([face.calc_center_median() for face in faces])
-        return _sums(labels, n_labels, areas, centers)
-    return _sums(labels, n_labels, face_areas(obj.data), face_centers(obj.data))
+        return run(_sums(labels, n_labels, areas, centers))
+    areas, centers = face_areas(obj.data), face_centers(obj.data)
+    return run(_sums(labels, n_labels, areas, centers))
 
 
 def _sums(
@@ -135,35 +133,45 @@ def _sums(
     n_labels: int,
     areas: NDArray[np.floating],
     centers: NDArray[np.floating],
-) -> NDArray[np.float64]:
+) -> Steps[NDArray[np.float64]]:
     """Return what `sums_by_label` does, of faces with these areas and centers."""
+    yield Progress("Writing", 0.0)
     areas = areas.astype(np.float64)
     counts = np.bincount(labels, minlength=n_labels)
     totals = np.bincount(labels, areas, n_labels)
-    weights = np.maximum(totals, np.finfo(float).tiny)
-    middles = [np.bincount(labels, areas * x, n_labels) / weights for x in centers.T]
+    weights, middles = np.maximum(totals, np.finfo(float).tiny), []
+    for axis, column in enumerate(centers.T):
+        yield Progress("Writing", 0.25 * (axis + 1))
+        middles.append(np.bincount(labels, areas * column, n_labels) / weights)
     return np.stack([counts, totals, *middles], axis=1)
 
 
 def _vertices(
-    vertices: NDArray[np.integer], labels: NDArray[np.integer], n_labels: int
-) -> Iterator[NDArray[np.intp]]:
-    """Yield the vertices that have each label 0…K − 1.
+    vertices: NDArray[np.integer],
+    faces: NDArray[np.integer],
+    labels: NDArray[np.integer],
+    n_labels: int,
+) -> Steps[list[list[int]]]:
+    """Return the vertices of the faces that have each label 0…K − 1.
 
     Parameters
     ----------
-    vertices, labels : (C,) int
-        They may come several times, with several labels.
+    vertices, faces : (C,) int
+        Vertex and face of each corner.
+    labels : (P,) int
     n_labels : int
     """
     n_vertices = int(vertices.max(initial=-1)) + 1
     at_once = max(_ROOM // max(n_vertices, 1), 1)
+    found: list[list[int]] = []
     for first in range(0, n_labels, at_once):
         members = np.zeros((min(at_once, n_labels - first), n_vertices), dtype=bool)
-        if len(members) < n_labels:
-            here = (labels >= first) & (labels < first + len(members))
-            members[labels[here] - first, vertices[here]] = True
-        else:
-            members[labels, vertices] = True
+        for rows in blocks(len(vertices)):
+            yield Progress("Writing", first / n_labels)
+            of_corners = labels[faces[rows]]
+            here = (of_corners >= first) & (of_corners < first + len(members))
+            members[of_corners[here] - first, vertices[rows][here]] = True
         for of_label in members:
-            yield np.flatnonzero(of_label)
+            yield Progress("Writing", first / n_labels)
+            found.append(np.flatnonzero(of_label).tolist())
+    return found

@@ -3,19 +3,25 @@
     make bench-window BLENDER=blender
 
 A subject for tests/window/drive.py: the tab is opened, the libraries load, and the
-button's operator runs on Suzanne and on finer ones. The longest freeze is the longest
-time between two of Blender's rounds, drawing the result included; the longest step is
-the longest time of the processor in the extension's own code. "own" is all time in it;
-the rest is Blender's, which draws the window. A script's seconds are those of the same
-operator without slices, right after, in the same process. The first ratio is of all
-seconds to them, the second of our own. The word `at-once` after the subject starts
-the first run before any library is loaded.
+button's operator runs on Suzanne and on finer ones. Seconds count until Blender has
+drawn the result. The longest freeze is the longest time between two of its rounds; the
+longest step is the longest time of the processor in the extension's own code. "own" is
+all time in it; the rest is Blender's, which draws the window. A script's seconds are
+those of the same operator without slices, right after, in the same process; "drawn"
+are those until its result is drawn, too. The first ratio is of all seconds to these,
+the second of our own to the script's.
+
+Words after the subject: `at-once` starts the first run before any library is loaded;
+`ten-million` runs on a ring of ten million triangles, which is drawn as its bounds.
 """
 
+import resource
 import sys
 import time
 
 import bpy
+import numpy as np
+from large_shapes import lumpy_ring
 from weak_convex_decomposition.operators.bridge.work import libraries, session_cache
 from weak_convex_decomposition.operators.running import modal as running
 from weak_convex_decomposition.operators.running.computation import Computation
@@ -56,11 +62,14 @@ class Pulse:
 
     def restart(self):
         self.freeze = self.step = self.own = 0.0
-        self._last = time.perf_counter()
+        self._began = self._last = time.perf_counter()
+        self.seconds = None  # until a run has ended, and its result is drawn
 
     def _beat(self):
         now = time.perf_counter()
         self.freeze, self._last = max(self.freeze, now - self._last), now
+        if self.seconds is None and running.current is None:
+            self.seconds = now - self._began
         return _BEAT
 
     def _time(self, function, *arguments):
@@ -72,11 +81,11 @@ class Pulse:
             self.own += time.perf_counter() - began
 
 
-def row(name, seconds, own, pulse, script=None):
-    """Print a row of the table."""
+def row(name, seconds, pulse, own, script=None):
+    """Print a row of the table; `script` has a script's seconds, and until drawn."""
     figures = [seconds, own, pulse.freeze, pulse.step]
-    figures += [] if script is None else [script, seconds / script, own / script]
-    print(f"{name:22}{''.join(f'{figure:9.2f}' for figure in figures)}")
+    figures += [] if script is None else [*script, seconds / script[1], own / script[0]]
+    print(f"{name:22}{''.join(f'{figure:9.2f}' for figure in figures)}", flush=True)
 
 
 def a_run(hands, pulse, name, with_script=True):
@@ -84,21 +93,24 @@ def a_run(hands, pulse, name, with_script=True):
     session_cache.forget()
     yield 1.0
     pulse.restart()
-    before = time.perf_counter()
     with hands.context():
         bpy.ops.wcd.decompose("INVOKE_DEFAULT", True)
-    yield lambda: running.current is None
-    seconds, own = time.perf_counter() - before, pulse.own
-    yield 1.0  # the result is drawn
+    yield lambda: pulse.seconds
+    seconds, own = pulse.seconds, pulse.own
+    yield 1.0
     script = None
     if with_script:
         session_cache.forget()
         with hands.context():
             bpy.ops.wcd.clear()
+        yield 1.0
+        with hands.context():
             before = time.perf_counter()
             bpy.ops.wcd.decompose()
-            script = time.perf_counter() - before
-    row(name, seconds, own, pulse, script)
+            written = time.perf_counter() - before
+        yield 0.001  # Blender draws the result
+        script = written, time.perf_counter() - before
+    row(name, seconds, pulse, own, script)
     yield 0.5
 
 
@@ -113,12 +125,39 @@ def model(hands, subdivisions, cut):
     return obj
 
 
+def ring(hands):
+    """Put a ring of ten million triangles there, drawn as its bounds."""
+    found = lumpy_ring(10_000_000)
+    corners = found.triangles.reshape(-1, 6)[:, [0, 1, 2, 5]]  # of quads
+    mesh = bpy.data.meshes.new("Ring")
+    mesh.vertices.add(len(found.vertices))
+    mesh.vertices.foreach_set("co", found.vertices.astype(np.float32).ravel())
+    mesh.loops.add(corners.size)
+    mesh.loops.foreach_set("vertex_index", corners.astype(np.int32).ravel())
+    mesh.polygons.add(len(corners))
+    starts = np.arange(0, corners.size, 4, dtype=np.int32)
+    mesh.polygons.foreach_set("loop_start", starts)
+    mesh.update(calc_edges=True)
+    for other in list(bpy.data.objects):
+        bpy.data.objects.remove(other)
+    obj = bpy.data.objects.new("Ring", mesh)
+    obj.display_type = "BOUNDS"
+    with hands.context():
+        bpy.context.collection.objects.link(obj)
+        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
+        bpy.ops.ed.undo_push(message="Ring")
+
+
 def steps(hands):
     pulse = Pulse()
     # Blender would draw the view again and again after each change, to smooth edges.
     bpy.context.preferences.system.viewport_aa = "OFF"
     print(f"Blender {bpy.app.version_string}")
-    titles = ("seconds", "own", "freeze", "step", "script", "ratio", "own")
+    titles = (
+        *("seconds", "own", "freeze", "step"),
+        *("script", "drawn", "ratio", "own"),
+    )
     print(f"{'':22}{''.join(f'{title:>9}' for title in titles)}")
     model(hands, 2, False)
     yield 2.0
@@ -128,10 +167,17 @@ def steps(hands):
     if "at-once" not in sys.argv:
         yield lambda: not any(libraries._missing())
         yield 0.5
-        row("libraries, idle", time.perf_counter() - before, pulse.own, pulse)
+        row("libraries, idle", time.perf_counter() - before, pulse, pulse.own)
         yield from a_run(hands, pulse, "first run", with_script=False)
     else:
         yield from a_run(hands, pulse, "first run, at once", with_script=False)
+        return
+    if "ten-million" in sys.argv:
+        ring(hands)
+        yield 2.0
+        yield from a_run(hands, pulse, "10M triangles", with_script=False)
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+        print(f"peak memory of the process, Blender and all: {peak:.1f} GB")
         return
     for name, subdivisions, cut in MODELS:
         model(hands, subdivisions, cut)

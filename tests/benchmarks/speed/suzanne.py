@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import bpy
 import checkout  # noqa: F401  # makes the package importable
-import many_shells
+import large_shapes
 import numpy as np
 import shapes
 import weak_convex_decomposition as package
@@ -54,12 +54,12 @@ RECUTS = (
 N_RAYS = 100_000
 MANY_SHELLS = {
     "one sphere": lambda: shapes.sphere(4),
-    "70 boxes and pipes": many_shells.building,
-    "2000 loose boxes": many_shells.loose_pieces,
-    "20 nested spheres": many_shells.nested_spheres,
-    "10 equal spheres": lambda: many_shells.copies(shapes.sphere(3), 10),
-    "doubled faces": lambda: many_shells.with_doubled_faces(shapes.sphere(4)),
-    "thin slabs": many_shells.slabs,
+    "70 boxes and pipes": large_shapes.building,
+    "2000 loose boxes": large_shapes.loose_pieces,
+    "20 nested spheres": large_shapes.nested_spheres,
+    "10 equal spheres": lambda: large_shapes.copies(shapes.sphere(3), 10),
+    "doubled faces": lambda: large_shapes.with_doubled_faces(shapes.sphere(4)),
+    "thin slabs": large_shapes.slabs,
 }
 Steps = dict[str, list[float]]
 

@@ -99,10 +99,10 @@ def test_nodes_without_area_are_contracted():
 def test_opened_patches_are_their_nodes():
     patches = patches_of_dumbbell()
     nothing = np.zeros(len(patches.coarse.areas), dtype=bool)
-    graph, places = patches.opened(nothing)
+    graph, places = run(patches.opened(nothing))
     assert (places == patches.of_nodes).all()
     assert graph.lengths.sum() == pytest.approx(patches.coarse.lengths.sum())
-    graph, places = patches.opened(~nothing)
+    graph, places = run(patches.opened(~nothing))
     assert sorted(places) == list(range(patches.fine.n_polygons))
     assert graph.areas[places] == pytest.approx(patches.fine.areas)
     assert len(graph.neighbors) == len(patches.fine.neighbors)

@@ -2,7 +2,7 @@
 
 from functools import cache, partial
 
-import many_shells
+import large_shapes
 import numpy as np
 import pytest
 import shapes
@@ -16,7 +16,7 @@ N_SAMPLES = 300
 
 
 def building():
-    return many_shells.building(8, 1, 8)
+    return large_shapes.building(8, 1, 8)
 
 
 def sight(mesh, **values):
@@ -120,11 +120,11 @@ def test_few_rays_between_all_pairs_leave_pairs_unknown():
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: many_shells.building(40, 1, 8),
-        lambda: many_shells.nested_spheres(20, 0),
-        lambda: many_shells.copies(shapes.sphere(0), 30),
-        lambda: many_shells.slabs(8),
-        lambda: many_shells.loose_pieces(60),
+        lambda: large_shapes.building(40, 1, 8),
+        lambda: large_shapes.nested_spheres(20, 0),
+        lambda: large_shapes.copies(shapes.sphere(0), 30),
+        lambda: large_shapes.slabs(8),
+        lambda: large_shapes.loose_pieces(60),
     ],
     ids=["building", "nested", "copies", "slabs", "loose"],
 )
@@ -136,7 +136,7 @@ def test_many_shells_cost_a_bounded_number_of_rays(make):
 
 
 def test_pairs_of_far_pieces_are_answered_too():
-    pieces = partial(many_shells.loose_pieces, 9)
+    pieces = partial(large_shapes.loose_pieces, 9)
     assert wrong(pieces, rays=2) < 0.1  # most blocks have no pair that was cast
     assert wrong(pieces) < 0.01
 

@@ -45,4 +45,4 @@ def test_there_are_no_more_trees_than_rays_can_ask(monkeypatch):
     monkeypatch.setattr(ray_caster, "_IN_A_TREE", 1)
     made = []
     run(caster_in_steps(shapes.sphere(2), noting(made)))
-    assert made == [16] * 20
+    assert made == [10] * 32

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-import many_shells
+import large_shapes
 import numpy as np
 import pytest
 import shapes
@@ -22,7 +22,9 @@ def test_a_mesh_without_doubles_stays_itself():
     assert rows.tolist() == list(range(len(BOX.triangles)))
 
 
-@pytest.mark.parametrize("double", [many_shells.copies, many_shells.with_doubled_faces])
+@pytest.mark.parametrize(
+    "double", [large_shapes.copies, large_shapes.with_doubled_faces]
+)
 def test_one_of_all_equal_triangles_is_left(double):
     single, rows = without_doubles(double(BOX))
     assert single.triangles.tolist() == BOX.triangles.tolist()
@@ -37,7 +39,7 @@ def test_triangles_may_begin_at_any_corner_but_not_turn_over():
 
 
 def test_doubles_turn_with_the_triangle_that_is_left():
-    mesh = many_shells.copies(BOX)
+    mesh = large_shapes.copies(BOX)
     single, rows = without_doubles(mesh)
     turned = replace(single, triangles=single.triangles[:, ::-1])
     both = with_doubles(mesh, turned, rows)
@@ -45,7 +47,9 @@ def test_doubles_turn_with_the_triangle_that_is_left():
     assert both.polygons.tolist() == mesh.polygons.tolist()
 
 
-@pytest.mark.parametrize("double", [many_shells.copies, many_shells.with_doubled_faces])
+@pytest.mark.parametrize(
+    "double", [large_shapes.copies, large_shapes.with_doubled_faces]
+)
 def test_doubled_faces_have_the_parts_of_single_ones(double):
     mesh = shapes.dumbbell()
     parameters = Parameters(samples=150)
@@ -56,7 +60,7 @@ def test_doubled_faces_have_the_parts_of_single_ones(double):
 
 
 def test_doubled_faces_hide_nothing():
-    shape = prepare(many_shells.copies(shapes.sphere(1), 3))
+    shape = prepare(large_shapes.copies(shapes.sphere(1), 3))
     assert len(shape.targets.triangles) == 80
     assert shape.n_nodes == 240
     assert shape.marcher.closed.all()

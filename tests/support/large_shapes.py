@@ -1,7 +1,8 @@
-"""Shapes of many shells, through which rays have long ways."""
+"""Shapes that take long: of many shells, or of as many faces as are asked for."""
 
 import numpy as np
 import shapes
+from weak_convex_decomposition import TriangleMesh
 
 
 def building(n_shells=72, divisions=3, around=24, seed=0):
@@ -61,3 +62,26 @@ def slabs(n_slabs=20, thickness=1e-4):
             low[axis], high[axis] = height, height + thickness
             pieces.append(shapes.box(low, high))
     return shapes.joined(*pieces)
+
+
+def lumpy_ring(n_triangles: int) -> TriangleMesh:
+    """Return a lumpy ring of quads with about so many triangles."""
+    n_across = int(np.sqrt(n_triangles / 8))
+    n_along = 4 * n_across
+    along, across = np.meshgrid(
+        2 * np.pi * np.arange(n_along) / n_along,
+        2 * np.pi * np.arange(n_across) / n_across,
+        indexing="ij",
+    )
+    radii = 0.4 + 0.15 * np.sin(5 * along) + 0.05 * np.sin(3 * across + along)
+    reach = 1 + radii * np.cos(across)
+    points = np.stack(
+        [reach * np.cos(along), reach * np.sin(along), radii * np.sin(across)], axis=-1
+    )
+    a = np.arange(n_along * n_across).reshape(n_along, n_across)
+    b, d = np.roll(a, -1, axis=0), np.roll(a, -1, axis=1)
+    quads = np.stack([a, b, np.roll(b, -1, axis=1), d], axis=-1).reshape(-1, 4)
+    triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return TriangleMesh(
+        points.reshape(-1, 3), triangles, np.repeat(np.arange(len(quads)), 2)
+    )
