@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .PHONY: help demo test test-window docs figures pictures lint zip bench bench-coacd bench-hulls bench-hull-errors bench-physics bench-outlines bench-ablation \
-  bench-clouds bench-cuts bench-objects bench-speed bench-window contact-sheet clean psb stress venv development
+  bench-clouds bench-cuts bench-objects bench-shells bench-speed bench-window contact-sheet clean psb stress venv development
 
 # BPY=4.2 | 5.0 | 5.2 chooses the bpy module, PYTHON=path the interpreter.
 BPY ?=
@@ -123,6 +123,9 @@ bench-cuts: development ## Cut the faces of random meshes, and check what must s
 
 bench-speed: venv ## Measure seconds and memory on Suzanne
 	@PYTHONPATH=tests/support $(PYTHON_HERE) tests/benchmarks/speed/suzanne.py
+
+bench-shells: psb venv ## Measure shapes of many shells beside the benchmark's median model: PSB=directory
+	@PYTHONPATH=tests/support:tests/benchmarks $(PYTHON_HERE) tests/benchmarks/speed/many_shells.py "$(PSB)"
 
 bench-window: ## Measure seconds and freezes in a window: BLENDER=command that starts it
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }

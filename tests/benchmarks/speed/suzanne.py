@@ -6,8 +6,8 @@ Medians of several runs with default settings, after imports; 2 subdivisions are
 15,744 triangles that docs/quality.md speaks of, 4 make 251,904. A window
 waits for one step at a time: those of all runs are told by stage. The ratio compares
 the processor time of a run with that of 100,000 rays of BVHTree between points inside
-the same mesh. Re-cuts follow, each right after a run with default settings, and
-shapes of many shells, all in seconds of the processor.
+the same mesh. Re-cuts follow, each right after a run with default settings, all in
+seconds of the processor.
 """
 
 import argparse
@@ -20,19 +20,14 @@ from dataclasses import replace
 
 import bpy
 import checkout  # noqa: F401  # makes the package importable
-import large_shapes
 import numpy as np
-import shapes
 import weak_convex_decomposition as package
 from hand_made import subdivided_suzanne
 from mathutils.bvhtree import BVHTree
-from weak_convex_decomposition.core.cache import ShapeCache
-from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
-from weak_convex_decomposition.operators.bridge.rays.bvh import BvhRayCaster
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
 from weak_convex_decomposition.operators.bridge.work.locking import decompose_unlocked
@@ -52,15 +47,6 @@ RECUTS = (
     {"smallest_part": 0.01},
 )
 N_RAYS = 100_000
-MANY_SHELLS = {
-    "one sphere": lambda: shapes.sphere(4),
-    "70 boxes and pipes": large_shapes.building,
-    "2000 loose boxes": large_shapes.loose_pieces,
-    "20 nested spheres": large_shapes.nested_spheres,
-    "10 equal spheres": lambda: large_shapes.copies(shapes.sphere(3), 10),
-    "doubled faces": lambda: large_shapes.with_doubled_faces(shapes.sphere(4)),
-    "thin slabs": large_shapes.slabs,
-}
 Steps = dict[str, list[float]]
 
 
@@ -137,27 +123,6 @@ def print_ratio(obj: bpy.types.Object, n_runs: int) -> None:
     )
 
 
-def print_many_shells() -> None:
-    """Print what shapes of many shells take, and how many rays are cast."""
-    n_rays = 0
-
-    class Counting(BvhRayCaster):
-        def first_hit(self, origins, directions, reach):
-            nonlocal n_rays
-            n_rays += len(origins)
-            return super().first_hit(origins, directions, reach)
-
-    print(
-        f"\n{'many shells':20}{'seconds':>9}{'triangles':>12}{'rays':>10}{'parts':>7}"
-    )
-    for name, make in MANY_SHELLS.items():
-        mesh, n_rays, before = make(), 0, time.process_time()
-        found = run(decompose_in_steps(mesh, PARAMETERS, ShapeCache(Counting)))
-        seconds = time.process_time() - before
-        n_triangles = len(mesh.triangles)
-        print(f"{name:20}{seconds:9.2f}{n_triangles:12,}{n_rays:10,}{found.n_parts:7}")
-
-
 def recut_seconds(
     obj: bpy.types.Object, change: dict[str, float], rough: bool
 ) -> float:
@@ -203,7 +168,6 @@ def main() -> int:
     print_steps(runs)
     print_ratio(obj, arguments.runs)
     print_recuts(obj, arguments.runs)
-    print_many_shells()
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(f"\npeak memory of the process, Blender and all: {peak:.0f} MB")
     return 0
