@@ -9,7 +9,7 @@ longest step is the longest time of the processor in the extension's own code. "
 all time in it; the rest is Blender's, which draws the window. A script's seconds are
 those of the same operator without slices, right after, in the same process; "drawn"
 are those until its result is drawn, too. The first ratio is of all seconds to these,
-the second of our own to the script's.
+the second of our own to the script's. Rows with ratios are medians of three runs.
 
 Words after the subject: `at-once` starts the first run before any library is loaded;
 `ten-million` runs on a ring of ten million triangles, which is drawn as its bounds.
@@ -33,6 +33,7 @@ MODELS = (
     ("504k faces", 5, False),
     ("1.0M faces", 5, True),
 )
+ROUNDS = 3
 _BEAT = 0.005
 
 
@@ -41,6 +42,8 @@ class Pulse:
 
     def __init__(self):
         bpy.app.timers.register(self._beat, persistent=True)
+        add = bpy.types.SpaceView3D.draw_handler_add
+        add(self._draw, (), "WINDOW", "POST_PIXEL")
         self.watch(Computation, "invoke", "modal")
         libraries._load_next = self.timed(libraries._load_next)
         self.restart()
@@ -64,13 +67,21 @@ class Pulse:
         self.freeze = self.step = self.own = 0.0
         self._began = self._last = time.perf_counter()
         self.seconds = None  # until a run has ended, and its result is drawn
+        self._drawn = False
+
+    def figures(self, seconds):
+        """Return the first columns of a row."""
+        return [seconds, self.own, self.freeze, self.step]
 
     def _beat(self):
         now = time.perf_counter()
         self.freeze, self._last = max(self.freeze, now - self._last), now
-        if self.seconds is None and running.current is None:
+        if self.seconds is None and self._drawn:
             self.seconds = now - self._began
         return _BEAT
+
+    def _draw(self):
+        self._drawn = running.current is None
 
     def _time(self, function, *arguments):
         before, began = time.thread_time(), time.perf_counter()
@@ -81,37 +92,51 @@ class Pulse:
             self.own += time.perf_counter() - began
 
 
-def row(name, seconds, pulse, own, script=None):
-    """Print a row of the table; `script` has a script's seconds, and until drawn."""
-    figures = [seconds, own, pulse.freeze, pulse.step]
-    figures += [] if script is None else [*script, seconds / script[1], own / script[0]]
+def row(name, figures):
+    """Print a row of the table."""
     print(f"{name:22}{''.join(f'{figure:9.2f}' for figure in figures)}", flush=True)
 
 
-def a_run(hands, pulse, name, with_script=True):
-    """Press the button, as it were, and wait; then run as a script does."""
+def bare(hands):
+    """Take the parts off the object, and forget what is known of it."""
     session_cache.forget()
+    with hands.context():
+        if bpy.ops.wcd.clear.poll():
+            bpy.ops.wcd.clear()
     yield 1.0
+
+
+def in_slices(hands, pulse):
+    """Press the button, as it were; return the first columns of a row."""
+    yield from bare(hands)
     pulse.restart()
     with hands.context():
         bpy.ops.wcd.decompose("INVOKE_DEFAULT", True)
     yield lambda: pulse.seconds
-    seconds, own = pulse.seconds, pulse.own
-    yield 1.0
-    script = None
-    if with_script:
-        session_cache.forget()
-        with hands.context():
-            bpy.ops.wcd.clear()
-        yield 1.0
-        with hands.context():
-            before = time.perf_counter()
-            bpy.ops.wcd.decompose()
-            written = time.perf_counter() - before
-        yield 0.001  # Blender draws the result
-        script = written, time.perf_counter() - before
-    row(name, seconds, pulse, own, script)
-    yield 0.5
+    return pulse.figures(pulse.seconds)
+
+
+def at_once(hands, pulse):
+    """Run as a script does; return the seconds, and those until the result is drawn."""
+    yield from bare(hands)
+    pulse.restart()
+    with hands.context():
+        before = time.perf_counter()
+        bpy.ops.wcd.decompose()
+        written = time.perf_counter() - before
+    yield lambda: pulse.seconds
+    return [written, pulse.seconds]
+
+
+def beside_script(hands, pulse, name):
+    """Print a row of medians."""
+    rows = []
+    for _ in range(ROUNDS):
+        figures = yield from in_slices(hands, pulse)
+        written, drawn = yield from at_once(hands, pulse)
+        ratios = figures[0] / drawn, figures[1] / written
+        rows.append([*figures, written, drawn, *ratios])
+    row(name, np.median(rows, axis=0))
 
 
 def model(hands, subdivisions, cut):
@@ -167,19 +192,19 @@ def steps(hands):
     if "at-once" not in sys.argv:
         yield lambda: not any(libraries._missing())
         yield 0.5
-        row("libraries, idle", time.perf_counter() - before, pulse, pulse.own)
-        yield from a_run(hands, pulse, "first run", with_script=False)
+        row("libraries, idle", pulse.figures(time.perf_counter() - before))
+        row("first run", (yield from in_slices(hands, pulse)))
     else:
-        yield from a_run(hands, pulse, "first run, at once", with_script=False)
+        row("first run, at once", (yield from in_slices(hands, pulse)))
         return
     if "ten-million" in sys.argv:
         ring(hands)
         yield 2.0
-        yield from a_run(hands, pulse, "10M triangles", with_script=False)
+        row("10M triangles", (yield from in_slices(hands, pulse)))
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
         print(f"peak memory of the process, Blender and all: {peak:.1f} GB")
         return
     for name, subdivisions, cut in MODELS:
         model(hands, subdivisions, cut)
         yield 2.0
-        yield from a_run(hands, pulse, name)
+        yield from beside_script(hands, pulse, name)
