@@ -77,6 +77,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
             members = _members(obj)
             hide_faces(obj, ~members if self.hide else np.zeros_like(members))
         elif self.hide:
+            present_parts(obj)  # or an error
             isolate(obj, sorted(chosen_numbers(obj)))
         else:
             end_isolation(obj)

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 import bpy
 
+from .bridge.parts.present_parts import present_parts
 from .bridge.parts.separating import replace, separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .bridge.views.colors import CHOICES, show_colors_as
@@ -78,6 +79,7 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         bring_in_step(obj)
+        present_parts(obj)  # or an error
         explode(obj, self.distance)
 
 

@@ -95,11 +95,13 @@ def chosen_objects(
     """Return the selected objects, or those in Edit Mode, that `refusal` lets pass.
 
     The active object comes first. If no object passes, it is the only one, so that the
-    user is told why.
+    user is told why. In other modes it is, too: no other object is in them.
     """
     active = context.active_object
     if active and active.mode == "EDIT":
         there = context.objects_in_mode
+    elif active and active.mode != "OBJECT":
+        there = [active]
     else:
         there = context.selected_objects
     fit = [obj for obj in there if refusal(obj) is None]

@@ -51,6 +51,17 @@ def test_an_active_object_that_is_not_selected_is_left_alone():
     assert decomposed(second)
 
 
+def test_no_other_object_is_decomposed_in_place_of_one_in_sculpt_mode():
+    first, second = add(0), add(5)
+    select(first, second)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert second.select_get()
+    with pytest.raises(RuntimeError, match="Object or Edit Mode"):
+        bpy.ops.wcd.decompose(**FAST)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not decomposed(second)
+
+
 def test_the_active_object_is_done_where_nothing_is_selected():
     cube = add()
     cube.select_set(False)

@@ -79,3 +79,11 @@ def test_edit_mode_cannot_take_the_modifier_back(suzanne, labels):
     assert isolating(suzanne)
     with pytest.raises(RuntimeError, match="switch to Object Mode first"):
         bpy.ops.wcd.clear()
+
+
+@pytest.mark.parametrize("name", ["isolate_parts", "explode"])
+def test_faces_without_their_parts_are_told(suzanne, labels, name):
+    suzanne.data.attributes.remove(suzanne.data.attributes["wcd_part"])
+    with pytest.raises(RuntimeError, match="lost its attribute wcd_part; press Dec"):
+        getattr(bpy.ops.wcd, name)()
+    assert not suzanne.modifiers
