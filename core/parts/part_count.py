@@ -152,10 +152,10 @@ class PartCountSearch:
 
     def alone(self, n_parts: int) -> Steps[Candidate]:
         """Return the candidate for a number of parts, found without the others."""
-        found = yield from within(self._candidate(n_parts), 0.0, 0.8)
-        one = {count_parts(found.parts): found}
-        (found,) = (yield from within(self._evened(one), 0.8, 1.0)).values()
-        return found
+        # Half of the work; the memo keeps it.
+        yield from within(self.partitioner.plain_in_steps(n_parts), 0.0, 0.5)
+        yield Progress("Number of parts", 0.5)
+        return self.partitioner.candidate(n_parts)
 
     def rated(self, tried: dict[int, Candidate]) -> tuple[dict[int, float], int]:
         """Return psi by lines of sight of each candidate, and the best number of parts.
@@ -195,7 +195,7 @@ class PartCountSearch:
         """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
         tried = {1: self.partitioner.candidate(1)}
         for turn, n_parts in enumerate(range(low, high + 1)):
-            steps = within_turn(self._candidate(n_parts), turn, high + 1 - low)
+            steps = within_turn(self.alone(n_parts), turn, high + 1 - low)
             candidate = yield from within(steps, 0.0, 0.8)
             tried.setdefault(count_parts(candidate.parts), candidate)
             if count_parts(candidate.parts) < n_parts:
@@ -211,16 +211,9 @@ class PartCountSearch:
         self, tried: dict[int, Candidate], n_parts: int
     ) -> Steps[dict[int, Candidate]]:
         """Add the candidate for `n_parts`, which is above the highest number tried."""
-        candidate = yield from within(self._candidate(n_parts), 0.0, 0.8)
+        candidate = yield from within(self.alone(n_parts), 0.0, 0.8)
         more = {count_parts(candidate.parts): candidate} | tried
         return (yield from within(self._evened(more), 0.8, 1.0))
-
-    def _candidate(self, n_parts: int) -> Steps[Candidate]:
-        """Return the partitioner's candidate."""
-        # Half of the work; the memo keeps it.
-        yield from within(self.partitioner.plain_in_steps(n_parts), 0.0, 0.5)
-        yield Progress("Number of parts", 0.5)
-        return self.partitioner.candidate(n_parts)
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:
         """Replace candidates by symmetric ones whose psi is not clearly lower."""
