@@ -152,7 +152,7 @@ def _shares(
     says = (1.0 / (1.0 + distances / _SOFTENING)).ravel()
     rows = np.repeat(np.arange(n_polygons), n_nearest)
     values = np.concatenate([says, np.ones(len(own))])
-    places = np.c_[[rows, nearest.ravel()], [polygon_of, own]]
+    places = np.concatenate([[rows, nearest.ravel()], [polygon_of, own]], axis=1)
     shares = sparse.csr_array((values, tuple(places)), shape=(n_polygons, n_samples))
     totals = np.asarray(shares.sum(axis=1)).ravel()
     return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)

@@ -77,7 +77,7 @@ def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
     """
     yield Progress("Surface", 0.0)
     sides, first = edges
-    uses = np.empty_like(first)
+    uses = np.empty_like(first)  # np.diff would copy the places
     uses[:-1], uses[-1] = first[1:], len(sides)
     uses -= first
     yield Progress("Surface", 0.02)
