@@ -50,7 +50,8 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
     """
     fit, pieces, joints = cell.fit, list[Piece](), Joints()
     most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
-    far, tried, share = [cell], {cell}, 0.0
+    # The whole is not tried yet: it may seem close, and its bound say otherwise.
+    far, tried, share = [cell], set[Cell](), 0.0
     while far:
         room, rest = most_cells - len(pieces), 1 - share
         cutting, joining = share + 0.7 * rest, share + 0.8 * rest

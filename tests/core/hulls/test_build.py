@@ -33,6 +33,14 @@ def test_a_convex_shape_is_one_hull(make):
     assert found.notes == ()
 
 
+@pytest.mark.parametrize("max_vertices", [64, 32])
+def test_a_convex_shape_of_more_vertices_than_a_hull_may_have_is_cut(max_vertices):
+    found = hulls_of(shapes.uv_sphere(8, 12), max_vertices=max_vertices)
+    assert 2 <= found.n_hulls <= 8
+    assert found.errors.max() <= 0.05
+    assert found.notes == ()
+
+
 @pytest.mark.parametrize(
     "make", [shapes.l_shape, shapes.u_shape, shapes.plus, shapes.table, shapes.dumbbell]
 )
