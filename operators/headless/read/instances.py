@@ -6,7 +6,7 @@ between them. Linked data becomes local first; the library itself is only read.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -79,11 +79,18 @@ def realize_instances(with_modifiers: bool) -> dict[str, str]:
     for instancer, own in instancers.items():
         if own.mesh:
             notes[instancer.name_full] = give_mesh(instancer, own.mesh)
-        _stop(instancer, own.is_shown)
+        _stop(instancer)
+    _update_places()  # of the new objects, and of children of what is left out
+    _leave_out([obj for obj, own in instancers.items() if _shows_nothing(obj, own)])
+    _update_places()
+    return notes
+
+
+def _update_places() -> None:
+    """Compute where all objects are."""
     for scene in bpy.data.scenes:
         for layer in scene.view_layers:
-            layer.update()  # computes where the new objects are
-    return notes
+            layer.update()
 
 
 @dataclass(frozen=True)
@@ -167,19 +174,43 @@ def _kinds(obj: bpy.types.Object) -> set[str]:
     return {modifier.type for modifier in obj.modifiers if modifier.show_viewport}
 
 
-def _stop(instancer: bpy.types.Object, is_shown: bool) -> None:
-    """Let an object make no more instances; leave it out if they are all it shows.
-
-    Points are where instances go, and not a point cloud.
-    """
+def _stop(instancer: bpy.types.Object) -> None:
+    """Let an object make no more instances."""
     instancer.instance_type = "NONE"
     instancer.instance_collection = None
     is_mesh = instancer.type == "MESH"
     _remove(instancer, {"PARTICLE_SYSTEM"} if is_mesh else {"NODES"})
-    only_points = is_mesh and not instancer.data.polygons
-    if only_points or instancer.type == "POINTCLOUD" or not is_shown:
-        for collection in instancer.users_collection:
-            collection.objects.unlink(instancer)
+
+
+def _shows_nothing(instancer: bpy.types.Object, own: _Own) -> bool:
+    """Return whether instances were all that an object showed.
+
+    Points are where instances go, and not a point cloud.
+    """
+    only_points = instancer.type == "MESH" and not instancer.data.polygons
+    return only_points or instancer.type == "POINTCLOUD" or not own.is_shown
+
+
+def _leave_out(instancers: Sequence[bpy.types.Object]) -> None:
+    """Unlink objects; their children stay where they are, below an empty each.
+
+    Without a parent, children with shear could not keep it.
+    """
+    parents = {each.parent for each in bpy.data.objects}
+    empties = {}
+    for obj in [each for each in instancers if each in parents]:
+        empties[obj] = bpy.data.objects.new(obj.name, None)
+        empties[obj].matrix_basis = obj.matrix_world
+    for child in [each for each in bpy.data.objects if each.parent in empties]:
+        empty, basis = empties[child.parent], child.matrix_basis.inverted_safe()
+        inverse = empty.matrix_basis.inverted_safe() @ child.matrix_world @ basis
+        child.parent, child.parent_type = empty, "OBJECT"
+        child.matrix_parent_inverse = inverse
+    for obj in instancers:
+        for collection in obj.users_collection:
+            collection.objects.unlink(obj)
+            if obj in empties:
+                collection.objects.link(empties[obj])
 
 
 def _remove(obj: bpy.types.Object, kinds: Iterable[str]) -> None:

@@ -125,6 +125,23 @@ def test_vertex_and_face_instancing(tmp_path, kind):
     assert set(found) == {"Rock", *(name for name in found if "Ground Rock" in name)}
 
 
+@pytest.mark.parametrize("ending", ["blend", "glb"])
+def test_children_of_an_instancer_that_is_left_out_stay_in_place(tmp_path, ending):
+    spots = add("Spots", mesh_of([(0, 0, 0), (6, 0, 0)], []), (0, 0, 10))
+    spots.instance_type, spots.scale = "VERTS", (2, 1, 1)
+    add("Rock", rock()).parent = spots
+    turned = add("Turned", rock(), (0, 9, 0))
+    turned.parent, turned.rotation_euler.z = spots, 0.5  # which shears it
+    path = saved(tmp_path / "a.blend")
+    before = {
+        name: boxes([bpy.data.objects[name]])[name] for name in ("Rock", "Turned")
+    }
+    output = tmp_path / f"b.{ending}"
+    assert main([str(path), "--output", str(output), *QUICK]) == 0
+    after = boxes(load(output))
+    assert {name: after[name] for name in before} == before
+
+
 def test_geometry_nodes_that_scatter_cubes(tmp_path):
     spots = mesh_of([(0, 0, 0), (9, 0, 0), (0, 9, 0)], [(0, 1, 2)], "Spots")
     scatter(add("Bare", spots))
