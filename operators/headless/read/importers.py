@@ -62,9 +62,30 @@ def _gltf(path: Path, _up: str) -> set[str]:
 def _fbx(path: Path, _up: str) -> set[str]:
     """Import .fbx."""
     if "fbx_import" in dir(bpy.ops.wm):  # newer Blenders; it reads text FBX, too
-        return set(bpy.ops.wm.fbx_import(filepath=str(path)))
+        result = set(bpy.ops.wm.fbx_import(filepath=str(path)))
+        _count_users()
+        return result
     _enable("io_scene_fbx")
     return set(bpy.ops.import_scene.fbx(filepath=str(path)))
+
+
+def _count_users() -> None:
+    """Count the objects that share a mesh; Blender's importer of .fbx counts one.
+
+    Blender would remove a mesh, and with it all of these objects, once one of them
+    gets another. Assigning data counts, and a count does not fall below 0.
+    """
+    sharing: dict[bpy.types.Mesh, list[bpy.types.Object]] = {}
+    for obj in bpy.data.objects:
+        if obj.type == "MESH":
+            sharing.setdefault(obj.data, []).append(obj)
+    for mesh, objects in sharing.items():
+        if mesh.users < len(objects):
+            stand_in = mesh.copy()
+            for data in (stand_in, mesh):
+                for obj in objects:
+                    obj.data = data
+            bpy.data.meshes.remove(stand_in)
 
 
 def _usd(path: Path, _up: str) -> set[str]:

@@ -110,6 +110,19 @@ def test_shear_between_instancer_and_instance_is_kept(tmp_path):
     assert np.allclose(obj.matrix_world, expected, atol=1e-5)
 
 
+def test_linked_copies_in_fbx_are_counted_and_get_their_modifiers_applied(tmp_path):
+    mesh = rock()
+    for number in range(3):
+        add("Rock", mesh, (3 * number, 0, 0))
+    obj = bpy.data.objects["Rock"]
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Long").data[3].co.z = 4
+    path = tmp_path / "a.fbx"
+    bpy.ops.export_scene.fbx(filepath=str(path))
+    assert {each.data.users for each in load(path)} == {3}
+    assert len(run(path, "--apply-modifiers")[1]) == 3
+
+
 @pytest.mark.parametrize("kind", ["VERTS", "FACES"])
 def test_vertex_and_face_instancing(tmp_path, kind):
     triangle = mesh_of([(0, 0, 0), (6, 0, 0), (0, 6, 0)], [(0, 1, 2)], "Triangle")
