@@ -41,6 +41,11 @@ def ply_copies() -> Iterator[None]:
         _copy_of_cloud(obj) if is_cloud(obj) else _copy_of_mesh(obj)
         for obj in mesh_objects()
     ]
+    # Blender writes what is in memory by chance for those without, beside others.
+    if any(copy.data.uv_layers for copy in copies):
+        for copy in copies:
+            if not copy.data.uv_layers:
+                copy.data.uv_layers.new(do_init=False)
     collection = bpy.context.scene.collection
     for obj in bpy.context.view_layer.objects:
         obj.select_set(False)

@@ -14,6 +14,7 @@ import bpy
 import pytest
 from checkout import PACKAGE, ROOT
 from headless.command import content
+from weak_convex_decomposition.operators.headless.write.ply_copies import ply_copies
 
 OUTPUTS = ("a.glb", "b.obj", "c.ply", "j.fbx", "k.usd")
 HULLS = ("d.glb", "e.obj", "f.stl", "g.usd", "h.urdf", "i.xml")
@@ -81,3 +82,14 @@ def test_all_files_are_the_same(two_runs):
         assert without_times(one[name]) == without_times(two[name]), name
     others = one.keys() - reports
     assert sorted(name for name in others if one[name] != two[name]) == []
+
+
+def test_all_copies_for_ply_have_a_uv_map_if_one_has():
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.mesh.primitive_torus_add()
+    bpy.ops.mesh.primitive_cube_add()
+    layers = bpy.context.object.data.uv_layers
+    layers.remove(layers[0])
+    with ply_copies():
+        copies = bpy.context.selected_objects
+        assert [len(copy.data.uv_layers) for copy in copies] == [1, 1]
