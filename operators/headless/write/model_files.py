@@ -123,11 +123,12 @@ def _visible_meshes() -> list[bpy.types.Object]:
 
 def _ply(path: Path, up: str) -> None:
     """Export .ply with colors on the vertices."""
-    with ply_copies():
+    with ply_copies() as with_uv:
         bpy.ops.wm.ply_export(
             filepath=str(path),
             apply_modifiers=False,
             export_selected_objects=True,
+            export_uv=with_uv,
             export_colors="SRGB",
             **axes(up),
         )

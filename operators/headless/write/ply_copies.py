@@ -35,14 +35,19 @@ _NUMBER = "part"
 
 
 @contextmanager
-def ply_copies() -> Iterator[None]:
-    """Make copies of all mesh objects and select them alone; remove them at the end."""
+def ply_copies() -> Iterator[bool]:
+    """Make copies of all mesh objects and select them alone; remove them at the end.
+
+    Yields whether UV maps can be written: Blender writes what is in memory by chance
+    for vertices of no face.
+    """
     copies = [
         _copy_of_cloud(obj) if is_cloud(obj) else _copy_of_mesh(obj)
         for obj in mesh_objects()
     ]
-    # Blender writes what is in memory by chance for those without, beside others.
-    if any(copy.data.uv_layers for copy in copies):
+    with_uv = not any(_has_loose_vertices(copy.data) for copy in copies)
+    # It does so for whole objects, too, beside others that have a UV map.
+    if with_uv and any(copy.data.uv_layers for copy in copies):
         for copy in copies:
             if not copy.data.uv_layers:
                 copy.data.uv_layers.new(do_init=False)
@@ -53,10 +58,17 @@ def ply_copies() -> Iterator[None]:
         collection.objects.link(copy)
         copy.select_set(True)
     try:
-        yield
+        yield with_uv
     finally:
         for copy in copies:
             bpy.data.meshes.remove(copy.data)  # removes the object as well
+
+
+def _has_loose_vertices(mesh: bpy.types.Mesh) -> bool:
+    """Return whether any vertex belongs to no face."""
+    return bool(
+        (np.bincount(corner_vertices(mesh), minlength=len(mesh.vertices)) == 0).any()
+    )
 
 
 def _copy_of_cloud(obj: bpy.types.Object) -> bpy.types.Object:

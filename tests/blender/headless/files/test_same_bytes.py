@@ -93,3 +93,16 @@ def test_all_copies_for_ply_have_a_uv_map_if_one_has():
     with ply_copies():
         copies = bpy.context.selected_objects
         assert [len(copy.data.uv_layers) for copy in copies] == [1, 1]
+
+
+def test_ply_has_no_uv_maps_beside_loose_vertices():
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.mesh.primitive_torus_add()
+    with ply_copies() as with_uv:
+        assert with_uv
+    mesh = bpy.data.meshes.new("Wire")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    bpy.context.collection.objects.link(bpy.data.objects.new("Wire", mesh))
+    bpy.context.view_layer.update()
+    with ply_copies() as with_uv:
+        assert not with_uv
