@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import signal
 import sys
 
 import pytest
@@ -9,6 +10,10 @@ from checkout import PACKAGE, ROOT  # noqa: F401  # tests take them from here
 
 # Before NumPy is loaded: threads wait for each other where other programs are busy.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# Shells let what they start in the background ignore Ctrl-C, and all that it starts.
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 EXIT_STATUS = pytest.StashKey[int]()
 
