@@ -117,14 +117,14 @@ def sums_by_label(
     (K, 5) float
     """
     if is_cloud(obj):
-        places = positions_of(obj)
-        return run(_sums(labels, n_labels, np.ones(len(places)), places))
-    if obj.data.is_editmode:
+        centers = positions_of(obj)
+        areas: NDArray[np.floating] = np.ones(len(centers))
+    elif obj.data.is_editmode:
         faces = bmesh.from_edit_mesh(obj.data).faces
         areas = np.array([face.calc_area() for face in faces])
         centers = np.array([face.calc_center_median() for face in faces])
-        return run(_sums(labels, n_labels, areas, centers))
-    areas, centers = face_areas(obj.data), face_centers(obj.data)
+    else:
+        areas, centers = face_areas(obj.data), face_centers(obj.data)
     return run(_sums(labels, n_labels, areas, centers))
 
 

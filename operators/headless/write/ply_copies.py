@@ -38,19 +38,20 @@ _NUMBER = "part"
 def ply_copies() -> Iterator[bool]:
     """Make copies of all mesh objects and select them alone; remove them at the end.
 
-    Yields whether UV maps can be written: Blender writes what is in memory by chance
+    Yields whether UV maps are to be written: Blender writes what is in memory by chance
     for vertices of no face.
     """
     copies = [
         _copy_of_cloud(obj) if is_cloud(obj) else _copy_of_mesh(obj)
         for obj in mesh_objects()
     ]
-    with_uv = not any(_has_loose_vertices(copy.data) for copy in copies)
-    # It does so for whole objects, too, beside others that have a UV map.
-    if with_uv and any(copy.data.uv_layers for copy in copies):
-        for copy in copies:
-            if not copy.data.uv_layers:
-                copy.data.uv_layers.new(do_init=False)
+    without = [copy for copy in copies if not copy.data.uv_layers]
+    with_uv = len(without) < len(copies) and not any(
+        _has_loose_vertices(copy.data) for copy in copies
+    )
+    # It does so for whole objects without a UV map, too.
+    for copy in without if with_uv else ():
+        copy.data.uv_layers.new(do_init=False)
     collection = bpy.context.scene.collection
     for obj in bpy.context.view_layer.objects:
         obj.select_set(False)
