@@ -59,10 +59,10 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
         done, or if nothing can be printed any more, 2 if the arguments are wrong or
         SciPy is missing, 130 after Ctrl-C.
     """
-    open_closed_streams()
+    can_print = open_closed_streams()
     try:
         with interruptible() as interrupts:
-            return _run(arguments, program, interrupts)
+            return _run(arguments, program, interrupts, can_print)
     except StreamError as error:
         stop_printing(error)
         return _FAILED
@@ -72,7 +72,9 @@ def main(arguments: list[str], program: str = f"blender --command {_COMMAND}") -
         return _INTERRUPTED
 
 
-def _run(arguments: list[str], program: str, interrupts: Interrupts) -> int:
+def _run(
+    arguments: list[str], program: str, interrupts: Interrupts, can_print: bool
+) -> int:
     """Run the command line; return the exit status."""
     try:
         request = parse(arguments, program)
@@ -80,6 +82,10 @@ def _run(arguments: list[str], program: str, interrupts: Interrupts) -> int:
         write(sys.stdout, "")  # flush the help
         return int(stop.code or 0)
     report_is_printed = request.report == STANDARD_STREAM
+    if report_is_printed and not can_print:
+        raise StreamError(
+            "--report is -, but standard output is closed; name a file for the report."
+        )
     out = sys.stderr if report_is_printed else sys.stdout
     screen = Screen(out, sys.stderr, request.quiet)
     results: list[InputResult] = []

@@ -135,12 +135,20 @@ def write(stream: TextIO, text: str) -> None:
         ) from error
 
 
-def open_closed_streams() -> None:
-    """Discard what goes to a standard stream that is closed from the start."""
+def open_closed_streams() -> bool:
+    """Discard what goes to a standard stream that is closed from the start.
+
+    Returns
+    -------
+    bool
+        Whether standard output was open.
+    """
+    open_before = sys.stdout is not None
     for descriptor, name in ((1, "stdout"), (2, "stderr")):
         if getattr(sys, name) is None:
             _discard(descriptor)
             setattr(sys, name, os.fdopen(descriptor, "w", encoding="utf-8"))
+    return open_before
 
 
 def stop_printing(error: StreamError) -> None:

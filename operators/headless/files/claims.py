@@ -39,9 +39,10 @@ def check_companion(path: Path, companion: Path) -> None:
     Raises
     ------
     DecompositionError
-        If something of the user's would be lost.
+        If something of the user's would be lost, or `path` cannot name its companion.
     """
     if path.suffix.lower() in SIMULATOR_ENDINGS:
+        _check_name(path)
         owned_names(path)
         return
     if not companion.exists():
@@ -52,6 +53,23 @@ def check_companion(path: Path, companion: Path) -> None:
             f"{companion} does not belong to {path.name}, whose materials would replace"
             " it; rename one of them."
         )
+
+
+def _check_name(path: Path) -> None:
+    """Check that a file can name the folder of its meshes, which is called like it.
+
+    Raises
+    ------
+    DecompositionError
+        If the name is no Unicode; XML holds nothing else.
+    """
+    try:
+        path.name.encode()
+    except UnicodeEncodeError as error:
+        raise DecompositionError(
+            f"{path} has a name that is no Unicode, which {path.suffix} files cannot"
+            " hold; rename it."
+        ) from error
 
 
 def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:

@@ -81,8 +81,10 @@ def realize_instances(with_modifiers: bool) -> dict[str, str]:
             notes[instancer.name_full] = give_mesh(instancer, own.mesh)
         _stop(instancer)
     _update_places()  # of the new objects, and of children of what is left out
-    _leave_out([obj for obj, own in instancers.items() if _shows_nothing(obj, own)])
-    _update_places()
+    left_out = [obj for obj, own in instancers.items() if _shows_nothing(obj, own)]
+    if left_out:
+        _leave_out(left_out)
+        _update_places()
     return notes
 
 

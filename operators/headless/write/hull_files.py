@@ -7,7 +7,6 @@ from pathlib import Path
 
 import bpy
 
-from ....core.errors import DecompositionError
 from ....core.parameters.bodies import BodyParameters
 from ..atomic import explaining, replacing
 from ..files.output_folders import replacing_with_folder
@@ -57,29 +56,11 @@ def save_hulls(
     bpy.context.view_layer.update()
     with explaining(path, "written"):
         if ending in SIMULATOR_ENDINGS:
-            _check_name(path)
             with replacing_with_folder(path) as (unfinished, folder):
                 return _save_bodies(unfinished, folder, hulls, parameters)
         with replacing(path) as unfinished:
             _EXPORTERS[ending](unfinished, hulls, up)
     return ()
-
-
-def _check_name(path: Path) -> None:
-    """Check that a file can name the folder of its meshes, which is called like it.
-
-    Raises
-    ------
-    DecompositionError
-        If the name is no Unicode; XML holds nothing else.
-    """
-    try:
-        path.name.encode()
-    except UnicodeEncodeError as error:
-        raise DecompositionError(
-            f"{path} has a name that is no Unicode, which {path.suffix} files cannot"
-            " hold; rename it."
-        ) from error
 
 
 def _save_bodies(

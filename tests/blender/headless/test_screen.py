@@ -60,6 +60,10 @@ def test_follow_shows_progress_and_returns_the_value():
 def test_output_that_goes_nowhere_ends_the_run_without_a_traceback(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     full = "error: What the command prints cannot be written (No space left on device)."
+    closed = (
+        "error: --report is -, but standard output is closed; name a file for the"
+        " report."
+    )
     read, broken = os.pipe()
     os.close(read)
     # Set by bpy in this process, and what could keep the text of --version unbuffered.
@@ -69,6 +73,7 @@ def test_output_that_goes_nowhere_ends_the_run_without_a_traceback(tmp_path):
         ("--version", "", 1, ""),
         ("a.obj --samples 20", ">/dev/full", 1, full),
         ("a.obj --samples 20", ">&-", 0, ""),
+        ("a.obj --samples 20 --report -", ">&-", 1, closed),
         ("a.obj --samples 20", "2>&- >/dev/full", 1, ""),
     ]
     for arguments, redirection, status, message in cases:

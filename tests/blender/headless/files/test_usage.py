@@ -114,6 +114,16 @@ def test_places_where_nothing_can_be_written(tmp_path, model, capfd):
     assert content(tmp_path) == before
 
 
+@pytest.mark.parametrize("ending", ["urdf", "xml"])
+def test_a_name_that_xml_cannot_hold_is_refused_beforehand(
+    tmp_path, model, ending, capfd
+):
+    before = content(tmp_path)
+    assert run(model, "--hulls", tmp_path / f"a\udcff.{ending}") == 2
+    assert "has a name that is no Unicode" in capfd.readouterr().err
+    assert content(tmp_path) == before
+
+
 class as_somebody:
     """Run a block without the rights of root, who may write anywhere."""
 

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 import trimesh
 from hand_made import add_ring, build_hulls, decompose_by_hand
-from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.operators.headless.write.hull_files import save_hulls
 from weak_convex_decomposition.operators.headless.write.model_files import save
@@ -78,14 +77,6 @@ def test_hulls_have_names_of_their_own(tmp_path):
     hulls = build_hulls(rings, max_hulls=1, naming="UNREAL")
     save_hulls(tmp_path / "a.obj", hulls, "Z", BodyParameters())
     assert vertices_in(tmp_path / "a.obj")[1] == ["UCX_A_b_01_2", "UCX_A_b_01"]
-
-
-@pytest.mark.parametrize("ending", ["urdf", "xml"])
-def test_simulator_files_refuse_a_name_that_xml_cannot_hold(tmp_path, ending):
-    hulls = build_hulls([add_ring("A")], max_hulls=1)
-    with pytest.raises(DecompositionError, match="no Unicode"):
-        save_hulls(tmp_path / f"a\udcff.{ending}", hulls, "Z", BodyParameters())
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(
