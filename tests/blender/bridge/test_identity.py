@@ -4,9 +4,10 @@ import bpy
 import numpy as np
 import pytest
 from edited import FAST, check_in_step, labels_of, parts_of, record_of
-from hand_made import activate, areas, in_mode
+from hand_made import activate, areas, in_mode, mesh_object
 from mathutils import Matrix
 from scipy.optimize import linear_sum_assignment
+from shapes import chair, comb, mug
 from weak_convex_decomposition.operators.bridge.parts.read import part_identities
 from weak_convex_decomposition.ui.sidebar import hulls_of
 
@@ -62,6 +63,27 @@ def test_the_chart_keeps_names_and_colors_on_most_of_the_area(suzanne, mode, cou
     assert len(set(now.values())) == len(now)
     assert [row.chosen for row in suzanne.wcd_parts if row.name == "Named 0"] == [True]
     check_in_step(suzanne)
+
+
+@pytest.mark.parametrize("make", [None, chair, comb, mug])
+def test_no_more_area_changes_color_than_must_from_3_to_12_parts(suzanne, make):
+    obj = suzanne
+    if make is not None:
+        shape = make()
+        obj = mesh_object("Shape", shape.vertices, shape.triangles.tolist())
+        activate(obj)
+    former = None
+    for n_parts in range(3, 13):
+        bpy.ops.wcd.decompose(samples=200, parts=n_parts)
+        colors = {name: str(color) for name, color in colors_by_name(obj).items()}
+        assert len(set(colors.values())) == len(colors) == n_parts
+        now = np.array([colors[name] for name in faces_by_name(obj)])
+        if former is not None:
+            changed = areas(obj.data)[former != now].sum()
+            least = least_changed(obj, former, now)
+            assert changed <= least + 0.02 * areas(obj.data).sum()
+        former = now
+    check_in_step(obj)
 
 
 def test_live_keeps_identity(suzanne):
