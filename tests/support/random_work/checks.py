@@ -54,6 +54,7 @@ def attempt(operator, **options):
     except RuntimeError as error:
         said = str(error)
     assert "Traceback" not in said, said
+    _mark_separated()
 
 
 def check_body(obj):
@@ -78,12 +79,18 @@ def check_body(obj):
         check_in_step(obj)
 
 
+def _mark_separated():
+    """Mark the objects that parts became; copies keep the mark in other files, too."""
+    for obj in bodies():
+        if any(" parts" in each.name for each in obj.users_collection):
+            obj["separated"] = True
+
+
 def check_cleared(obj):
     """Check that nothing of ours is left on an object."""
     assert not [a.name for a in obj.data.attributes if "wcd" in a.name]
     # Where parts were separated, their materials are the user's.
-    separated = any(" parts" in each.name for each in obj.users_collection)
-    assert separated or not any(map(is_ours, obj.data.materials))
+    assert "separated" in obj or not any(map(is_ours, obj.data.materials))
     assert "wcd" not in obj
     assert not obj.vertex_groups
     assert not any(edge.use_seam for edge in obj.data.edges)
