@@ -44,16 +44,17 @@ _current: tuple[Wanted, Job[object]] | None = None
 def start(found: Edited) -> None:
     """Find parts of the latest shape for other numbers than that of a run, from now on.
 
-    First come looks at those for all usual numbers, from the nearest, then the parts
-    themselves for near ones. Other numbers are looked for in the same way only if all
-    faces are free.
+    First come looks at those for all usual numbers, then the parts themselves for near
+    ones. Of the looks, that for the highest number comes first: its eigenvectors, which
+    take longest, serve all high numbers. Then come near ones. Other numbers are looked
+    for in the same way only if all faces are free.
     """
     if found.by_hand is not None or found.faces is not None:
         return
     n_parts = found.decomposition.n_parts
     near = _with_numbers(found.parameters, [n_parts + step for step in _NEAR])
     usual = _with_numbers(found.parameters, range(2, _USUAL + 1))
-    looks = [(each, True) for each in dict.fromkeys((*near, *usual))]
+    looks = [(each, True) for each in dict.fromkeys((*usual[-1:], *near, *usual))]
     _wanted[:] = [*looks, *((each, False) for each in near)]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
