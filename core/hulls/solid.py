@@ -31,10 +31,10 @@ class Solid:
 
     Attributes
     ----------
-    corners : (T, 3, 3) float
-        Corners of the triangles.
+    mesh : TriangleMesh
+        Oriented: normals point outwards.
     vertices : (V, 3) float
-        Distinct corners.
+        Distinct corners of its triangles.
     samples : (N, 3) float
         Points spread evenly over the surface.
     triangles : (N,) int
@@ -49,7 +49,7 @@ class Solid:
         Whether all shells are closed, so that any line tells what is inside.
     """
 
-    corners: NDArray[np.float64]
+    mesh: TriangleMesh
     vertices: NDArray[np.float64]
     samples: NDArray[np.float64]
     triangles: NDArray[np.int64]
@@ -62,6 +62,11 @@ class Solid:
     def volume(self) -> float:
         """Volume of the solid."""
         return float(self.volumes.sum())
+
+    @cached_property
+    def corners(self) -> NDArray[np.float64]:
+        """Corners of the triangles, (T, 3, 3)."""
+        return self.mesh.vertices[self.mesh.triangles]
 
     @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -151,7 +156,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     if volumes.sum() < _NO_VOLUME:
         chords, volumes = chords[:0], volumes[:0]
     return Solid(
-        corners,
+        mesh,
         np.unique(corners.reshape(-1, 3), axis=0),
         samples.positions,
         samples.triangles,

@@ -105,38 +105,36 @@ class ErrorBound:
         Errors below `enough` are not told apart, nor are those above `limit`. Others
         are less by a share of `tolerance` at most.
         """
-        solid, shape = self._solid, self._shape
-        bound = uncovered(shape, self._hull)
-        targets = surface_within(solid, shape)
-        self._inner = self._inner or PatchSearch(targets)
-        least = max(enough, bound)
-        ends = least, limit, tolerance
+        shape, bound = self._shape, self._uncovered
+        self._inner = self._inner or PatchSearch(self._within)
+        ends = max(enough, bound), limit, tolerance
         depth = self._inner.largest(lambda c, _: _depths(shape, c), *ends)
         bound = max(bound, depth)
         if bound <= limit:
-            surface = targets if len(targets) else solid.corners
             ends = max(enough, bound), limit, tolerance
-            bound = max(bound, self._farthest(surface, *ends))
+            bound = max(bound, self._farthest(*ends))
         if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
             bound = max(bound, self._of_volume)
         return bound
+
+    @cached_property
+    def _uncovered(self) -> float:
+        """The largest distance from the shape of a point of the hull."""
+        return uncovered(self._shape, self._hull)
+
+    @cached_property
+    def _within(self) -> NDArray[np.float64]:
+        """What of the solid's surface is within the shape, (N, 3, 3)."""
+        return surface_within(self._solid, self._shape)
 
     @cached_property
     def _of_volume(self) -> float:
         """The error R_v of what of the shape is outside the solid."""
         return volume_error(self._solid.inside.volume_outside(self._shape))
 
-    def _farthest(
-        self,
-        surface: NDArray[np.float64],
-        enough: float,
-        limit: float,
-        tolerance: float,
-    ) -> float:
-        """Return a bound of the distance of points on the shape from a surface.
-
-        The surface is triangles (T, 3, 3).
-        """
+    def _farthest(self, enough: float, limit: float, tolerance: float) -> float:
+        """Return a bound of the distance of points on the shape from the surface."""
+        surface = self._within if len(self._within) else self._solid.corners
         small, origins = fragments_of(surface, _GRAIN)
         targets = surface[origins]
         # Building a balanced tree takes twice as long, and questions are few.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...geometry.frames import heights_above
 from ...geometry.primitives import CollisionShape, Hull
 from .fragments import distances_to
 
@@ -33,9 +34,9 @@ def uncovered(shape: CollisionShape, hull: Hull) -> float:
     step = max(_MOST_PAIRS // len(corners), 1)
     for start in range(0, len(points), step):
         some = points[start : start + step]
-        away = distances_to(
-            np.repeat(some, len(corners), axis=0), np.tile(corners, (len(some), 1, 1))
-        )
-        nearest = away.reshape(len(some), -1).min(axis=1)
-        farthest = max(farthest, float(nearest.max()))
+        # The nearest point of a convex shape is on a face that is seen from outside.
+        rows, faces = np.nonzero(heights_above(shape.hull.planes, some) > 0)
+        nearest = np.full(len(some), np.inf)
+        np.minimum.at(nearest, rows, distances_to(some[rows], corners[faces]))
+        farthest = max(farthest, float(nearest[np.isfinite(nearest)].max(initial=0.0)))
     return farthest
