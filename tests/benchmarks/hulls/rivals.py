@@ -76,7 +76,8 @@ def compared(path, results, python):
 
 def line(name, tool, figures):
     values = [
-        f"{figures[c]:9.3f}" if c != "hulls" else f"{figures[c]:9.1f}" for c in COLUMNS
+        f"{figures[c]:10.3f}" if c != "hulls" else f"{figures[c]:10.1f}"
+        for c in COLUMNS
     ]
     return f"{name:16}{tool:12}" + "".join(values)
 
@@ -85,7 +86,7 @@ def main(folder, results, python):
     results = Path(results)
     results.mkdir(parents=True, exist_ok=True)
     rows = {rival: [] for rival in RIVALS}
-    print(f"{'mesh':16}{'tool':12}" + "".join(f"{c:>9}" for c in COLUMNS))
+    print(f"{'mesh':16}{'tool':12}" + "".join(f"{c:>10}" for c in COLUMNS))
     for path in mesh_files(folder):
         for rival, theirs, ours in compared(path, results, python):
             rows[rival].append((theirs, ours))
