@@ -46,7 +46,7 @@ def register() -> None:
 
     from . import scene_settings
     from .bridge.parts import rows
-    from .bridge.work import in_step, session_cache
+    from .bridge.work import session_cache
     from .headless import command_line
     from .running import ahead, refine
     from .viewport import picking, show_sight, shown_parts
@@ -58,7 +58,6 @@ def register() -> None:
     session_cache.register()
     ahead.register()
     refine.register()
-    in_step.register()
     show_sight.register()
     shown_parts.register()
     picking.register()
@@ -71,7 +70,7 @@ def unregister() -> None:
 
     from . import recut, scene_settings
     from .bridge.parts import rows
-    from .bridge.work import in_step, libraries, session_cache
+    from .bridge.work import libraries, session_cache
     from .headless import command_line
     from .running import ahead, modal, refine
     from .viewport import picking, show_sight, shown_parts
@@ -83,7 +82,6 @@ def unregister() -> None:
     picking.unregister()
     shown_parts.unregister()
     show_sight.unregister()
-    in_step.unregister()
     refine.unregister()
     ahead.unregister()
     session_cache.unregister()

@@ -9,6 +9,7 @@ import bpy
 from ..core.steps.progress import Steps
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls
+from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
 from .bridge.parts.images import erase_images
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
@@ -18,7 +19,6 @@ from .bridge.stored.names import CARRIER_TAG
 from .bridge.views.colors import show_colors_as
 from .bridge.views.node_modifiers import remove_views
 from .bridge.work.computing import summary
-from .bridge.work.in_step import let_undo_see_all
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead

@@ -15,8 +15,8 @@ from ..core.steps.progress import Steps, run
 from .bridge.read.evaluated import SeenMesh, read_as, which_mesh
 from .bridge.read.target import Target
 from .bridge.refusals import recut_refusal
+from .bridge.stored.noted_parts import n_faces_of
 from .bridge.stored.record import noted_mesh, noted_parameters, record_of
-from .bridge.stored.versions import n_faces_of
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine

@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 
 from ..core.results.psi import good_numbers
-from ..operators.bridge.stored.versions import psi_by_k_of
+from ..operators.bridge.stored.noted_parts import psi_by_k_of
 from .panels import WCD_PT_parts, paragraph
 from .sidebar import Sidebar, result_of
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ...core.results.psi import good_numbers
+from ..bridge.stored.noted_parts import MEASURED_ON, psi_by_k_of
 from ..bridge.stored.notes import version
-from ..bridge.stored.versions import MEASURED_ON, PAST, psi_by_k_of
 from .atomic import explaining, replacing
 from .request.options import Request
 from .request.outputs import STANDARD_STREAM
@@ -111,8 +111,8 @@ def _object_entry(result: ObjectResult) -> dict[str, Any]:
 
 
 def _shown_record(record: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a record with good numbers of parts, without what undo and reruns need."""
-    shown = {key: value for key, value in record.items() if key != PAST}
+    """Return a record with good numbers of parts, without what reruns need."""
+    shown = dict(record)
     if "parts" in shown:
         shown["good_k"] = good_numbers(psi_by_k_of(shown), shown["best_k"])
         shown["parts"] = [

@@ -21,6 +21,16 @@ def flush_edits(obj: bpy.types.Object) -> None:
         obj.update_from_editmode()
 
 
+def let_undo_see_all(obj: bpy.types.Object) -> None:
+    """Let the undo step of an operator that changes an object in Edit Mode hold it all.
+
+    Such steps hold faces and their layers, and the whole file only if a data-block came
+    or went. Groups, slots and notes come back with the file alone.
+    """
+    if obj.mode == "EDIT":
+        bpy.data.materials.remove(bpy.data.materials.new("undo"))
+
+
 class ObjectModeLayers:
     """The layers of an object in Object Mode."""
 

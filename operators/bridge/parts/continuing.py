@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import bpy
 import numpy as np
@@ -16,9 +15,7 @@ from ..mesh import known
 from ..mesh.by_label import ByLabel
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
-from ..stored.record import record_of
 from ..stored.restore import sharers
-from ..stored.versions import identities_of, past_with
 from .identities import Newcomers, identities_of_run
 from .kept_materials import kept_materials
 from .materials import part_slots
@@ -34,13 +31,6 @@ class BeforeWriting:
     ----------
     found : FoundParts or None
         The parts on its faces, None if there are none.
-    noted : tuple of Identity
-        All parts in its record.
-    in_edit_mode : bool
-        Whether undo will bring back faces, but not groups, slots and the record. Then
-        these keep room for all parts that were ever there.
-    past : list of dict
-        Versions of the record that undo may bring back.
     rows : mapping of str to rows
         The rows of all objects that share the mesh, by name.
     materials : mapping of int to bpy.types.Material
@@ -48,17 +38,13 @@ class BeforeWriting:
     """
 
     found: FoundParts | None
-    noted: tuple[Identity, ...]
-    in_edit_mode: bool
-    past: list[dict[str, Any]]
     rows: Mapping[str, dict[int, Row]]
     materials: Mapping[int, bpy.types.Material | None]
 
     @classmethod
     def of(cls, obj: bpy.types.Object) -> BeforeWriting:
         """Return what an object has of parts."""
-        record, found = record_of(obj), find_parts_on(obj)
-        in_edit_mode = obj.mode == "EDIT" and "parts" in record
+        found = find_parts_on(obj)
         materials: dict[int, bpy.types.Material | None] = {}
         if not is_cloud(obj):
             slots = part_slots(obj.data)
@@ -68,14 +54,8 @@ class BeforeWriting:
                 numbers = [each.number for each in found.identities]
                 own = part_materials(obj, found)
                 materials |= dict(zip(numbers, own, strict=True))
-        return cls(
-            found,
-            identities_of(record),
-            in_edit_mode,
-            past_with(record) if in_edit_mode else [],
-            {each.name: kept_rows(each) for each in sharers(obj)},
-            materials,
-        )
+        rows = {each.name: kept_rows(each) for each in sharers(obj)}
+        return cls(found, rows, materials)
 
     def continued_by(
         self,
@@ -99,14 +79,7 @@ class BeforeWriting:
             places = core.match_parts(labels, decomposition.labels, areas)
             former = [gone[place] if place >= 0 else None for place in places]
         stay = [each for each in former if each is not None]
-        newcomers = Newcomers(stay, gone, self.noted if self.in_edit_mode else None)
-        return identities_of_run(newcomers, former, decomposition.pairs)
-
-    def asleep(self, identities: Sequence[Identity]) -> list[Identity]:
-        """Return the parts without faces that undo in Edit Mode may bring back."""
-        here = {each.number for each in identities}
-        noted = self.noted if self.in_edit_mode else ()
-        return [each for each in noted if each.number not in here]
+        return identities_of_run(Newcomers(stay, gone), former, decomposition.pairs)
 
 
 def by_number(

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ..mesh.by_label import sums_by_label
 from ..stored.identity import Identity
+from ..stored.noted_parts import MEASURED_ON, entry_of
 from ..stored.record import record_of
-from ..stored.versions import MEASURED_ON, entries_of, versions_of
 from .read import FoundParts, find_parts_on
 
 # Faces are the same if their area, and their center in lengths of the root of that
@@ -38,7 +38,7 @@ class PartFigures:
     ranks : (K,) float
         Convexity ranks; nan where a part has changed since it was measured.
     record : dict
-        The record of these parts, or of the latest ones if none fits them.
+        What is noted of the parts, whether or not it fits them.
     problem : str or None
         Why figures are out of date, and what to do.
     """
@@ -66,18 +66,13 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
     for row, (identity, (_, turn)) in enumerate(
         zip(found.identities, found.origins, strict=True)
     ):
-        entries = entries_of(record, identity.number) if turn == 0 else []
-        fitting = [each for each in entries if _fits(each, measured_on[row])]
-        if fitting and fitting[0]["convexity_rank"] is not None:
-            ranks[row] = fitting[0]["convexity_rank"]
-    fitting_record = _fitting(record, found, measured_on)
-    return PartFigures(
-        found,
-        measured_on,
-        ranks,
-        fitting_record or record,
-        _problem(found, fitting_record),
-    )
+        entry = entry_of(record, identity.number) if turn == 0 else None
+        if entry is None or entry["convexity_rank"] is None:
+            continue
+        if _fits(entry, measured_on[row]):
+            ranks[row] = entry["convexity_rank"]
+    problem = _problem(record, found, measured_on)
+    return PartFigures(found, measured_on, ranks, record, problem)
 
 
 def _fits(entry: dict[str, Any], now: Sequence[float]) -> bool:
@@ -89,25 +84,19 @@ def _fits(entry: dict[str, Any], now: Sequence[float]) -> bool:
     return bool(abs(then[1] - area) <= _SAME * area and far <= _SAME * np.sqrt(area))
 
 
-def _fitting(
+def _problem(
     record: dict[str, Any], found: FoundParts, measured_on: NDArray[np.float64]
-) -> dict[str, Any] | None:
-    """Return the version of a record that is about these very parts, None without."""
-    now = dict(
-        zip((each.number for each in found.identities), measured_on, strict=True)
-    )
-    for version in versions_of(record):
-        entries = version.get("parts", ())
-        same = {entry["number"] for entry in entries} == now.keys()
-        if same and all(_fits(entry, now[entry["number"]]) for entry in entries):
-            return {**record, **version} if found.in_step else None
-    return None
-
-
-def _problem(found: FoundParts, record: dict[str, Any] | None) -> str | None:
-    """Return why the record that fits is not all there is to know, if it is not."""
-    if record is not None and record["psi"] is not None:
-        return None
+) -> str | None:
+    """Return why the record is not all that there is to know, None if it is."""
     if not found.in_step:
         return JOINED
+    entries = record.get("parts", ())
+    now = {
+        each.number: row
+        for each, row in zip(found.identities, measured_on, strict=True)
+    }
+    same = {entry["number"] for entry in entries} == now.keys()
+    fits = same and all(_fits(entry, now[entry["number"]]) for entry in entries)
+    if fits and record["psi"] is not None:
+        return None
     return "The mesh has changed; press Refresh to measure the parts again."

@@ -23,21 +23,14 @@ class Newcomers:
         Parts that stay.
     gone : iterable of Identity
         Parts that vanish; their numbers are not used again at once.
-    asleep : iterable of Identity or None
-        Parts that undo in Edit Mode may bring back, None in Object Mode. If there are
-        any, new numbers are above all others, so that groups and slots stay in place.
     """
 
     def __init__(
-        self,
-        there: Iterable[Identity],
-        gone: Iterable[Identity] = (),
-        asleep: Iterable[Identity] | None = None,
+        self, there: Iterable[Identity], gone: Iterable[Identity] = ()
     ) -> None:
         self.known = list(there)
-        self._asleep = list(asleep or ())
-        self._numbers = {e.number for e in (*self.known, *gone, *self._asleep)}
-        self._next = 0 if asleep is None else max(self._numbers, default=-1) + 1
+        self._numbers = {each.number for each in (*self.known, *gone)}
+        self._next = 0
 
     def add(self, name: str | None = None, color: Color | None = None) -> Identity:
         """Return a new part, with this name and color or free ones."""
@@ -69,7 +62,7 @@ class Newcomers:
 
     def _names(self) -> set[str]:
         """Return the names that new parts must not have."""
-        return {each.name for each in (*self.known, *self._asleep)}
+        return {each.name for each in self.known}
 
 
 def usual_identities(n_parts: int) -> tuple[Identity, ...]:
@@ -115,7 +108,6 @@ def identities_after(
     before: Sequence[Identity],
     former: Sequence[int],
     mirrored: Mapping[int, int],
-    asleep: Iterable[Identity] | None = None,
 ) -> list[Identity]:
     """Return who the parts are after an edit.
 
@@ -128,8 +120,6 @@ def identities_after(
     mirrored : mapping of int to int
         New parts that are mirror images, and the parts that they mirror. They get the
         name of the other side.
-    asleep : iterable of Identity or None
-        See `Newcomers`.
 
     Returns
     -------
@@ -143,7 +133,7 @@ def identities_after(
         name = bpy.utils.flip_name(before[source].name)
         if name in gone:
             found[image] = gone[name]
-    newcomers = Newcomers(found.values(), asleep=asleep)
+    newcomers = Newcomers(found.values())
     for label in former:
         if label not in found and label in mirrored:
             found[label] = newcomers.add_image(before[mirrored[label]])

@@ -13,8 +13,8 @@ from ....core.parameters.parts import Parameters
 from ..mesh.layers import flush_edits, layers_of
 from ..stored.identity import Identity
 from ..stored.names import HAND_LAYER, PART_LAYER
-from ..stored.record import noted_parameters, record_of
-from ..stored.versions import identities_of, psi_by_k_of
+from ..stored.noted_parts import psi_by_k_of
+from ..stored.record import noted_parameters
 from .figures import figures_of
 
 
@@ -40,8 +40,6 @@ class PresentParts:
         Psi of each number of parts that was tried.
     best_k : int
         The number of parts that the search chose.
-    asleep : tuple of Identity or None
-        All parts that undo in Edit Mode may bring back; None in Object Mode.
     """
 
     labels: NDArray[np.int64]
@@ -52,7 +50,6 @@ class PresentParts:
     ranks: NDArray[np.float64]
     psi_by_k: dict[int, float]
     best_k: int
-    asleep: tuple[Identity, ...] | None
 
 
 def present_parts(obj: bpy.types.Object) -> PresentParts:
@@ -74,7 +71,6 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
         ranks=figures.ranks,
         psi_by_k=psi_by_k_of(record),
         best_k=record.get("best_k", len(figures.identities)),
-        asleep=identities_of(record_of(obj)) if obj.mode == "EDIT" else None,
     )
 
 

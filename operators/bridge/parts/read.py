@@ -20,9 +20,9 @@ from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..stored.identity import Identity
 from ..stored.names import OWNER, OWNER_LAYER, PART_LAYER
+from ..stored.noted_parts import identities_of, n_faces_of
 from ..stored.record import record_of
 from ..stored.restore import read_restore
-from ..stored.versions import identities_of, n_faces_of
 from .identities import Newcomers
 from .kept_materials import is_overlaid, kept_materials
 from .materials import color_of, name_of, part_slots

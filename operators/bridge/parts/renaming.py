@@ -13,9 +13,9 @@ from ..mesh.points import is_cloud
 from ..refusals import library_refusal, name_refusal
 from ..stored.identity import Identity
 from ..stored.names import HULL_TAG, OVERLAY
+from ..stored.noted_parts import identities_of
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
-from ..stored.versions import identities_of
 from ..views.face_sets_and_colors import show_colors
 from .figures import JOINED
 from .kept_materials import is_overlaid, mark_group

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from operator import attrgetter
 
 import bpy
 import numpy as np
@@ -75,14 +74,10 @@ def write_parts(
     identities = kept or before.continued_by(obj, decomposition, faces)
     former = _made_bare(obj, faces)
     decomposition, ready, identities = by_number(obj, decomposition, ready, identities)
-    everyone = [*identities, *before.asleep(identities)]
-    everyone.sort(key=attrgetter("number"))
-    restore = _write_mesh(
-        obj, decomposition, ready, identities, everyone, before.materials
-    )
+    restore = _write_mesh(obj, decomposition, ready, identities, before.materials)
     _write_layers(obj, decomposition, identities, by_hand)
     write_restore(obj.data, restore)
-    _note(obj, decomposition, ready, parameters, restore, everyone, identities, before)
+    _note(obj, decomposition, ready, parameters, restore, identities, before)
     show(obj, *also_shown)
     if overlaid:
         show_as_overlay(obj)
@@ -117,16 +112,13 @@ def _note(
     ready: ByLabel,
     parameters: Parameters,
     restore: Restore,
-    everyone: Sequence[Identity],
     identities: Sequence[Identity],
     before: BeforeWriting,
 ) -> None:
     """Write the record and the rows, on all objects that share the mesh."""
     if restore.groups:
-        everyone = _named(everyone, restore.groups)
-    here = {each.number for each in identities}
-    identities = [each for each in everyone if each.number in here]
-    materials = _material_names(obj, [each.number in here for each in everyone])
+        identities = _named(identities, restore.groups)
+    materials = _material_names(obj, len(identities))
     sums = ready.sums.tolist()
     measured_on = [[float(f"{value:.5g}") for value in row] for row in sums]
     for sharer in sharers(obj):
@@ -137,9 +129,8 @@ def _note(
             identities,
             materials,
             measured_on,
-            before.past,
         )
-        write_rows(sharer, everyone, before.rows.get(sharer.name, {}))
+        write_rows(sharer, identities, before.rows.get(sharer.name, {}))
 
 
 def _write_layers(
@@ -158,12 +149,11 @@ def _write_layers(
         set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
 
 
-def _material_names(obj: bpy.types.Object, here: Sequence[bool]) -> list[str]:
+def _material_names(obj: bpy.types.Object, n_parts: int) -> list[str]:
     """Return the name of each part's material. All parts of a cloud share one."""
     if is_cloud(obj):
-        return [obj.data.materials[-1].name] * sum(here)
-    ours = obj.data.materials[-len(here) :]
-    return [each.name for each, there in zip(ours, here, strict=True) if there]
+        return [obj.data.materials[-1].name] * n_parts
+    return [each.name for each in obj.data.materials[-n_parts:]]
 
 
 def check_writable(obj: bpy.types.Object) -> None:
@@ -191,7 +181,6 @@ def _write_mesh(
     decomposition: Decomposition,
     ready: ByLabel,
     identities: Sequence[Identity],
-    everyone: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
 ) -> Restore:
     """Write parts to a mesh without parts; return how to bring it back."""
@@ -200,18 +189,16 @@ def _write_mesh(
     users = [group.name for group in obj.vertex_groups]
     groups = []
     if obj.type == "MESH":  # point cloud objects have no groups
-        groups = _add_groups(obj, everyone, active_group)
-        everyone = _named(everyone, groups)
+        groups = _add_groups(obj, identities, active_group)
+        identities = _named(identities, groups)
     slots = [material.name if material else "" for material in mesh.materials]
-    materials = _materials(obj, everyone, sources, slots)
-    numbers = np.array([identity.number for identity in identities], dtype=np.int32)
-    places = np.searchsorted([each.number for each in everyone], numbers)
-    before = put_in_slots(obj, materials, places[decomposition.labels])
+    materials = _materials(obj, identities, sources, slots)
+    before = put_in_slots(obj, materials, decomposition.labels)
     layers = layers_of(obj)
+    numbers = np.array([identity.number for identity in identities], dtype=np.int32)
     layers.set_faces(PART_LAYER, numbers[decomposition.labels])
-    for place, vertices in zip(places.tolist(), ready.vertices, strict=True):
-        if groups:
-            layers.fill_group(obj.vertex_groups[groups[place]], vertices)
+    for name, vertices in zip(groups, ready.vertices, strict=False):  # or no groups
+        layers.fill_group(obj.vertex_groups[name], vertices)
     layers.finish()
     return Restore(
         groups=groups, active_group=active_group, user_groups=users, **before

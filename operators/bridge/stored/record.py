@@ -16,9 +16,9 @@ from ....core.results.hulls import HullDecomposition
 from ....core.results.parts import Decomposition, Measurement
 from .identity import Identity
 from .names import RESULT
+from .noted_parts import MEASURED_ON, entry_of
 from .notes import parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore, sharers
-from .versions import MEASURED_ON, PAST, change_entries
 
 # The meshes of an object that parts can be found on: its own, or as it is seen.
 ORIGINAL, EVALUATED = "ORIGINAL", "EVALUATED"
@@ -51,9 +51,11 @@ def write_record(obj: bpy.types.Object, record: dict[str, Any]) -> None:
 
 
 def change_part(obj: bpy.types.Object, number: int, change: dict[str, Any]) -> None:
-    """Change what is noted of a part on its object, in all versions of the record."""
+    """Change what is noted of a part on its object."""
     record = record_of(obj)
-    if change_entries(record, number, change):
+    entry = entry_of(record, number)
+    if entry is not None:
+        entry.update(change)
         write_record(obj, record)
 
 
@@ -116,12 +118,8 @@ def write_result(
     identities: Sequence[Identity],
     materials: list[str],
     measured_on: Sequence[Sequence[float]],
-    past: list[dict[str, Any]],
 ) -> None:
-    """Note a decomposition on its object; measurements and hulls stay noted.
-
-    `past` holds the versions of the record that undo in Edit Mode may bring back.
-    """
+    """Note a decomposition on its object; measurements and hulls stay noted."""
     result = {
         "version": version(),
         "parameters": asdict(parameters),
@@ -138,10 +136,6 @@ def write_result(
     }
     if decomposition.rough:
         result[_ROUGH] = True
-    if past:
-        result[PAST] = past
-        for identity in identities:
-            change_entries(result, identity.number, {"name": identity.name})
     beside = beside_parts(obj)
     for hull in beside.get(_HULLS, {}).get("hulls", ()):
         hull["part"] = None  # it is around a former part

@@ -15,9 +15,9 @@ from ..parts.kept_materials import drop_kept, is_overlaid, keep, kept_materials
 from ..parts.materials import own_materials, part_slots, recolor
 from ..parts.slots import put_in_slots, take_out_of_slots
 from ..stored.names import GROUP_LAYER, MATERIAL_LAYER, OWNER_LAYER, PART_LAYER
+from ..stored.noted_parts import identities_of
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
-from ..stored.versions import identities_of
 
 # The choices, with their labels and tooltips.
 MATERIALS, OVERLAY = "MATERIALS", "OVERLAY"

@@ -28,8 +28,8 @@ from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
 from ..read.shape import as_steps, shape_in_steps
 from ..refusals import edit_refusal
+from ..stored.noted_parts import psi_by_k_of
 from ..stored.record import record_of
-from ..stored.versions import psi_by_k_of
 from .computing import decompose_object
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries

@@ -17,6 +17,7 @@ from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..cuts.new_faces import NewFaces
 from ..mesh.by_label import ByLabel
+from ..mesh.layers import let_undo_see_all
 from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.write import check_writable, write_parts
@@ -26,7 +27,6 @@ from ..read.shape import shape_in_steps
 from ..read.target import Target
 from ..stored.identity import Identity
 from ..stored.record import EVALUATED, ORIGINAL, note_mesh
-from .in_step import let_undo_see_all
 from .libraries import load_libraries
 from .session_cache import session_cache
 
@@ -164,9 +164,7 @@ def _described(
     """Return changed parts as a decomposition, and who they are."""
     labels, former = core.compacted(change.labels)
     before = with_sides(parts.identities, change.mirrored.values(), change.side)
-    identities = identities_after(
-        before, former.tolist(), change.mirrored, parts.asleep
-    )
+    identities = identities_after(before, former.tolist(), change.mirrored)
     found = core.describe(
         memo.visibility, labels, parts.parameters, parts.psi_by_k, parts.best_k
     )

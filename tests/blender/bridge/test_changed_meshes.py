@@ -4,12 +4,11 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from edited import FAST, check_in_step, parts_of, record_of
+from edited import FAST, check_in_step, parts_of
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
-from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
 
 
 def state(obj):
@@ -24,21 +23,6 @@ def state(obj):
 
 def names_of(obj):
     return [each.name for each in figures_of(obj).identities]
-
-
-def edit_mesh(obj):
-    """Return a copy of a mesh in Edit Mode, as its undo keeps it."""
-    mesh = bpy.data.meshes.new("undo")
-    bmesh.from_edit_mesh(obj.data).to_mesh(mesh)
-    return mesh
-
-
-def undo_to(obj, mesh):
-    """Bring back a mesh as undo in Edit Mode does: properties and slots stay."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.clear()
-    bm.from_mesh(mesh)
-    bmesh.update_edit_mesh(obj.data)
 
 
 def check_cleared(obj):
@@ -63,29 +47,32 @@ EDITS = {
 
 
 @pytest.mark.parametrize("name", EDITS)
-def test_undo_in_edit_mode_brings_the_table_back(monkey, name):
+def test_undo_in_edit_mode_brings_all_back(monkey, name):
     in_mode(monkey, "EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
     bmesh.from_edit_mesh(monkey.data).faces.ensure_lookup_table()
     for face in bmesh.from_edit_mesh(monkey.data).faces[:40]:
         face.select_set(True)
-    before, mesh_before = state(monkey), edit_mesh(monkey)
-    getattr(bpy.ops.wcd, name)(**EDITS[name])
-    after, mesh_after = state(monkey), edit_mesh(monkey)
-    assert before != after
-    assert before[3] is after[3] is None
-    # Names are no mesh data: Mirror gives sources a side, which stays.
-    since = 1 if name == "mirror_parts" else 0
-    undo_to(monkey, mesh_before)
-    assert state(monkey)[since:] == before[since:]
-    undo_to(monkey, mesh_after)
-    assert state(monkey) == after
-    undo_to(monkey, mesh_before)
-    bring_back_record(monkey)
-    assert (record_of(monkey)["k"], record_of(monkey)["psi"]) == before[4:]
+    bpy.ops.ed.undo_push(message="Select")
+    states = [state(monkey)]
+    getattr(bpy.ops.wcd, name)("EXEC_DEFAULT", True, **EDITS[name])
+    states.append(state(monkey))
+    assert states[0] != states[1]
+    assert states[0][3] is states[1][3] is None
+    bpy.ops.mesh.flip_normals("EXEC_DEFAULT", True)  # a step of the mesh alone
+    bpy.ops.wcd.split_parts("EXEC_DEFAULT", True, parts=3)
+    states.append(state(bpy.context.active_object))
+    undo, redo = bpy.ops.ed.undo, bpy.ops.ed.redo
+    for step, expected in (
+        *((undo, 1), (undo, 1), (undo, 0)),
+        *((redo, 1), (redo, 1), (redo, 2), (undo, 1), (undo, 1), (undo, 0)),
+    ):
+        step()
+        monkey = bpy.context.active_object
+        assert monkey.mode == "EDIT"
+        assert state(monkey) == states[expected]
     in_mode(monkey, "OBJECT")
-    assert state(monkey)[since:] == before[since:]
-    bpy.ops.wcd.refresh_parts()
+    assert state(monkey) == states[0]
     check_in_step(monkey)
     check_cleared(monkey)
 

@@ -1,12 +1,10 @@
 """A state machine that works on objects with parts as a restless artist would."""
 
-import bmesh
 import bpy
 import numpy as np
 from hand_made import in_mode
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
-from weak_convex_decomposition.operators.bridge.work.in_step import bring_back_record
 
 from .checks import attempt, bodies, bone, check_body, check_cleared, only
 from .more_hands import FAST, NUMBERS, MoreHands
@@ -44,7 +42,7 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
         bone()
         for name, value in FAST.items():  # of runs without parameters of their own
             setattr(bpy.context.scene.wcd, name, value)
-        self.kept, self.saved = [], None
+        self.saved = None
         attempt(bpy.ops.wcd.decompose, **FAST, parts=3)
         bpy.ops.ed.undo_push(message="begin")
 
@@ -65,7 +63,6 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
         active = bpy.context.view_layer.objects.active
         if active is not None and active.mode == "EDIT":
             bpy.ops.object.mode_set(mode="OBJECT")
-        self.kept = []
 
     def done(self):
         """End a step, to be undone."""
@@ -73,16 +70,14 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
 
     @rule(n=NUMBERS, parts=PARTS, keep_edits=st.booleans(), seams=SEAMS, colors=COLORED)
     def decompose(self, n, **options):
-        self.remember(self.body(n))
+        self.body(n)
         attempt(bpy.ops.wcd.decompose, **FAST, **options)
         self.done()
 
     @rule(n=NUMBERS, name=st.sampled_from(OPERATORS))
     def operate(self, n, name):
-        self.remember(self.body(n))
+        self.body(n)
         attempt(getattr(bpy.ops.wcd, name))
-        if name == "clear":  # its undo in Edit Mode brings back all of the file
-            self.kept = []
         bpy.context.view_layer.update()
         self.done()
 
@@ -108,7 +103,6 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
         self.select(obj, from_face, 8)
         in_mode(obj, "EDIT")
         obj.wcd_active_part = row
-        self.remember(obj)
         attempt(bpy.ops.wcd.assign_faces)
         self.done()
 
@@ -117,7 +111,6 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
         obj = self.body(n)
         self.select(obj, from_face, how_many)
         in_mode(obj, "EDIT")
-        self.remember(obj)
         bpy.ops.mesh.delete(type="FACE")
         self.object_mode()
         self.done()
@@ -135,7 +128,6 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
     @rule(n=NUMBERS)
     def switch_mode(self, n):
         obj = self.body(n)
-        self.kept = []
         in_mode(obj, "OBJECT" if obj.mode == "EDIT" else "EDIT")
         self.done()
 
@@ -175,31 +167,15 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
 
     @rule(redo=st.booleans())
     def undo(self, redo):
-        """Undo or redo as in Object Mode: all of the file."""
-        self.kept = []
         attempt(bpy.ops.ed.redo if redo else bpy.ops.ed.undo)
 
-    def remember(self, obj):
-        """Keep the mesh as Edit Mode's undo does: nothing else comes back with it."""
-        if obj.mode == "EDIT":
-            mesh = bpy.data.meshes.new("undo")
-            bmesh.from_edit_mesh(obj.data).to_mesh(mesh)
-            self.kept.append((obj.name, mesh.name))
-
-    @rule(step=NUMBERS)
-    def undo_in_edit_mode(self, step):
-        """Undo or redo as in Edit Mode: faces, and their layers."""
+    @rule()
+    def flip_normals(self):
+        """Make an undo step of Edit Mode, which holds the mesh alone."""
         active = bpy.context.view_layer.objects.active
-        mine = [m for o, m in self.kept if active is not None and o == active.name]
-        if not mine or active.mode != "EDIT":
-            return
-        self.remember(active)
-        mesh = bpy.data.meshes[mine[step % len(mine)]]
-        bm = bmesh.from_edit_mesh(active.data)
-        bm.clear()
-        bm.from_mesh(mesh)
-        bmesh.update_edit_mesh(active.data)
-        bring_back_record(active)
+        if active is not None and active.mode == "EDIT":
+            bpy.ops.mesh.flip_normals()
+            self.done()
 
     @rule()
     def save_and_reload(self):
@@ -230,7 +206,7 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
 
     def teardown(self):
         """Clear all, after which nothing of ours is left."""
-        if not hasattr(self, "kept"):
+        if not hasattr(self, "saved"):
             return
         self.object_mode()
         for obj in bodies():

@@ -59,14 +59,14 @@ class MoreHands:
 
     @rule(n=NUMBERS, names=WAYS, chosen=st.booleans())
     def rename_all(self, n, names, chosen):
-        self.remember(self.body(n))
+        self.body(n)
         scope = "CHOSEN" if chosen else "ALL"
         attempt(bpy.ops.wcd.rename_parts, scope=scope, **names)
         self.done()
 
     @rule(n=NUMBERS, unmark=st.booleans(), chosen=st.booleans())
     def seams(self, n, unmark, chosen):
-        self.remember(self.body(n))
+        self.body(n)
         if unmark:
             attempt(bpy.ops.wcd.unmark_seams)
         else:
@@ -95,7 +95,7 @@ class MoreHands:
 
     @rule(n=NUMBERS, parts=st.integers(1, 6), live=st.booleans())
     def cut_again(self, n, parts, live):
-        self.remember(self.body(n))
+        self.body(n)
         settings = bpy.context.scene.wcd
         if live:
             settings.live = True
