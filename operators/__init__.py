@@ -10,10 +10,9 @@ from typing import Any
 
 def _classes() -> tuple[Any, ...]:
     """Return the classes that Blender is to know."""
-    from . import hulls, scene_settings, show_parts, use_parts
+    from . import hulls, measure, scene_settings, show_parts, use_parts
     from .decompose import WCD_OT_clear, WCD_OT_decompose
     from .editing import edit_parts, rename_parts
-    from .measure import WCD_OT_measure, WCD_OT_measure_selection
     from .recut import WCD_OT_choose_part_count, WCD_OT_recut
     from .running.modal import WCD_OT_cancel
     from .show_picture import WCD_OT_show_picture
@@ -22,8 +21,7 @@ def _classes() -> tuple[Any, ...]:
     return (
         *scene_settings.CLASSES,
         WCD_OT_decompose,
-        WCD_OT_measure,
-        WCD_OT_measure_selection,
+        *measure.CLASSES,
         *hulls.CLASSES,
         WCD_OT_clear,
         WCD_OT_cancel,

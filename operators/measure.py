@@ -1,4 +1,4 @@
-"""Measure how convex the selected meshes, or faces, are."""
+"""Measure how convex the selected meshes, or faces, are; tell the quality of parts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from ..core.results.parts import Measurement
 from ..core.steps.progress import Steps
 from .bridge.mesh.selection import selected_faces
 from .bridge.refusals import measure_refusal, selection_refusal
-from .bridge.stored.record import write_measurement
+from .bridge.stored.names import RESULT
+from .bridge.stored.record import parse_record, write_measurement
 from .bridge.work.computing import measure_object, measure_selection_of
 from .running.computation import Computation
 from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
@@ -87,6 +88,43 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
 WCD_OT_measure_selection.__annotations__ = properties_for(SELECTION)
 
 
+class WCD_OT_tell_quality(bpy.types.Operator):
+    """Tell the psi that the word for the quality of the parts stands for."""
+
+    bl_idname = "wcd.tell_quality"
+    bl_label = "Tell Quality of Convex Parts"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether the active object has parts that were found."""
+        return _noted(context).get("psi") is not None
+
+    @classmethod
+    def description(
+        cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
+    ) -> str:
+        """Return the tooltip of the word."""
+        noted = _noted(context)
+        return (
+            f"ψ = {noted['psi']:.3f}, and {noted['psi_before']:.3f} as one part. It"
+            " rises when points of one part see each other, and when points of"
+            " different parts do not. The word says how near it is to the largest ψ"
+            " that the shape allows"
+        )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Say in the status bar what the tooltip says."""
+        self.report({"INFO"}, self.description(context, self.properties))
+        return {"FINISHED"}
+
+
+def _noted(context: bpy.types.Context) -> dict[str, Any]:
+    """Return what is noted on the active object, empty if nothing of ours is."""
+    obj = context.active_object
+    return (parse_record(obj.get(RESULT)) if obj else None) or {}
+
+
 def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:
     """Return the parameters that a measurement was made with."""
     values = asdict(parameters)
@@ -101,3 +139,6 @@ def _figures(value: Measurement) -> str:
         + (f" ± {error:.3f}" if error else "")
         + f" ({value.n_samples:,} samples)"
     )
+
+
+CLASSES = (WCD_OT_measure, WCD_OT_measure_selection, WCD_OT_tell_quality)

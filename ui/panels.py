@@ -151,12 +151,14 @@ def _draw_parts(layout: bpy.types.UILayout, settings: bpy.types.AnyType) -> None
 
 
 def _draw_quality(layout: bpy.types.UILayout, result: dict[str, Any]) -> None:
-    """Draw the quality of the parts in a word, and psi below it."""
-    before, psi = result["psi_before"], result["psi"]
-    word = quality_word(psi, before, result["parameters"]["alpha"])
-    column = layout.column(align=True)
-    line(column, "Quality", word)
-    line(column, "ψ", f"{before:.3f} → {psi:.3f}")
+    """Draw the quality of the parts in a word; psi is in its tooltip."""
+    alpha = result["parameters"]["alpha"]
+    word = quality_word(result["psi"], result["psi_before"], alpha)
+    split = layout.split(factor=_LABELS)
+    split.label(text="Quality")
+    row = split.row()
+    row.alignment = "LEFT"
+    row.operator("wcd.tell_quality", text=word, emboss=False)
 
 
 def paragraph(

@@ -22,7 +22,7 @@ class Sidebar:
 def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
     """Return the record of an object, empty if it has none of ours.
 
-    It is the version that fits the parts on the mesh, and tells of no others.
+    It tells of parts only while the object has some.
     """
     figures = shown_figures(obj)
     if figures is not None and figures.record:

@@ -12,6 +12,7 @@ import pytest
 from edited import FAST
 from hand_made import decompose_by_hand
 from weak_convex_decomposition import ui
+from weak_convex_decomposition.operators.measure import WCD_OT_tell_quality
 from weak_convex_decomposition.operators.settings import FRONT, is_used
 from weak_convex_decomposition.ui.edit_panel import WCD_PT_edit, acted_on
 from weak_convex_decomposition.ui.panels import WCD_PT_main, WCD_PT_parts
@@ -190,10 +191,13 @@ def test_buttons_say_what_they_act_on(decomposed):
     assert "Select Part 06" in drawn(WCD_PT_edit).texts()
 
 
-def test_quality_is_a_word_and_psi_is_below_it(decomposed):
+def test_quality_is_a_word_and_psi_is_in_its_tooltip(decomposed, capfd):
     texts = list(drawn(WCD_PT_parts).texts())
     assert texts[texts.index("Quality") + 1] == "Poor"  # 0.75 of 1.5
-    assert texts[texts.index("ψ") + 1] == "0.500 → 0.750"
+    tooltip = WCD_OT_tell_quality.description(bpy.context, None)
+    assert tooltip.startswith("ψ = 0.750, and 0.500 as one part.")
+    assert bpy.ops.wcd.tell_quality() == {"FINISHED"}
+    assert tooltip in capfd.readouterr().out
 
 
 def test_a_refused_name_is_told_below_the_table(decomposed):
