@@ -54,16 +54,6 @@ _LIGHTER = 0.4
 _LIGHT = 0.4
 
 
-def part_color(index: int) -> tuple[float, float, float, float]:
-    """Return the linear RGBA color of a part, each in 0…1; repeats after 24 parts."""
-    return (*_linear(part_srgb(index)), 1.0)
-
-
-def part_srgb(index: int) -> Color:
-    """Return the sRGB color of a part, each in 0…1, for pictures."""
-    return _unpacked(_PALETTE[index % len(_PALETTE)][0])
-
-
 def free_color(used: Iterable[Sequence[float]]) -> Color:
     """Return the first color of the palette that is not in use, nor its partner's.
 

@@ -4,15 +4,17 @@ import numpy as np
 import pytest
 from weak_convex_decomposition.operators.bridge.parts.palette import (
     free_color,
-    part_color,
     partner_color,
 )
 
 N_COLORS = 24
 
 
-def palette():
-    return [part_color(i)[:3] for i in range(N_COLORS)]
+def palette(n_parts=N_COLORS):
+    colors = []
+    for _ in range(n_parts):
+        colors.append(free_color(colors))
+    return colors
 
 
 # Linear RGB as seen without the middle or the long-wave cones: Machado, Oliveira and
@@ -50,7 +52,7 @@ def lab(rgb):
 
 
 def smallest_difference(n_parts, view):
-    colors = lab(np.array([part_color(i)[:3] for i in range(n_parts)]) @ view.T)
+    colors = lab(np.array(palette(n_parts)) @ view.T)
     return min(np.linalg.norm(a - b) for a, b in combinations(colors, 2))
 
 
@@ -103,7 +105,7 @@ def test_the_first_parts_are_told_apart_by_color_blind_people():
 
 
 def test_colors_are_within_range_and_repeat_after_a_while():
-    colors = [part_color(i) for i in range(N_COLORS)]
+    *colors, repeated = palette(N_COLORS + 1)
     assert np.min(colors) >= 0
     assert np.max(colors) <= 1
-    assert part_color(N_COLORS) == part_color(0)
+    assert repeated == colors[0]

@@ -3,7 +3,6 @@ import numpy as np
 import pytest
 from hand_made import bands, decomposition_of, mesh_object
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.operators.bridge.parts.palette import part_color
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.operators.headless.write.picture import save_picture
 from weak_convex_decomposition.operators.headless.write.render_engine import EngineTrial
@@ -57,7 +56,7 @@ def test_parts_have_their_colors_in_both_views(tmp_path, suzanne, engine):
         lit = view[shows(view)]
         directions = lit / np.linalg.norm(lit, axis=1, keepdims=True)
         for part in range(3):
-            linear = np.array(part_color(part)[:3])
+            linear = np.array(suzanne.wcd_parts[part].color[:3])
             color = np.where(
                 linear < 0.0031, 12.92 * linear, 1.055 * linear**0.417 - 0.055
             )

@@ -14,7 +14,6 @@ from hand_made import (
     in_mode,
 )
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.palette import part_color
 
 NAMES = ("separate", "explode", "face_sets", "color_attribute")
 
@@ -44,7 +43,8 @@ def test_every_part_becomes_an_object(suzanne):
     assert bpy.context.active_object == pieces[0]
     for part, piece in enumerate(pieces):
         assert "wcd" not in piece
-        assert list(piece.color) == pytest.approx(part_color(part))
+        assert piece.color[:3] == pytest.approx(suzanne.wcd_parts[part].color[:3])
+        assert piece.color[3] == 1
         assert [slot.name for slot in piece.material_slots] == [f"Part {part + 1:02d}"]
 
 
@@ -161,7 +161,7 @@ def test_corners_get_the_colors_of_their_parts(suzanne, mode):
     for polygon, part in zip(suzanne.data.polygons, labels, strict=True):
         for corner in polygon.loop_indices:
             assert tuple(attribute.data[corner].color) == pytest.approx(
-                part_color(part)
+                (*suzanne.wcd_parts[part].color[:3], 1)
             )
     in_mode(suzanne, mode)
     bpy.ops.wcd.clear()
