@@ -33,9 +33,9 @@ def highest_number(
     `values` are those of the faces, `noted` those in the record.
     """
     known = [0, *noted, *(m[MATERIAL_TAG] for m in obj.data.materials if is_ours(m))]
-    groups = marked_groups(obj) if values.max() > max(known) else {}
-    if groups:
-        marks = layers_of(obj).faces(GROUP_LAYER)
+    marks = layers_of(obj).faces(GROUP_LAYER) if values.max() > max(known) else None
+    groups = {} if marks is None else marked_groups(obj)
+    if marks is not None and groups:
         known.append(values[np.isin(marks, list(groups))].max())
     return int(max(known))
 
@@ -61,8 +61,9 @@ def told_of_part(
     place, materials = 0 if indices is None else indices[first], obj.data.materials
     material = materials[place] if place < len(materials) else None
     restore = read_restore(obj.data)
-    users = material is not None and restore and material.name in restore.slots
-    if users or not is_ours(material) or material[MATERIAL_TAG] != number:
+    if material is None or not is_ours(material) or material[MATERIAL_TAG] != number:
+        return None, None
+    if restore is not None and material.name in restore.slots:  # the user's
         return None, None
     return name_of(material), color_of(material)
 
