@@ -11,12 +11,12 @@ from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls
 from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
-from .bridge.parts.images import erase_images
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import clear_refusal, decompose_refusal
 from .bridge.stored.names import CARRIER_TAG
 from .bridge.views.colors import show_colors_as
+from .bridge.views.images import erase_images
 from .bridge.views.node_modifiers import remove_views
 from .bridge.work.computing import summary
 from .bridge.work.locking import decompose_unlocked

@@ -10,8 +10,8 @@ from ..core.parameters.choices import PICTURES
 from ..core.parameters.parameter import Choice
 from ..core.results.views import Picture
 from ..core.steps.progress import Steps
-from .bridge.parts.images import write_image
 from .bridge.refusals import picture_refusal
+from .bridge.views.images import write_image
 from .bridge.work.computing import picture_of
 from .running.computation import Computation
 

@@ -95,7 +95,7 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
     """Return the names of groups of ours that came with objects joined to this one."""
     if not getattr(obj.data, "polygons", None):
         return set()
-    found = marked_groups(obj)
+    found = set(marked_groups(obj).values())
     if restore.user_groups is not None:
         ours = [each for each in obj.data.materials if is_ours(each)]
         found |= {name_of(m) for m in ours if m.name not in restore.slots}

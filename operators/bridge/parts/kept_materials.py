@@ -57,13 +57,14 @@ def mark_group(obj: bpy.types.Object, number: int, name: str) -> None:
         layers.set_faces(GROUP_LAYER, np.where(own, _checksum(name), marks))
 
 
-def marked_groups(obj: bpy.types.Object) -> set[str]:
-    """Return the names of an object's groups that marks on faces tell of."""
+def marked_groups(obj: bpy.types.Object) -> dict[int, str]:
+    """Return the names of an object's groups that marks on faces tell of, by mark."""
     marks = layers_of(obj).faces(GROUP_LAYER)
     if marks is None:
-        return set()
+        return {}
     there = set(np.unique(marks).tolist())
-    return {each.name for each in obj.vertex_groups if _checksum(each.name) in there}
+    names = {_checksum(each.name): each.name for each in obj.vertex_groups}
+    return {mark: name for mark, name in names.items() if mark in there}
 
 
 def _checksum(name: str) -> int:

@@ -13,7 +13,7 @@ from ....core.parameters.parts import Parameters
 from ..mesh.layers import flush_edits, layers_of
 from ..stored.identity import Identity
 from ..stored.names import HAND_LAYER, PART_LAYER
-from ..stored.noted_parts import psi_by_k_of
+from ..stored.noted_parts import n_faces_of, psi_by_k_of
 from ..stored.record import noted_parameters
 from .figures import figures_of
 
@@ -37,7 +37,7 @@ class PresentParts:
     ranks : (K,) float
         Convexity ranks; nan where a part has changed since it was measured.
     psi_by_k : dict of int to float
-        Psi of each number of parts that was tried.
+        Psi of each number of parts that was tried; empty once faces came or went.
     best_k : int
         The number of parts that the search chose.
     """
@@ -62,6 +62,8 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
         )
     locks = {row.number for row in obj.wcd_parts if row.locked}
     record = figures.record
+    # Gains by number of parts are those of the mesh that was decomposed.
+    same_mesh = n_faces_of(record) == len(figures.found.labels)
     return PresentParts(
         labels=figures.found.labels,
         identities=figures.identities,
@@ -69,7 +71,7 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
         by_hand=faces_by_hand(obj, len(figures.found.labels)),
         parameters=noted_parameters(obj) or Parameters(),
         ranks=figures.ranks,
-        psi_by_k=psi_by_k_of(record),
+        psi_by_k=psi_by_k_of(record) if same_mesh else {},
         best_k=record.get("best_k", len(figures.identities)),
     )
 

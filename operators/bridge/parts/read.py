@@ -2,7 +2,7 @@
 
 The attribute `wcd_part` holds the number of each face's part. After a join, two parts
 can have one number; then the materials of the faces tell them apart, or, for copies of
-one object, that the same faces come twice.
+one object, that the same faces come twice: see `joined.py`.
 """
 
 from __future__ import annotations
@@ -15,17 +15,18 @@ from bpy.types import Material
 from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
-from ..mesh.known import corner_faces, corner_vertices
-from ..mesh.layers import flush_edits, layers_of
+from ..mesh.layers import layers_of
 from ..mesh.points import count_points, is_cloud
 from ..stored.identity import Identity
-from ..stored.names import OWNER, OWNER_LAYER, PART_LAYER
-from ..stored.noted_parts import identities_of, n_faces_of
+from ..stored.names import PART_LAYER
+from ..stored.noted_parts import identities_of
 from ..stored.record import record_of
 from ..stored.restore import read_restore
 from .identities import Newcomers
+from .joined import highest_number, told_of_part, turns_of_faces
 from .kept_materials import is_overlaid, kept_materials
-from .materials import color_of, name_of, part_slots
+from .materials import color_of, part_slots
+from .palette import Color
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,15 +64,21 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
         return None
     noted = noted_identities(obj)
     # Blender gives any number to faces that the user adds.
-    known = {*noted, *part_slots(obj.data)}
-    keys = np.clip(values, 0, max(known, default=None)).astype(np.int64)
+    keys = np.clip(values, 0, highest_number(obj, values, noted)).astype(np.int64)
     stride = int(keys.max()) + 1
-    turns = _turns(obj, keys, n_faces_of(record_of(obj)))
+    turns = turns_of_faces(obj, keys)
     if turns is not None:
         keys += stride * turns
     counts = np.bincount(keys)
     origins = [divmod(int(key), stride)[::-1] for key in np.flatnonzero(counts)]
-    identities = _identified(obj, origins, noted)
+    told = {
+        (number, turn): told_of_part(
+            obj, (number, turn), keys == number + stride * turn
+        )
+        for number, turn in origins
+        if turn or number not in noted
+    }
+    identities = _identified(origins, noted, told)
     order = sorted(range(len(origins)), key=lambda row: identities[row].number)
     places = np.zeros(len(counts), dtype=np.int64)
     places[np.flatnonzero(counts)[order]] = np.arange(len(order))
@@ -83,27 +90,21 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
 
 
 def _identified(
-    obj: bpy.types.Object, origins: list[tuple[int, int]], noted: dict[int, Identity]
+    origins: list[tuple[int, int]],
+    noted: dict[int, Identity],
+    told: dict[tuple[int, int], tuple[str | None, Color | None]],
 ) -> list[Identity]:
     """Return who the parts are that faces with these origins belong to.
 
-    Parts that were joined get names, numbers and colors that are free here.
+    Parts that are not noted get names, numbers and colors that are free here: near to
+    those that they are `told` to have, before parts that have none.
     """
-    slots = {} if is_cloud(obj) else part_slots(obj.data)
-    own = {number for number, turn in origins if turn == 0} & noted.keys()
-    newcomers = Newcomers((noted[number] for number in own), noted.values())
-    identities = []
-    for number, turn in origins:
-        if turn == 0 and number in noted:
-            identities.append(noted[number])
-            continue
-        name = noted[number].name if number in noted else None
-        color = noted[number].color if number in noted else None
-        if turn < len(slots.get(number, ())):
-            material = obj.data.materials[slots[number][turn]]
-            name, color = name_of(material), color_of(material)
-        identities.append(newcomers.add(name, color))
-    return identities
+    own = [origin for origin in origins if origin not in told]
+    newcomers = Newcomers((noted[number] for number, _ in own), noted.values())
+    found = {origin: noted[origin[0]] for origin in own}
+    for origin in sorted(told, key=lambda each: told[each][0] is None):
+        found[origin] = newcomers.add(*told[origin])
+    return [found[origin] for origin in origins]
 
 
 def part_materials(obj: bpy.types.Object, found: FoundParts) -> list[Material | None]:
@@ -157,62 +158,3 @@ def noted_identities(obj: bpy.types.Object) -> dict[int, Identity]:
             color = color_of(obj.data.materials[slot])
             noted[number] = replace(noted[number], color=color)
     return noted
-
-
-def _turns(
-    obj: bpy.types.Object, numbers: NDArray[np.int64], n_noted: int
-) -> NDArray[np.int64] | None:
-    """Return 0 for faces of the object's own parts, 1 and more for those joined to it.
-
-    None if all are its own.
-    """
-    if is_cloud(obj):
-        return None
-    owners = layers_of(obj).faces(OWNER_LAYER)
-    if owners is not None and len(owners) == len(numbers):
-        turns = _turns_by_owner(owners, obj.data.get(OWNER, 0))
-        if turns is not None:
-            return turns
-    slots = part_slots(obj.data)
-    if any(len(places) > 1 for places in slots.values()):
-        return _turns_by_material(obj, numbers, slots)
-    n_copies, odd = divmod(len(numbers), n_noted) if n_noted else (0, 0)
-    if odd or n_copies < 2:
-        return None
-    runs = numbers.reshape(n_copies, n_noted)
-    if (runs != runs[0]).any() or _touch(obj, n_noted):
-        return None
-    return np.repeat(np.arange(n_copies), n_noted)
-
-
-def _turns_by_owner(owners: IntArray, own: int) -> NDArray[np.int64] | None:
-    """Return 0 for faces of the object itself, and for each other owner a number."""
-    others, turns = np.unique(owners[owners != own], return_inverse=True)
-    if not len(others):
-        return None
-    found = np.zeros(len(owners), dtype=np.int64)
-    found[owners != own] = turns + 1
-    return found
-
-
-def _turns_by_material(
-    obj: bpy.types.Object, numbers: NDArray[np.int64], slots: dict[int, list[int]]
-) -> NDArray[np.int64]:
-    """Return which of the materials with the number of its part each face has."""
-    indices = layers_of(obj).material_indices()
-    turns = np.zeros_like(numbers)
-    if indices is None:
-        return turns
-    for number, places in slots.items():
-        for turn, slot in enumerate(places):
-            turns[(numbers == number) & (indices == slot)] = turn
-    return turns
-
-
-def _touch(obj: bpy.types.Object, n_faces: int) -> bool:
-    """Return whether runs of faces, each as long, share vertices."""
-    flush_edits(obj)
-    runs = corner_faces(obj.data) // n_faces
-    vertices = corner_vertices(obj.data)
-    used = np.unique(np.stack([vertices, runs], axis=1), axis=0)[:, 0]
-    return len(np.unique(used)) < len(used)

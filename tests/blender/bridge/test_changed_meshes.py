@@ -4,11 +4,12 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from edited import FAST, check_in_step, parts_of
+from edited import FAST, check_in_step, parts_of, record_of
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
+from weak_convex_decomposition.ui.chart import WCD_PT_chart
 
 
 def state(obj):
@@ -197,6 +198,10 @@ def test_figures_follow_deleted_faces(monkey, mode):
     assert np.isfinite(ranks[0])  # not a face of it is gone
     assert np.isnan(ranks[-1])
     assert "changed" in problem
+    assert record_of(monkey)["psi_by_k"]
+    bpy.ops.wcd.refresh_parts()
+    assert not record_of(monkey)["psi_by_k"]  # these were the whole monkey's
+    assert WCD_PT_chart.poll(bpy.context) is False
 
 
 def test_linked_duplicates_have_one_result(suzanne):

@@ -10,7 +10,7 @@ import pytest
 import weak_convex_decomposition as package
 from hand_made import decompose_by_hand, in_mode
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.parts.images import images_of
+from weak_convex_decomposition.operators.bridge.views.images import images_of
 from weak_convex_decomposition.operators.viewport import show_sight, sight_overlay
 
 FAST = {"samples": 100}

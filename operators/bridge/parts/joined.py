@@ -1,0 +1,158 @@
+"""What faces tell of parts that came to an object by a join.
+
+Two parts can have one number then, and faces of an object without parts have number 0.
+Marks of overlays, materials of parts, or runs of the same faces tell them apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.attributes import IntArray
+from ..mesh.known import corner_faces, corner_vertices
+from ..mesh.layers import flush_edits, layers_of
+from ..mesh.points import is_cloud
+from ..stored.names import GROUP_LAYER, MATERIAL_TAG, OWNER, OWNER_LAYER
+from ..stored.noted_parts import entry_of, n_faces_of
+from ..stored.record import record_of
+from ..stored.restore import read_restore
+from .kept_materials import marked_groups
+from .materials import color_of, is_ours, name_of, part_slots
+from .palette import Color
+
+
+def highest_number(
+    obj: bpy.types.Object, values: IntArray, noted: Iterable[int]
+) -> int:
+    """Return the highest number of a part that faces of an object can have.
+
+    `values` are those of the faces, `noted` those in the record.
+    """
+    known = [0, *noted, *(m[MATERIAL_TAG] for m in obj.data.materials if is_ours(m))]
+    marks = layers_of(obj).faces(GROUP_LAYER) if values.max() > max(known) else None
+    groups = {} if marks is None else marked_groups(obj)
+    if marks is not None and groups:
+        known.append(values[np.isin(marks, list(groups))].max())
+    return int(max(known))
+
+
+def told_of_part(
+    obj: bpy.types.Object, origin: tuple[int, int], faces: NDArray[np.bool_]
+) -> tuple[str | None, Color | None]:
+    """Return the name and color that a part had, None for what its faces do not tell.
+
+    `origin` is its number, and its turn among the parts with that number.
+    """
+    number, turn = origin
+    if is_cloud(obj):
+        return None, None
+    slots = part_slots(obj.data).get(number, [])
+    if turn < len(slots):
+        material = obj.data.materials[slots[turn]]
+        return name_of(material), color_of(material)
+    layers, first = layers_of(obj), int(np.argmax(faces))
+    marks, indices = layers.faces(GROUP_LAYER), layers.material_indices()
+    if marks is not None and (name := marked_groups(obj).get(int(marks[first]))):
+        return name, None
+    place, materials = 0 if indices is None else indices[first], obj.data.materials
+    material = materials[place] if place < len(materials) else None
+    restore = read_restore(obj.data)
+    if material is None or not is_ours(material) or material[MATERIAL_TAG] != number:
+        return None, None
+    if restore is not None and material.name in restore.slots:  # the user's
+        return None, None
+    return name_of(material), color_of(material)
+
+
+def turns_of_faces(
+    obj: bpy.types.Object, numbers: NDArray[np.int64]
+) -> NDArray[np.int64] | None:
+    """Return 0 for faces of the object's own parts, 1 and more for those joined to it.
+
+    None if all are its own.
+    """
+    if is_cloud(obj):
+        return None
+    owners = layers_of(obj).faces(OWNER_LAYER)
+    if owners is not None and len(owners) == len(numbers):
+        turns = _turns_by_owner(owners, obj.data.get(OWNER, 0))
+        if turns is not None:
+            return turns
+    turns = _turns_by_material(obj, numbers)
+    return _turns_of_copies(obj, numbers) if turns is None else turns
+
+
+def _turns_by_owner(owners: IntArray, own: int) -> NDArray[np.int64] | None:
+    """Return 0 for faces of the object itself, and for each other owner a number."""
+    # Faces that nobody owns come last: they are of no part.
+    others, turns = np.unique(-owners[owners != own], return_inverse=True)
+    if not len(others):
+        return None
+    found = np.zeros(len(owners), dtype=np.int64)
+    found[owners != own] = turns + 1
+    return found
+
+
+def _turns_by_material(
+    obj: bpy.types.Object, numbers: NDArray[np.int64]
+) -> NDArray[np.int64] | None:
+    """Return which of the materials with the number of its part each face has.
+
+    Faces of an object without parts have another turn. None if all faces have 0.
+    """
+    slots, indices = part_slots(obj.data), layers_of(obj).material_indices()
+    if indices is None:
+        return None
+    turns = np.zeros_like(numbers)
+    for number, places in slots.items():
+        for turn, slot in enumerate(places[1:], start=1):
+            turns[(numbers == number) & (indices == slot)] = turn
+    if 0 in slots:
+        turns[_without_part(obj, numbers, indices, slots)] = len(slots[0])
+    return turns if turns.any() else None
+
+
+def _without_part(
+    obj: bpy.types.Object,
+    numbers: NDArray[np.int64],
+    indices: IntArray,
+    slots: dict[int, list[int]],
+) -> NDArray[np.bool_]:
+    """Return which faces came with an object without parts; Blender gives them 0.
+
+    They have a material of the user's, and all faces that part 0 had have its own.
+    """
+    ours = np.concatenate(list(slots.values()))
+    others = (numbers == 0) & ~np.isin(indices, ours)
+    record = record_of(obj)
+    entry = entry_of(record, 0)
+    n_own = np.count_nonzero((numbers == 0) & (indices == slots[0][0]))
+    complete = entry["faces"] == n_own if entry else not record
+    return others if complete else np.zeros_like(others)
+
+
+def _turns_of_copies(
+    obj: bpy.types.Object, numbers: NDArray[np.int64]
+) -> NDArray[np.int64] | None:
+    """Return which of the copies of the object, joined to it, each face is of."""
+    n_noted = n_faces_of(record_of(obj))
+    n_copies, odd = divmod(len(numbers), n_noted) if n_noted else (0, 0)
+    if odd or n_copies < 2:
+        return None
+    runs = numbers.reshape(n_copies, n_noted)
+    if (runs != runs[0]).any() or _touch(obj, n_noted):
+        return None
+    return np.repeat(np.arange(n_copies), n_noted)
+
+
+def _touch(obj: bpy.types.Object, n_faces: int) -> bool:
+    """Return whether runs of faces, each as long, share vertices."""
+    flush_edits(obj)
+    runs = corner_faces(obj.data) // n_faces
+    vertices = corner_vertices(obj.data)
+    used = np.unique(np.stack([vertices, runs], axis=1), axis=0)[:, 0]
+    return len(np.unique(used)) < len(used)
