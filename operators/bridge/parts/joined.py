@@ -33,19 +33,21 @@ def highest_number(
     `values` are those of the faces, `noted` those in the record.
     """
     known = [0, *noted, *(m[MATERIAL_TAG] for m in obj.data.materials if is_ours(m))]
-    marks = layers_of(obj).faces(GROUP_LAYER) if values.max() > max(known) else None
-    groups = {} if marks is None else marked_groups(obj)
-    if marks is not None and groups:
+    groups = marked_groups(obj) if values.max() > max(known) else {}
+    if groups:
+        marks = layers_of(obj).faces(GROUP_LAYER)
+        assert marks is not None  # they tell of the groups
         known.append(values[np.isin(marks, list(groups))].max())
     return int(max(known))
 
 
 def told_of_part(
-    obj: bpy.types.Object, origin: tuple[int, int], faces: NDArray[np.bool_]
+    obj: bpy.types.Object, origin: tuple[int, int], face: int
 ) -> tuple[str | None, Color | None]:
     """Return the name and color that a part had, None for what its faces do not tell.
 
-    `origin` is its number, and its turn among the parts with that number.
+    `origin` is its number, and its turn among the parts with that number. Any `face`
+    of the part serves.
     """
     number, turn = origin
     if is_cloud(obj):
@@ -54,11 +56,11 @@ def told_of_part(
     if turn < len(slots):
         material = obj.data.materials[slots[turn]]
         return name_of(material), color_of(material)
-    layers, first = layers_of(obj), int(np.argmax(faces))
+    layers = layers_of(obj)
     marks, indices = layers.faces(GROUP_LAYER), layers.material_indices()
-    if marks is not None and (name := marked_groups(obj).get(int(marks[first]))):
+    if marks is not None and (name := marked_groups(obj).get(int(marks[face]))):
         return name, None
-    place, materials = 0 if indices is None else indices[first], obj.data.materials
+    place, materials = 0 if indices is None else indices[face], obj.data.materials
     material = materials[place] if place < len(materials) else None
     restore = read_restore(obj.data)
     if material is None or not is_ours(material) or material[MATERIAL_TAG] != number:

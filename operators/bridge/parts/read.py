@@ -73,7 +73,7 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
     origins = [divmod(int(key), stride)[::-1] for key in np.flatnonzero(counts)]
     told = {
         (number, turn): told_of_part(
-            obj, (number, turn), keys == number + stride * turn
+            obj, (number, turn), int(np.argmax(keys == number + stride * turn))
         )
         for number, turn in origins
         if turn or number not in noted

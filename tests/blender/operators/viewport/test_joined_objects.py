@@ -12,14 +12,19 @@ def show(choice):
     assert bpy.ops.wcd.show_colors(colors=choice) == {"FINISHED"}
 
 
+def cube_beside(suzanne, colors):
+    """Give the monkey two parts, one called Head; return a cube beside it."""
+    decompose_by_hand(suzanne, 2)
+    show(colors)
+    suzanne.wcd_parts[0].name = "Head"
+    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
+    return bpy.context.active_object
+
+
 @pytest.mark.parametrize("own", ["OVERLAY", "MATERIALS"])
 @pytest.mark.parametrize("joined", ["OVERLAY", "MATERIALS"])
 def test_joined_parts_keep_their_names(suzanne, own, joined):
-    decompose_by_hand(suzanne, 2)
-    show(own)
-    suzanne.wcd_parts[0].name = "Head"
-    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
-    cube = bpy.context.active_object
+    cube = cube_beside(suzanne, own)
     decompose_by_hand(cube, 3)
     show(joined)
     for row, name in zip(cube.wcd_parts, ("Lid", "Box", "Foot"), strict=True):
@@ -38,11 +43,7 @@ def test_joined_parts_keep_their_names(suzanne, own, joined):
 @pytest.mark.parametrize("colors", ["OVERLAY", "MATERIALS"])
 @pytest.mark.parametrize("active", [0, 1])
 def test_a_joined_object_without_parts_is_a_part_of_its_own(suzanne, colors, active):
-    decompose_by_hand(suzanne, 2)
-    show(colors)
-    suzanne.wcd_parts[0].name = "Head"
-    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
-    cube = bpy.context.active_object
+    cube = cube_beside(suzanne, colors)
     # Blender 4.2 gives its faces the material of part 1 if they have none.
     cube.data.materials.append(bpy.data.materials.new("Mine"))
     obj = (suzanne, cube)[active]
