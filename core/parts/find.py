@@ -9,9 +9,10 @@ from ..results.parts import Decomposition
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .describe import by_size, describe, notes_on
-from .first_look import guess, is_quick, likely_number
+from .first_look import guess, likely_number
 from .merging.bends import with_bends_kept
 from .part_count import PartCountSearch
+from .part_count_given import given, knows
 from .part_memo import PartMemo
 from .partition import Partitioner
 from .seams.cutter import SeamCutter
@@ -49,16 +50,16 @@ def find_parts(
         SeamCutter(partitioner, cut.seams),
         parameters.min_parts,
         parameters.max_parts,
-        cut.searches,
+        cut,
     )
     likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
-    guesses = rough and likely_k > 0 and not is_quick(search, parameters.parts)
+    guesses = rough and likely_k > 0 and not _is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
         guesses, wanted = False, with_bends_kept(search, partitioner, parameters)
     elif guesses:
         wanted = guess(search, likely_k, cut.looks)
     else:
-        wanted = search.given(parameters.parts) if parameters.parts else search.best()
+        wanted = given(search, parameters.parts) if parameters.parts else search.best()
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
     if not guesses:
         memo.tried = yield from search.tried()
@@ -69,3 +70,8 @@ def find_parts(
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
     notes = notes_on(found, visibility, memo.transfer, parameters)
     return replace(found, notes=found.notes + notes, rough=rough)
+
+
+def _is_quick(search: PartCountSearch, n_parts: int) -> bool:
+    """Return whether parts are known, or for 0, the best number, nearly so."""
+    return knows(search, n_parts) if n_parts else search.searched

@@ -5,10 +5,9 @@ from __future__ import annotations
 from functools import partial
 from typing import NamedTuple
 
-from ..steps.memo import Memo
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
-from .part_memo import Candidate
+from .part_memo import Candidate, CutMemo
 from .part_psi import count_parts
 from .partition import Partitioner
 from .seams.cutter import SeamCutter, Seams
@@ -55,13 +54,15 @@ class PartCountSearch:
     seams : SeamCutter
     low, high : int
         First and last number that is tried.
-    memo : Memo
-        Maps the first and last number to the candidate for each number of parts.
+    memo : CutMemo
+        Keeps what is found.
 
     Attributes
     ----------
-    partitioner, seams, low, high
+    partitioner, seams, low, high, memo
         As given.
+    creases : CreaseParts
+        Parts along creases, which compete with others.
     """
 
     def __init__(
@@ -70,13 +71,13 @@ class PartCountSearch:
         seams: SeamCutter,
         low: int,
         high: int,
-        memo: Memo[tuple[int, int], dict[int, Candidate]],
+        memo: CutMemo,
     ) -> None:
         self.partitioner = partitioner
         self.seams = seams
-        self._creases = CreaseParts(partitioner)
+        self.creases = CreaseParts(partitioner)
         self.low, self.high = low, high
-        self._memo = memo
+        self.memo = memo
 
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.
@@ -98,57 +99,20 @@ class PartCountSearch:
         tried = yield from within(self.tried(), 0.0, 0.9)
         psi_by_k, best_k = self.rated(tried)
         seams = yield from within(self.seams.cut(tried[best_k].parts), 0.9, 1.0)
-        parts = self._creases.better(seams.parts, self.low, self.high)
+        parts = self.creases.better(seams.parts, self.low, self.high)
         if parts is not seams.parts:
             seams, best_k = Seams(parts), count_parts(parts)
             psi_by_k |= {best_k: self.partitioner.psi_seen(parts)}
         return Search(seams, dict(sorted(psi_by_k.items())), best_k)
 
-    def given(self, n_parts: int) -> Steps[Search]:
-        """Return `n_parts` parts, with the psi of other numbers for comparison.
-
-        These are the parts that `best` chooses, if they are so many. Otherwise those
-        compete too, split or merged. The largest psi wins, less what seams cost.
-
-        Parameters
-        ----------
-        n_parts : int
-            There are fewer parts if the shape cannot be split into so many.
-
-        Returns
-        -------
-        Steps of Search
-            `best_k` is the k that `best` chooses. The steps yield `Progress`; `run`
-            returns the search.
-        """
-        searched = yield from within(self.best(), 0.0, 0.6)
-        chosen = searched.seams.parts
-        if count_parts(chosen) == n_parts:
-            return searched
-        fewest = min(n_parts, self.low)
-        tried = yield from within(self._candidates(fewest, self.high), 0.6, 0.7)
-        if n_parts > self.high:
-            tried = yield from within(self._with_more(tried, n_parts), 0.7, 0.8)
-        made = min(n_parts, max(tried))
-        seams = yield from within(self.seams.cut(tried[made].parts), 0.8, 0.9)
-        psi_by_k = self._psi_of_sight({made: tried[made]}) | searched.psi_by_k
-        steps = self.partitioner.resized_in_steps(chosen, made)
-        nested = yield from within(steps, 0.9, 0.9)
-        smooth = yield from within(self.seams.cut(nested), 0.9, 1.0)
-        parts = self._creases.better(seams.parts, made, made, nested, smooth.parts)
-        if parts is not seams.parts:
-            seams = Seams(parts)
-            psi_by_k |= {made: self.partitioner.psi_seen(parts)}
-        return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
-
     @property
     def searched(self) -> bool:
         """Whether all numbers were tried before."""
-        return (self.low, self.high) in self._memo
+        return (self.low, self.high) in self.memo.searches
 
     def tried(self) -> Steps[dict[int, Candidate]]:
         """Return the candidate for one part, and for each number that is tried."""
-        return self._candidates(self.low, self.high)
+        return self.candidates(self.low, self.high)
 
     def alone(self, n_parts: int) -> Steps[Candidate]:
         """Return the candidate for a number of parts, found without the others."""
@@ -187,9 +151,11 @@ class PartCountSearch:
         seen = self.partitioner.psi_seen
         return {k: seen(candidate.parts) for k, candidate in tried.items()}
 
-    def _candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
+    def candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Return candidates for 1 and `low`…`high` parts, from the memo if known."""
-        return self._memo.recall_steps((low, high), partial(self._try, low, high))
+        return self.memo.searches.recall_steps(
+            (low, high), partial(self._try, low, high)
+        )
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
@@ -206,14 +172,6 @@ class PartCountSearch:
             yield Progress("Number of parts", 0.8 + 0.1 * done)
             tried[n_parts] = self.partitioner.better(n_parts, most)
         return (yield from within(self._evened(tried), 0.9, 1.0))
-
-    def _with_more(
-        self, tried: dict[int, Candidate], n_parts: int
-    ) -> Steps[dict[int, Candidate]]:
-        """Add the candidate for `n_parts`, which is above the highest number tried."""
-        candidate = yield from within(self.alone(n_parts), 0.0, 0.8)
-        more = {count_parts(candidate.parts): candidate} | tried
-        return (yield from within(self._evened(more), 0.8, 1.0))
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:
         """Replace candidates by symmetric ones whose psi is not clearly lower."""

@@ -56,8 +56,9 @@ class CutMemo:
         Maps a number of parts to the connected parts from k-means' clusters.
     even : Memo
         Maps the number of a side and the digest of parts to symmetric parts.
-    searches : Memo
-        Maps the first and last number tried to the candidate for each number.
+    searches, given : Memo
+        Map the first and last number tried to the candidate for each number, and with a
+        number given before, and a smoothness behind, to the result for that number.
     seams, looks, fine : Memo
         Map a smoothness and the digest of parts to the parts with their seams cut, well
         or for a first look, and parts of patches to those of the nodes in them.
@@ -68,6 +69,7 @@ class CutMemo:
         self.merged: Memo[tuple[int, int], Candidate] = Memo()
         self.plain: Memo[int, Labels] = Memo()
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
+        self.given: Memo[tuple[int, int, int, float], Any] = Memo(32)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
         self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
         self.looks: Memo[tuple[float, bytes], Any] = Memo(32)

@@ -21,7 +21,7 @@ from .part_psi import PartPsi, count_parts
 # Weight of positions (in diagonals) relative to coordinates of the embedding.
 _PLACE_WEIGHT = 1e-3
 # If k clusters make fewer than k parts, try so many additional clusters, in turn.
-_TRIES = (0, 1, 2, 4, 8)
+TRIES = (0, 1, 2, 4, 8)
 
 
 class Partitioner(PartPsi):
@@ -50,10 +50,6 @@ class Partitioner(PartPsi):
         self.smallest_area = parameters.smallest_part * self.graph.areas.sum()
         self._cut = memo.cut(parameters)
         self._of_clusters = memo.clusters(parameters)
-
-    def knows(self, n_parts: int) -> bool:
-        """Return whether the `candidate` for `n_parts` is known already."""
-        return n_parts in self._cut.candidates
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts and their psi; fewer parts if no more are possible."""
@@ -161,7 +157,7 @@ class Partitioner(PartPsi):
         )
 
     def _split_in_steps(
-        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = _TRIES
+        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = TRIES
     ) -> Steps[NDArray[np.int64]]:
         """Split parts along the borders of k-means' clusters, up to `n_parts` parts."""
         most = parts
@@ -217,7 +213,7 @@ class Partitioner(PartPsi):
         return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
     def resized_in_steps(
-        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = _TRIES
+        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = TRIES
     ) -> Steps[NDArray[np.int64]]:
         """Return parts (P,) split or merged so that there are `n_parts`.
 

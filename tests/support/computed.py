@@ -85,5 +85,5 @@ def search_part_count(memo, parameters, low, high):
     """Return what the search for the number of parts finds, and its partitioner."""
     partitioner, cut = Partitioner(memo, parameters), memo.cut(parameters)
     cutter = SeamCutter(partitioner, cut.seams)
-    search = PartCountSearch(partitioner, cutter, low, high, cut.searches)
+    search = PartCountSearch(partitioner, cutter, low, high, cut)
     return run(search.best()), partitioner

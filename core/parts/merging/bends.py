@@ -5,6 +5,7 @@ from __future__ import annotations
 from ...parameters.parts import Parameters
 from ...steps.progress import Steps, within, within_turn
 from ..part_count import PartCountSearch, Search
+from ..part_count_given import given
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from ..seams.cutter import Seams
@@ -38,11 +39,11 @@ def with_bends_kept(
     for turn, k in enumerate(tried):
         if left >= n_parts:
             break
-        steps = within_turn(search.given(k), turn, len(tried))
+        steps = within_turn(given(search, k), turn, len(tried))
         found = yield from within(steps, 0.5, 0.9)
         merged = yield from merger.merge(found.seams.parts)
         left = count_parts(merged)
     if n_parts and left != n_parts:
-        found = yield from within(search.given(n_parts), 0.9, 1.0)
+        found = yield from within(given(search, n_parts), 0.9, 1.0)
         merged = found.seams.parts
     return Search(Seams(merged, found.seams.smoothness), found.psi_by_k, best_k)

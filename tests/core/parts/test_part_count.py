@@ -9,9 +9,8 @@ import shapes
 from computed import decompose, graph_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
-from weak_convex_decomposition.core.parts.part_memo import Candidate
+from weak_convex_decomposition.core.parts.part_memo import Candidate, CutMemo
 from weak_convex_decomposition.core.parts.seams.cutter import Seams
-from weak_convex_decomposition.core.steps.memo import Memo
 from weak_convex_decomposition.core.steps.progress import run
 
 # Psi of 1 to 6 parts: 3 to 6 are good enough.
@@ -45,8 +44,8 @@ def chosen(even, alpha=2.0, guessed=False):
     tried = {
         k: Candidate(np.arange(k), psi, k in even) for k, psi in enumerate(PSI, start=1)
     }
-    memo = Memo()
-    memo.recall((2, 6), lambda: tried)
+    memo = CutMemo()
+    memo.searches.recall((2, 6), lambda: tried)
     known = KnownParts(alpha, guessed)
     return run(PartCountSearch(known, known, 2, 6, memo).best()).best_k
 
@@ -74,8 +73,8 @@ def test_psi_of_sight_decides_on_the_number():
             return self.psi(parts) if parts.max() < 4 else 0.0
 
     tried = {k: Candidate(np.arange(k), psi) for k, psi in enumerate(PSI, start=1)}
-    memo = Memo()
-    memo.recall((2, 6), lambda: tried)
+    memo = CutMemo()
+    memo.searches.recall((2, 6), lambda: tried)
     known = Guessed(10.0, True)
     found = run(PartCountSearch(known, known, 2, 6, memo).best())
     assert (found.best_k, found.psi_by_k[5]) == (3, 0.0)

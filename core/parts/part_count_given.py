@@ -1,0 +1,97 @@
+"""Finds a number of parts that the user gives."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..steps.progress import Steps, within
+from .part_count import PartCountSearch, Search
+from .part_psi import count_parts
+from .partition import TRIES
+from .seams.cutter import Seams
+
+# The same as `TRIES` for many parts: with two more, one k-means is mostly enough.
+_TRIES = (2, 8)
+
+
+def given(search: PartCountSearch, n_parts: int) -> Steps[Search]:
+    """Return a number of parts, with the psi of other numbers for comparison.
+
+    These are the parts that the search chooses, if they are so many. Otherwise those
+    compete too, split or merged. The largest psi wins, less what seams cost.
+
+    Parameters
+    ----------
+    search : PartCountSearch
+    n_parts : int
+        There are fewer parts if the shape cannot be split into so many.
+
+    Returns
+    -------
+    Steps of Search
+        `best_k` is the k that the search chooses. The steps yield `Progress`; `run`
+        returns the search.
+    """
+    return search.memo.given.recall_steps(
+        _key(search, n_parts), lambda: _find(search, n_parts)
+    )
+
+
+def knows(search: PartCountSearch, n_parts: int) -> bool:
+    """Return whether the result of `given` is known already."""
+    return _key(search, n_parts) in search.memo.given
+
+
+def _key(search: PartCountSearch, n_parts: int) -> tuple[int, int, int, float]:
+    """Return the key under which the result of `given` is kept."""
+    smoothness = search.partitioner.parameters.smoothness
+    return n_parts, search.low, search.high, smoothness
+
+
+def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
+    """Return what `given` does."""
+    searched = yield from within(search.best(), 0.0, 0.6)
+    chosen, by = searched.seams.parts, search.partitioner
+    if count_parts(chosen) == n_parts:
+        return searched
+    own = yield from within(own_parts(search, n_parts), 0.6, 0.7)
+    made, many = count_parts(own), n_parts > search.high
+    steps = by.resized_in_steps(chosen, made, _TRIES if many else TRIES)
+    rivals = [own, (yield from within(steps, 0.7, 0.8))]
+    if many:  # to cut their seams takes long
+        rivals = [max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))]
+    first, *others = rivals
+    least = least_psi(search, n_parts)
+    seams = yield from within(search.seams.cut(first, least), 0.8, 0.9)
+    for rival in tuple(others):
+        others.append((yield from within(search.seams.cut(rival), 0.9, 1.0)).parts)
+    psi_by_k = {made: by.psi_seen(first)} | searched.psi_by_k
+    parts = search.creases.better(seams.parts, made, made, *others)
+    if parts is not seams.parts:
+        seams = Seams(parts)
+        psi_by_k |= {made: by.psi_seen(parts)}
+    return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
+
+
+def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]:
+    """Return parts (P,) that are found for a number, before their seams are cut.
+
+    More parts than the search tries are the most that it tries, split further. They
+    have a larger psi than what k-means finds for so many, and take less time.
+    """
+    low, high, by = search.low, search.high, search.partitioner
+    tried = yield from search.candidates(min(n_parts, low), high)
+    if n_parts <= high:
+        return tried[min(n_parts, max(tried))].parts
+    if not by.by_psi:
+        return (yield from search.alone(n_parts)).parts
+    return (yield from by.resized_in_steps(tried[max(tried)].parts, n_parts, _TRIES))
+
+
+def least_psi(search: PartCountSearch, n_parts: int) -> float | None:
+    """Return what psi may fall to as the seams of `own_parts` are cut.
+
+    None stands for what k-means alone finds. For many parts that takes long to know.
+    """
+    return None if n_parts <= search.high else -np.inf
