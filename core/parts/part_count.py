@@ -159,9 +159,11 @@ class PartCountSearch:
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
-        tried = {1: self.partitioner.candidate(1)}
-        for turn, n_parts in enumerate(range(low, high + 1)):
-            steps = within_turn(self.alone(n_parts), turn, high + 1 - low)
+        by = self.partitioner
+        tried = {1: by.candidate(1)}
+        own = [k for k in range(low, high + 1) if by.has_own(k, high)]
+        for turn, n_parts in enumerate(own):
+            steps = within_turn(self.alone(n_parts), turn, len(own))
             candidate = yield from within(steps, 0.0, 0.8)
             tried.setdefault(count_parts(candidate.parts), candidate)
             if count_parts(candidate.parts) < n_parts:
@@ -170,7 +172,7 @@ class PartCountSearch:
         for n_parts in range(most - 1, low - 1, -1):
             done = (most - n_parts) / (most + 1 - low)
             yield Progress("Number of parts", 0.8 + 0.1 * done)
-            tried[n_parts] = self.partitioner.better(n_parts, most)
+            tried[n_parts] = by.better(n_parts, most)
         return (yield from within(self._evened(tried), 0.9, 1.0))
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:

@@ -81,9 +81,14 @@ def cut_seams_of(partitioner, memo, parts):
     return run(cutter.cut(parts)).parts
 
 
-def search_part_count(memo, parameters, low, high):
-    """Return what the search for the number of parts finds, and its partitioner."""
+def part_count_search(memo, parameters, low, high):
+    """Return a search for the number of parts."""
     partitioner, cut = Partitioner(memo, parameters), memo.cut(parameters)
     cutter = SeamCutter(partitioner, cut.seams)
-    search = PartCountSearch(partitioner, cutter, low, high, cut)
-    return run(search.best()), partitioner
+    return PartCountSearch(partitioner, cutter, low, high, cut)
+
+
+def search_part_count(memo, parameters, low, high):
+    """Return what the search for the number of parts finds, and its partitioner."""
+    search = part_count_search(memo, parameters, low, high)
+    return run(search.best()), search.partitioner

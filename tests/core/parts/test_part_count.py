@@ -6,10 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of
+from computed import decompose, graph_of, part_count_search, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
+from weak_convex_decomposition.core.parts.part_count_given import given, own_parts
 from weak_convex_decomposition.core.parts.part_memo import Candidate, CutMemo
+from weak_convex_decomposition.core.parts.part_psi import count_parts
 from weak_convex_decomposition.core.parts.seams.cutter import Seams
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -88,3 +90,40 @@ def test_parts_given_are_those_chosen_split_or_merged(number):
     both = set(zip(chosen.labels, given.labels, strict=True))
     assert (chosen.n_parts, given.n_parts, given.best_k) == (3, number, 3)
     assert len(both) == max(3, number)
+
+
+@pytest.fixture(scope="module")
+def comb():
+    """Return the visibility of a comb."""
+    return see(shapes.comb(), Parameters(samples=500))
+
+
+def test_above_five_every_second_number_has_parts_of_its_own(comb):
+    search = part_count_search(comb, Parameters(samples=500), 2, 10)
+    tried = run(search.tried())
+    known = [k for k in range(1, 12) if k in search.memo.candidates]
+    assert known == [1, 2, 3, 4, 5, 6, 8, 10]
+    assert sorted(tried) == list(range(1, 11))
+    assert all(count_parts(tried[k].parts) == k for k in tried)
+
+
+def test_the_papers_way_looks_for_every_number_itself(comb):
+    paper = Parameters(samples=500, refinement="EMBEDDING")
+    search = part_count_search(comb, paper, 2, 10)
+    run(search.tried())
+    assert [k for k in range(1, 12) if k in search.memo.candidates] == [*range(1, 11)]
+
+
+def test_more_parts_than_are_tried_have_a_larger_psi_than_clusters(comb):
+    search = part_count_search(comb, Parameters(samples=500), 2, 8)
+    own = run(own_parts(search, 14))
+    assert count_parts(own) == 14
+    assert search.partitioner.psi(own) > run(search.alone(14)).psi
+
+
+def test_parts_given_are_kept(comb):
+    search = part_count_search(comb, Parameters(samples=500), 2, 8)
+    first = run(given(search, 12))
+    assert run(given(search, 12)) is first
+    assert count_parts(first.seams.parts) == 12
+    assert first.best_k == run(search.best()).best_k
