@@ -23,8 +23,8 @@ _PLACE_WEIGHT = 1e-3
 # If k clusters make fewer than k parts, try so many additional clusters, in turn.
 TRIES = (0, 1, 2, 4, 8)
 
-# Above this number only odd ones get parts of their own in a search. For even ones,
-# parts of one more are merged: errors on the benchmark are the same.
+# Above this number only every second one gets parts of its own in a search. For those
+# between, parts of one more are merged: errors on the benchmark are the same.
 _ALL_OWN = 5
 
 
@@ -66,8 +66,7 @@ class Partitioner(PartPsi):
 
     def has_own(self, n_parts: int, most: int) -> bool:
         """Return whether a search up to `most` makes parts for this number itself."""
-        odd = n_parts % 2 == 1
-        return odd or n_parts <= _ALL_OWN or n_parts >= most or not self.by_psi
+        return n_parts <= _ALL_OWN or (most - n_parts) % 2 == 0 or not self.by_psi
 
     def better(self, n_parts: int, most: int) -> Candidate:
         """Return the best of the candidate and of merged candidates with more parts.

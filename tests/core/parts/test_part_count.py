@@ -98,11 +98,11 @@ def comb():
     return see(shapes.comb(), Parameters(samples=500))
 
 
-def test_above_five_odd_numbers_and_the_last_have_parts_of_their_own(comb):
+def test_above_five_every_second_number_has_parts_of_its_own(comb):
     search = part_count_search(comb, Parameters(samples=500), 2, 10)
     tried = run(search.tried())
     known = [k for k in range(1, 12) if k in search.memo.candidates]
-    assert known == [1, 2, 3, 4, 5, 7, 9, 10]
+    assert known == [1, 2, 3, 4, 5, 6, 8, 10]
     assert sorted(tried) == list(range(1, 11))
     assert all(count_parts(tried[k].parts) == k for k in tried)
 
