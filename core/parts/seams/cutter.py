@@ -79,17 +79,8 @@ class SeamCutter:
         Steps of Seams
             The steps yield `Progress`; `run` returns the new parts.
         """
-        return self._memo.recall_steps(
-            self._key(parts), lambda: self._cut(parts, enough)
-        )
-
-    def knows(self, parts: NDArray[np.int64]) -> bool:
-        """Return whether parts (P,) with smooth seams are known already."""
-        return self._key(parts) in self._memo
-
-    def _key(self, parts: NDArray[np.int64]) -> tuple[float, bytes]:
-        """Return the key under which parts with smooth seams are kept."""
-        return self._smoothness, digest(parts)
+        key = self._smoothness, digest(parts)
+        return self._memo.recall_steps(key, lambda: self._cut(parts, enough))
 
     def _cut(self, parts: NDArray[np.int64], enough: float | None) -> Steps[Seams]:
         """Return the parts with smooth seams."""
