@@ -11,8 +11,8 @@ from .part_psi import count_parts
 from .partition import TRIES
 from .seams.cutter import Seams
 
-# The same as `TRIES` for many parts: with two more, one k-means is mostly enough.
-_TRIES = (2, 8)
+# In place of `TRIES` for many parts: with two more, one k-means is mostly enough.
+_FEW_TRIES = (2, 8)
 
 
 def given(search: PartCountSearch, n_parts: int) -> Steps[Search]:
@@ -57,7 +57,7 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
         return searched
     own = yield from within(own_parts(search, n_parts), 0.6, 0.7)
     made, many = count_parts(own), n_parts > search.high
-    steps = by.resized_in_steps(chosen, made, _TRIES if many else TRIES)
+    steps = by.resized_in_steps(chosen, made, _FEW_TRIES if many else TRIES)
     rivals = [own, (yield from within(steps, 0.7, 0.8))]
     if many:  # to cut their seams takes long
         rivals = [max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))]
@@ -86,7 +86,9 @@ def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]
         return tried[min(n_parts, max(tried))].parts
     if not by.by_psi:
         return (yield from search.alone(n_parts)).parts
-    return (yield from by.resized_in_steps(tried[max(tried)].parts, n_parts, _TRIES))
+    return (
+        yield from by.resized_in_steps(tried[max(tried)].parts, n_parts, _FEW_TRIES)
+    )
 
 
 def least_psi(search: PartCountSearch, n_parts: int) -> float | None:
