@@ -17,6 +17,8 @@ from ..sight.pair_visibility import Matrix
 _MOST_IN_DOUBLE = 4_000
 # Largest noise that is added to the diagonal of the matrix.
 _NOISE = 1e-7
+# Eigenvectors are computed in multiples of this: a default search needs 13.
+_COORDINATES = 13
 # Relative difference below which two entries of an eigenvector count as equally large.
 _SAME = 1e-3
 
@@ -94,3 +96,16 @@ def _shifted_walk(
         return scales * product + (1 + _NOISE * noise) * vector
 
     return LinearOperator(affinity.shape, multiply, dtype=np.float64)
+
+
+def coordinates_for(n_parts: int) -> int:
+    """Return the number of coordinates by which a number of parts is found.
+
+    Eigenvectors depend slightly on how many are computed. Their number is always a
+    multiple of 13, so that parts do not depend on the largest number tried.
+
+    Parameters
+    ----------
+    n_parts : int
+    """
+    return _COORDINATES * -(-n_parts // _COORDINATES)

@@ -53,7 +53,7 @@ def guess(
         parts = yield from within(own_parts(search, n_parts), 0.0, 0.6)
     else:
         parts = (yield from within(search.alone(n_parts), 0.0, 0.6)).parts
-    cutter = SeamCutter(search.partitioner, memo, _SWEEPS)
+    cutter = SeamCutter(search.partitioner, memo, _SWEEPS, even=False)
     seams = yield from within(cutter.cut(parts, least_psi(search, n_parts)), 0.6, 1.0)
     psi_by_k = {count_parts(parts): search.partitioner.psi_seen(parts)}
     return Search(seams, psi_by_k, 0)

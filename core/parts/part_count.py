@@ -21,6 +21,9 @@ _WIDE_TOLERANCE = 0.035
 # A larger alpha scales all gains alike, so that alone it would hardly change k. Above
 # this alpha, which is the default, tolerances fall as alpha grows.
 _TOLERANT_ALPHA = 2.0
+# Above this number only every second one gets parts of its own. For those between,
+# parts of one more are merged: errors on the benchmark are the same.
+_ALL_OWN = 5
 # Symmetric parts are preferred up to this number, times k.
 _MORE = 1.5
 
@@ -110,9 +113,16 @@ class PartCountSearch:
         """Whether all numbers were tried before."""
         return (self.low, self.high) in self.memo.searches
 
-    def tried(self) -> Steps[dict[int, Candidate]]:
-        """Return the candidate for one part, and for each number that is tried."""
-        return self.candidates(self.low, self.high)
+    def tried(self, low: int | None = None) -> Steps[dict[int, Candidate]]:
+        """Return the candidate for one part, and for each number tried, if it is made.
+
+        Parameters
+        ----------
+        low : int, optional
+            First number, in place of the search's own.
+        """
+        numbers = self.low if low is None else low, self.high
+        return self.memo.searches.recall_steps(numbers, partial(self._try, *numbers))
 
     def alone(self, n_parts: int) -> Steps[Candidate]:
         """Return the candidate for a number of parts, found without the others."""
@@ -151,29 +161,40 @@ class PartCountSearch:
         seen = self.partitioner.psi_seen
         return {k: seen(candidate.parts) for k, candidate in tried.items()}
 
-    def candidates(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
-        """Return candidates for 1 and `low`…`high` parts, from the memo if known."""
-        return self.memo.searches.recall_steps(
-            (low, high), partial(self._try, low, high)
-        )
-
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
-        by = self.partitioner
-        tried = {1: by.candidate(1)}
-        own = [k for k in range(low, high + 1) if by.has_own(k, high)]
-        for turn, n_parts in enumerate(own):
-            steps = within_turn(self.alone(n_parts), turn, len(own))
-            candidate = yield from within(steps, 0.0, 0.8)
-            tried.setdefault(count_parts(candidate.parts), candidate)
-            if count_parts(candidate.parts) < n_parts:
-                break
-        most = max(tried)
-        for n_parts in range(most - 1, low - 1, -1):
-            done = (most - n_parts) / (most + 1 - low)
-            yield Progress("Number of parts", 0.8 + 0.1 * done)
-            tried[n_parts] = by.better(n_parts, most)
+        by, top = self.partitioner, (yield from within(self.alone(high), 0.0, 0.2))
+        most = count_parts(top.parts)
+        tried = {1: by.candidate(1), most: top}
+        fewer = range(most - 1, max(low, 2) - 1, -1)
+        for turn, n_parts in enumerate(fewer):
+            steps = self._with_fewer(tried[n_parts + 1], n_parts, most)
+            within_this = within_turn(steps, turn, len(fewer))
+            tried[n_parts] = yield from within(within_this, 0.2, 0.9)
         return (yield from within(self._evened(tried), 0.9, 1.0))
+
+    def _with_fewer(self, more: Candidate, n_parts: int, most: int) -> Steps[Candidate]:
+        """Return the candidate for a number of parts, or merged parts if better.
+
+        With more clusters, k-means may find a part that it misses with fewer.
+
+        Parameters
+        ----------
+        more : Candidate
+            For one part more.
+        n_parts : int
+        most : int
+            Largest number of parts that was made.
+        """
+        by = self.partitioner
+        parts = by.merged(more.parts, n_parts)
+        merged = Candidate(parts, by.psi(parts))
+        if by.by_psi and n_parts > _ALL_OWN and (most - n_parts) % 2:
+            return merged
+        own = yield from self.alone(n_parts)
+        is_short = count_parts(own.parts) < n_parts
+        is_worse = by.by_psi and own.psi < merged.psi
+        return merged if is_short or is_worse else own
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:
         """Replace candidates by symmetric ones whose psi is not clearly lower."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..clusters.embedding import coordinates_for
 from ..steps.progress import Steps, within
 from .part_count import PartCountSearch, Search
 from .part_psi import count_parts
-from .partition import TRIES
 from .seams.cutter import Seams
 
-# In place of `TRIES` for many parts: with two more, one k-means is mostly enough.
+# How many more clusters than parts many are split by, in turn. With two more, one
+# k-means is mostly enough.
 _FEW_TRIES = (2, 8)
 
 
@@ -57,8 +58,8 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
         return searched
     own = yield from within(own_parts(search, n_parts), 0.6, 0.7)
     made, many = count_parts(own), n_parts > search.high
-    steps = by.resized_in_steps(chosen, made, _FEW_TRIES if many else TRIES)
-    rivals = [own, (yield from within(steps, 0.7, 0.8))]
+    resized = yield from within(_resized(search, chosen, made), 0.7, 0.8)
+    rivals = [own, resized]
     if many:  # to cut their seams takes long
         rivals = [max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))]
     first, *others = rivals
@@ -81,14 +82,27 @@ def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]
     have a larger psi than what k-means finds for so many, and take less time.
     """
     low, high, by = search.low, search.high, search.partitioner
-    tried = yield from search.candidates(min(n_parts, low), high)
+    tried = yield from search.tried(min(n_parts, low))
     if n_parts <= high:
         return tried[min(n_parts, max(tried))].parts
     if not by.by_psi:
         return (yield from search.alone(n_parts)).parts
-    return (
-        yield from by.resized_in_steps(tried[max(tried)].parts, n_parts, _FEW_TRIES)
-    )
+    return (yield from _resized(search, tried[max(tried)].parts, n_parts))
+
+
+def _resized(
+    search: PartCountSearch, parts: NDArray[np.int64], n_parts: int
+) -> Steps[NDArray[np.int64]]:
+    """Return parts (P,) split or merged so that there are `n_parts`.
+
+    For many, they are split into as many as the embedding serves, and these merged. So
+    the same clusters serve all such numbers, and one part more divides one part.
+    """
+    by = search.partitioner
+    if n_parts <= search.high:
+        return by.resized_in_steps(parts, n_parts)
+    most = coordinates_for(n_parts)
+    return by.resized_in_steps(parts, n_parts, most, _FEW_TRIES)
 
 
 def least_psi(search: PartCountSearch, n_parts: int) -> float | None:

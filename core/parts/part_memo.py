@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..clusters.embedding import embed
+from ..clusters.embedding import coordinates_for, embed
 from ..geometry.face_graph import FaceGraph
 from ..geometry.patches import MOST_NODES, Patches, find_patches
 from ..geometry.symmetry import Plane, Side, find_plane, find_sides
@@ -20,9 +20,6 @@ from ..steps.progress import Steps, run, within
 from .details.surface import PartSurface
 
 Labels: TypeAlias = NDArray[np.int64]
-
-# Eigenvectors are computed in multiples of this: a default search needs 13.
-_COORDINATES = 13
 
 
 class Candidate(NamedTuple):
@@ -50,8 +47,6 @@ class CutMemo:
     ----------
     candidates : Memo
         Maps a number of parts to its candidate.
-    merged : Memo
-        Maps a number of parts, and the largest number tried, to the better candidate.
     plain : Memo
         Maps a number of parts to the connected parts from k-means' clusters.
     even : Memo
@@ -66,7 +61,6 @@ class CutMemo:
 
     def __init__(self) -> None:
         self.candidates: Memo[int, Candidate] = Memo()
-        self.merged: Memo[tuple[int, int], Candidate] = Memo()
         self.plain: Memo[int, Labels] = Memo()
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.given: Memo[tuple[int, int, int, float], Any] = Memo(32)
@@ -163,9 +157,6 @@ class PartMemo:
     def embedding(self, n_parts: int, parameters: Parameters) -> NDArray[np.float64]:
         """Return the embedding of the samples, with enough coordinates for the parts.
 
-        Eigenvectors depend slightly on how many are computed. Their number is always a
-        multiple of 13, so that parts do not depend on the largest number tried.
-
         Parameters
         ----------
         n_parts : int
@@ -178,7 +169,7 @@ class PartMemo:
         (N, n) float
             Leading eigenvectors; n < `n_parts` only if there are too few samples.
         """
-        n_coordinates = _COORDINATES * -(-n_parts // _COORDINATES)
+        n_coordinates = coordinates_for(n_parts)
         stochastic = parameters.normalization == "STOCHASTIC"
         return self._embeddings.recall(
             (n_coordinates, stochastic),

@@ -21,11 +21,7 @@ from .part_psi import PartPsi, count_parts
 # Weight of positions (in diagonals) relative to coordinates of the embedding.
 _PLACE_WEIGHT = 1e-3
 # If k clusters make fewer than k parts, try so many additional clusters, in turn.
-TRIES = (0, 1, 2, 4, 8)
-
-# Above this number only every second one gets parts of its own in a search. For those
-# between, parts of one more are merged: errors on the benchmark are the same.
-_ALL_OWN = 5
+_TRIES = (0, 1, 2, 4, 8)
 
 
 class Partitioner(PartPsi):
@@ -63,39 +59,6 @@ class Partitioner(PartPsi):
             return Candidate(parts, self.psi(parts))
 
         return self._cut.candidates.recall(n_parts, make)
-
-    def has_own(self, n_parts: int, most: int) -> bool:
-        """Return whether a search up to `most` makes parts for this number itself."""
-        return n_parts <= _ALL_OWN or (most - n_parts) % 2 == 0 or not self.by_psi
-
-    def better(self, n_parts: int, most: int) -> Candidate:
-        """Return the best of the candidate and of merged candidates with more parts.
-
-        With more clusters, k-means may find a part that it misses with fewer. Numbers
-        without a candidate of their own have merged ones.
-
-        Parameters
-        ----------
-        n_parts : int
-        most : int
-            Largest number of parts to merge from.
-
-        Returns
-        -------
-        Candidate
-        """
-        own = self.candidate(n_parts) if self.has_own(n_parts, most) else None
-        if own is not None and (n_parts >= most or not self.by_psi):
-            return own
-
-        def make() -> Candidate:
-            merged = self.merged(self.better(n_parts + 1, most).parts, n_parts)
-            found = Candidate(merged, self.psi(merged))
-            if own is None or count_parts(own.parts) < n_parts:
-                return found
-            return found if found.psi > own.psi else own
-
-        return self._cut.merged.recall((n_parts, most), make)
 
     def symmetric(
         self, parts: NDArray[np.int64], wanted: Container[int]
@@ -167,7 +130,7 @@ class Partitioner(PartPsi):
         )
 
     def _split_in_steps(
-        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = TRIES
+        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = _TRIES
     ) -> Steps[NDArray[np.int64]]:
         """Split parts along the borders of k-means' clusters, up to `n_parts` parts."""
         most = parts
@@ -223,7 +186,11 @@ class Partitioner(PartPsi):
         return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
     def resized_in_steps(
-        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = TRIES
+        self,
+        parts: NDArray[np.int64],
+        n_parts: int,
+        most: int = 0,
+        tries: Sequence[int] = _TRIES,
     ) -> Steps[NDArray[np.int64]]:
         """Return parts (P,) split or merged so that there are `n_parts`.
 
@@ -231,6 +198,8 @@ class Partitioner(PartPsi):
         ----------
         parts : (P,) int
         n_parts : int
+        most : int, optional
+            Split up to so many parts first, then merge them.
         tries : sequence of int, optional
             How many more clusters than parts to split by, in turn, until they do.
 
@@ -238,7 +207,7 @@ class Partitioner(PartPsi):
         -------
         Steps of (P,) int
         """
-        split = yield from self._split_in_steps(parts, n_parts, tries)
+        split = yield from self._split_in_steps(parts, max(n_parts, most), tries)
         return self._at_most(n_parts, split)
 
     def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:

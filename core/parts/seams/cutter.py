@@ -46,6 +46,8 @@ class SeamCutter:
         Maps a smoothness and the digest of parts to the parts with their seams cut.
     sweeps : int, optional
         Largest number of sweeps of a cut over all parts.
+    even : bool, optional
+        Whether seams are made symmetric to the mirror plane.
     """
 
     def __init__(
@@ -53,8 +55,11 @@ class SeamCutter:
         partitioner: Partitioner,
         memo: Memo[tuple[float, bytes], Seams],
         sweeps: int = SWEEPS,
+        *,
+        even: bool = True,
     ) -> None:
         self._partitioner, self._sweeps = partitioner, sweeps
+        self._even = even and partitioner.by_psi
         self._smoothness = partitioner.parameters.smoothness
         self._memo = memo
 
@@ -100,20 +105,40 @@ class SeamCutter:
             weight = share * self._smoothness
             steps = cut_seams(partitioner.graph, parts, costs, weight, self._sweeps)
             cut = yield from within(steps, 0.0, 0.9)
-            areas = np.bincount(cut, partitioner.graph.areas, n_parts)
-            swallowed = areas <= partitioner.smallest_area
-            cut = partitioner.tidied(np.where(swallowed[parts], parts, cut), n_parts)
+            cut = partitioner.tidied(self._none_lost(cut, parts, n_parts), n_parts)
             if count_parts(cut) == n_parts and partitioner.psi(cut) >= enough:
                 cut = yield from within(self._evened(cut, enough), 0.9, 1.0)
                 return Seams(cut, weight)
         return Seams(parts)
+
+    def _none_lost(
+        self, cut: NDArray[np.int64], parts: NDArray[np.int64], n_parts: int
+    ) -> NDArray[np.int64]:
+        """Return the cut labels (P,), where parts are lost those of `parts`.
+
+        A part is lost if none of its pieces is large enough. One that comes back may
+        take what another needs, so that it comes back too.
+        """
+        graph, smallest = self._partitioner.graph, self._partitioner.smallest_area
+        labels, lost = cut, np.zeros(n_parts, dtype=bool)
+        while True:
+            pieces = graph.pieces(labels, smallest)
+            areas, of_pieces = graph.areas_of(pieces), np.zeros(n_parts)
+            label_of = np.zeros(len(areas), dtype=np.int64)
+            label_of[pieces] = labels
+            np.maximum.at(of_pieces, label_of, areas)
+            more = (of_pieces <= smallest) & ~lost
+            if not more.any():
+                return labels
+            lost |= more
+            labels = np.where(lost[parts], parts, cut)
 
     def _evened(
         self, parts: NDArray[np.int64], enough: float
     ) -> Steps[NDArray[np.int64]]:
         """Return parts symmetric to the mirror plane, if psi is still high enough."""
         partitioner = self._partitioner
-        if not partitioner.by_psi:
+        if not self._even:
             return parts
         even = yield from partitioner.symmetric(parts, {count_parts(parts)})
         best = max(even, key=lambda each: each.psi, default=None)

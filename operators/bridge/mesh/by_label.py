@@ -168,9 +168,11 @@ def _vertices(
         members = np.zeros((min(at_once, n_labels - first), n_vertices), dtype=bool)
         for rows in blocks(len(vertices)):
             yield Progress("Writing", first / n_labels)
-            of_corners = labels[faces[rows]]
-            here = (of_corners >= first) & (of_corners < first + len(members))
-            members[of_corners[here] - first, vertices[rows][here]] = True
+            of_corners, here = labels[faces[rows]] - first, vertices[rows]
+            if len(members) < n_labels:
+                fit = (of_corners >= 0) & (of_corners < len(members))
+                of_corners, here = of_corners[fit], here[fit]
+            members.reshape(-1)[of_corners * n_vertices + here] = True  # quicker flat
         for of_label in members:
             yield Progress("Writing", first / n_labels)
             found.append(np.flatnonzero(of_label).tolist())

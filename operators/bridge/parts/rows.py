@@ -20,6 +20,8 @@ from .renaming import color_of_part, recolor_part, rename_part
 
 # The choice of a part whose hull has the shape that is set for all.
 AS_SET = "AS_SET"
+# The number of a row that is being made.
+_NO_NUMBER = -1
 # Why the latest name that was typed was not taken: the object, the number of the part
 # and a sentence. It is not in Blender's data, because undo would bring it back.
 _refused: tuple[int, int, str] | None = None
@@ -32,6 +34,8 @@ _looked: tuple[int, float] | None = None
 def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     global _refused
     obj = row.id_data
+    if row.number == _NO_NUMBER:  # it is being made
+        return
     name, reason = rename_part(obj, row.number, row.name.strip())
     if name != row.name:
         row.name = name  # this asks for the name that the part has, which is no news
@@ -77,7 +81,7 @@ WCD_PG_part.__annotations__ = {
         description="Name of the part, its vertex group and its material",
         update=_rename,
     ),
-    "number": bpy.props.IntProperty(options={"HIDDEN"}),
+    "number": bpy.props.IntProperty(default=_NO_NUMBER, options={"HIDDEN"}),
     "color": bpy.props.FloatVectorProperty(
         name="Color",
         description="Color of the part on this object",
@@ -137,7 +141,8 @@ def write_rows(
     active = 0
     for place, identity in enumerate(identities):
         row = obj.wcd_parts.add()
-        row.number, row.name = identity.number, identity.name
+        row.name = identity.name  # before the number: it is no news
+        row.number = identity.number
         before = kept.get(identity.number, Row(False, False, False, AS_SET))
         row.chosen, row.locked = before.chosen, before.locked
         row.hull_shape = before.hull_shape

@@ -21,7 +21,12 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..parts.continuing import face_areas
-from ..parts.present_parts import PresentParts, faces_by_hand, present_parts
+from ..parts.present_parts import (
+    PresentParts,
+    faces_by_hand,
+    has_faces_by_hand,
+    present_parts,
+)
 from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
@@ -105,11 +110,13 @@ def _may_hold(obj: bpy.types.Object, keep_edits: bool) -> bool:
     """Return whether something may be settled: to measure all parts takes longer."""
     if edit_refusal(obj) is not None:
         return False
+    locked = any(row.locked for row in obj.wcd_parts)
+    if not locked and not (keep_edits and has_faces_by_hand(obj)):
+        return False
     labels = part_labels(obj)
     if labels is None:
         return False
-    locked = any(row.locked for row in obj.wcd_parts)
-    return locked or (keep_edits and bool(faces_by_hand(obj, len(labels)).any()))
+    return locked or bool(faces_by_hand(obj, len(labels)).any())
 
 
 def _held(parts: PresentParts, by_hand: NDArray[np.bool_]) -> NDArray[np.bool_]:

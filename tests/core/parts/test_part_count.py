@@ -1,6 +1,7 @@
 """The number of parts: which of the tried ones is chosen."""
 
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -116,9 +117,20 @@ def test_the_papers_way_looks_for_every_number_itself(comb):
 
 def test_more_parts_than_are_tried_have_a_larger_psi_than_clusters(comb):
     search = part_count_search(comb, Parameters(samples=500), 2, 8)
-    own = run(own_parts(search, 14))
-    assert count_parts(own) == 14
-    assert search.partitioner.psi(own) > run(search.alone(14)).psi
+    psi, gains = search.partitioner.psi, []
+    for n_parts in range(9, 21):
+        own = run(own_parts(search, n_parts))
+        assert count_parts(own) == n_parts
+        gains.append(psi(own) - run(search.alone(n_parts)).psi)
+    assert np.mean(gains) > 0.002
+
+
+@pytest.mark.parametrize("numbers", [range(9, 14), range(14, 27)])
+def test_of_many_parts_one_more_divides_one(comb, numbers):
+    search = part_count_search(comb, Parameters(samples=500), 2, 8)
+    found = [run(own_parts(search, n_parts)) for n_parts in numbers]
+    for fewer, more in pairwise(found):
+        assert len(np.unique(np.stack([fewer, more]), axis=1).T) == count_parts(more)
 
 
 def test_parts_given_are_kept(comb):

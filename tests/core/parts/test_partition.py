@@ -1,12 +1,16 @@
 from dataclasses import replace
 
 import changes
+import numpy as np
 import pytest
 import shapes
 from computed import cut_seams_of, search_part_count
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_psi import count_parts
 from weak_convex_decomposition.core.parts.partition import Partitioner
+from weak_convex_decomposition.core.parts.seams.cutter import SeamCutter
+from weak_convex_decomposition.core.steps.memo import Memo
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def two_ls():
@@ -84,6 +88,16 @@ def test_seams_are_short_beside_parts_that_they_would_swallow(seen):
         partitioner.graph.borders(labels, 9).sum() for labels in (parts, cut)
     )
     assert after < before
+
+
+@pytest.mark.parametrize("n_parts", [5, 9])
+def test_parts_that_seams_would_swallow_do_not_soften_other_seams(seen, n_parts):
+    memo = seen(shapes.comb)
+    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=30.0))
+    parts = partitioner.partition(n_parts)
+    seams = run(SeamCutter(partitioner, Memo()).cut(parts, -np.inf))
+    assert seams.smoothness == 30.0
+    assert count_parts(seams.parts) == n_parts
 
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
