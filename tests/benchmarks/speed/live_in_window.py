@@ -2,6 +2,9 @@
 
     blender --python tests/window/drive.py -- tests/benchmarks/speed/live_in_window.py
 
+Where the processor draws, a small window shows best what the extension takes:
+SCREEN="900 700" .tools/blender_window run ROOT --python ...
+
 For each number of parts: the seconds from the setting until the parts are written, and
 until they, or their exact seams, are drawn; how much of that Blender drew viewports,
 and how often; and the longest step, which is the longest time of the processor in the
