@@ -6,10 +6,11 @@ import bpy
 import numpy as np
 import pytest
 from hand_made import (
-    areas,
+    activate,
     centers,
     decompose_by_hand,
     in_mode,
+    moved_apart,
 )
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.views.exploding import (
@@ -25,19 +26,10 @@ def call(name, **options):
 def test_parts_move_away_from_the_center_together(suzanne):
     labels = decompose_by_hand(suzanne, 4)
     before = snapshot(suzanne)["mesh"]
-    there = centers(suzanne)
-    weights = areas(suzanne.data)
-    middle = np.average(there, axis=0, weights=weights)
     for distance in (0.0, 0.7):
         assert call("explode", distance=distance) == {"FINISHED"}
-        moved = centers(suzanne) - there
-        for part in range(4):
-            mine = labels == part
-            own = np.average(there[mine], axis=0, weights=weights[mine])
-            expected = distance * (own - middle)
-            assert moved[mine] == pytest.approx(
-                np.tile(expected, (mine.sum(), 1)), abs=1e-5
-            )
+        expected = moved_apart(suzanne.data, labels, distance)
+        assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
     assert len(suzanne.modifiers) == len(bpy.data.node_groups) == 1
     assert snapshot(suzanne)["mesh"] == before
     owner, path = slider(exploding(suzanne))
@@ -52,6 +44,29 @@ def test_exploded_views_end(suzanne):
     assert bpy.ops.wcd.implode() == {"FINISHED"}
     assert snapshot(suzanne) == before
     assert not bpy.data.node_groups
+
+
+@pytest.mark.parametrize("colors", ["MATERIALS", "OVERLAY"])
+def test_a_view_from_before_a_join_moves_each_part_by_itself(suzanne, colors):
+    labels = decompose_by_hand(suzanne, 3)
+    call("show_colors", colors=colors)
+    bpy.ops.mesh.primitive_torus_add(location=(4, 0, 0))
+    torus = bpy.context.active_object
+    labels = np.append(labels, 3 + decompose_by_hand(torus, 2))
+    call("show_colors", colors=colors)
+    activate(suzanne)
+    call("explode", distance=0.7)
+    torus.select_set(True)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.object.join("EXEC_DEFAULT", True)
+    for step in (None, bpy.ops.ed.undo, bpy.ops.ed.redo):
+        if step is not None:
+            step()
+        suzanne = bpy.data.objects["Suzanne"]
+        own = labels[: len(suzanne.data.polygons)]
+        expected = moved_apart(suzanne.data, own, 0.7)
+        assert centers(suzanne) == pytest.approx(expected, abs=1e-5), step
+    assert len(labels) > 500 == len(labels) - 576
 
 
 def test_an_exploded_view_does_not_count_as_a_modifier(suzanne):
