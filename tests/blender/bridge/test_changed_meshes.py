@@ -4,20 +4,11 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from edited import FAST, check_in_step, parts_of, record_of
-from hand_made import (
-    activate,
-    bands,
-    centers,
-    decompose_by_hand,
-    give_user_data,
-    in_mode,
-    moved_apart,
-)
+from edited import FAST, check_in_step, record_of
+from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
-from weak_convex_decomposition.operators.running import joins
 from weak_convex_decomposition.ui.chart import WCD_PT_chart
 
 
@@ -136,20 +127,6 @@ def test_names_after_a_join_ask_for_a_refresh():
     bpy.ops.wcd.refresh_parts()
     bpy.ops.wcd.rename_parts(way="NUMBER", pattern="Limb ##")
     assert {name[:4] for name in names_of(one)} == {"Limb"}
-
-
-def test_an_exploded_view_after_a_join_moves_each_part_by_itself(monkeypatch):
-    monkeypatch.setattr(joins, "_start", list)  # the operator does it in its undo step
-    suzanne, torus = two_objects()
-    labels = np.append(bands(suzanne, 3), 3 + bands(torus, 2))
-    torus.select_set(True)
-    bpy.ops.object.join()
-    bpy.ops.wcd.explode(distance=0.7)
-    expected = moved_apart(suzanne.data, labels, 0.7)
-    assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
-    check_in_step(suzanne)
-    assert len(parts_of(suzanne)) == 5
-    assert "measure" in state(suzanne)[3]
 
 
 def test_a_join_of_copies_keeps_their_parts_apart(monkey):

@@ -5,6 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
+from edited import check_in_step
 from hand_made import (
     activate,
     centers,
@@ -13,10 +14,13 @@ from hand_made import (
     moved_apart,
 )
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.views.exploding import (
+    explode,
     exploding,
     slider,
 )
+from weak_convex_decomposition.operators.running import joins
 
 
 def call(name, **options):
@@ -46,8 +50,8 @@ def test_exploded_views_end(suzanne):
     assert not bpy.data.node_groups
 
 
-@pytest.mark.parametrize("colors", ["MATERIALS", "OVERLAY"])
-def test_a_view_from_before_a_join_moves_each_part_by_itself(suzanne, colors):
+def torus_beside(suzanne, colors="MATERIALS"):
+    """Select a torus beside the monkey, both with parts; return those of both."""
     labels = decompose_by_hand(suzanne, 3)
     call("show_colors", colors=colors)
     bpy.ops.mesh.primitive_torus_add(location=(4, 0, 0))
@@ -55,8 +59,25 @@ def test_a_view_from_before_a_join_moves_each_part_by_itself(suzanne, colors):
     labels = np.append(labels, 3 + decompose_by_hand(torus, 2))
     call("show_colors", colors=colors)
     activate(suzanne)
-    call("explode", distance=0.7)
     torus.select_set(True)
+    return labels
+
+
+def test_a_view_after_a_join_moves_each_part_by_itself(suzanne, monkeypatch):
+    monkeypatch.setattr(joins, "_start", list)  # the operator does it in its undo step
+    labels = torus_beside(suzanne)
+    bpy.ops.object.join()
+    call("explode", distance=0.7)
+    expected = moved_apart(suzanne.data, labels, 0.7)
+    assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
+    check_in_step(suzanne)
+    assert "measure" in figures_of(suzanne).problem
+
+
+@pytest.mark.parametrize("colors", ["MATERIALS", "OVERLAY"])
+def test_a_view_from_before_a_join_moves_each_part_by_itself(suzanne, colors):
+    labels = torus_beside(suzanne, colors)
+    explode(suzanne, 0.7)
     bpy.ops.ed.undo_push(message="before")
     bpy.ops.object.join("EXEC_DEFAULT", True)
     for step in (None, bpy.ops.ed.undo, bpy.ops.ed.redo):
