@@ -46,7 +46,7 @@ def register() -> None:
     from .bridge.parts import rows
     from .bridge.work import session_cache
     from .headless import command_line
-    from .running import ahead, refine
+    from .running import ahead, joins, refine
     from .viewport import picking, show_sight, shown_parts
 
     for cls in _classes():
@@ -56,6 +56,7 @@ def register() -> None:
     session_cache.register()
     ahead.register()
     refine.register()
+    joins.register()
     show_sight.register()
     shown_parts.register()
     picking.register()
@@ -70,7 +71,7 @@ def unregister() -> None:
     from .bridge.parts import rows
     from .bridge.work import libraries, session_cache
     from .headless import command_line
-    from .running import ahead, modal, refine
+    from .running import ahead, joins, modal, refine
     from .viewport import picking, show_sight, shown_parts
 
     recut.stop()
@@ -80,6 +81,7 @@ def unregister() -> None:
     picking.unregister()
     shown_parts.unregister()
     show_sight.unregister()
+    joins.unregister()
     refine.unregister()
     ahead.unregister()
     session_cache.unregister()

@@ -15,6 +15,7 @@ from .bridge.parts.present_parts import present_parts
 from .bridge.parts.rows import chosen_numbers, chosen_parts
 from .bridge.refusals import edit_refusal, faces_refusal, seams_refusal
 from .bridge.views.isolating import end_isolation, isolate
+from .bridge.work.in_step import bring_in_step
 from .editing.edit_parts import in_scope, scope
 from .running.on_objects import OnActive, OnEach
 
@@ -77,6 +78,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
             members = _members(obj)
             hide_faces(obj, ~members if self.hide else np.zeros_like(members))
         elif self.hide:
+            bring_in_step(obj)
             present_parts(obj)  # or an error
             isolate(obj, sorted(chosen_numbers(obj)))
         else:

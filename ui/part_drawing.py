@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 
 from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.parts.palette import srgb_of
-from ..operators.bridge.parts.read import noted_identities
 from ..operators.bridge.parts.rows import chosen_numbers, look_left
 from ..operators.bridge.refusals import faces_refusal
 from ..operators.viewport import picking
-from ..operators.viewport.shown_parts import ShownParts, shown_parts
+from ..operators.viewport.shown_parts import ShownParts, shown_identities, shown_parts
 from ..operators.viewport.viewports import redraw
 from .through_hulls import draw_through, forget, transparent_hulls
 
@@ -89,7 +88,7 @@ def _draw_colors(
         if shown is None or not obj.visible_in_viewport_get(context.space_data):
             continue
         opaque = _OPAQUE[obj.mode == "EDIT"]
-        for number, identity in noted_identities(obj).items():
+        for number, identity in shown_identities(obj).items():
             color = (*srgb_of(identity.color), opaque)
             _fill(obj, shown, number, color if is_overlaid(obj) else _NONE, 1)
 
@@ -216,8 +215,8 @@ def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> 
 def _draw_name() -> None:
     """Draw the name of the part under the cursor beside it."""
     picked, region = picking.current, bpy.context.region
-    row = None if picked is None else picked.row()
-    if picked is None or row is None:
+    part = None if picked is None else picked.part()
+    if picked is None or part is None:
         return
     x, y = picked.place[0] - region.x, picked.place[1] - region.y
     if not (0 <= x < region.width and 0 <= y < region.height):
@@ -225,14 +224,14 @@ def _draw_name() -> None:
     scale = bpy.context.preferences.system.ui_scale
     colors = bpy.context.preferences.themes[0].user_interface.wcol_tooltip
     blf.size(0, _SIZE * scale)
-    width, height = blf.dimensions(0, row.name)
+    width, height = blf.dimensions(0, part.name)
     margin, beside = _MARGIN * scale, _BESIDE * scale
     left = min(x + beside, region.width - width - 2 * margin)
     low = max(y - beside - height, 0)
     _rectangle(left, low, width + 2 * margin, height + 2 * margin, colors.inner)
     blf.color(0, *colors.text[:3], 1.0)
     blf.position(0, left + margin, low + margin, 0)
-    blf.draw(0, row.name)
+    blf.draw(0, part.name)
 
 
 def _rectangle(

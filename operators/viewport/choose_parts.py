@@ -6,8 +6,10 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ...core.errors import DecompositionError
 from ..bridge.parts.rows import active_row, chosen_numbers, noted_refusal
 from ..bridge.refusals import edit_refusal
+from ..bridge.work.in_step import bring_in_step
 from ..running.on_objects import OnActive, OnEach
 
 
@@ -15,8 +17,10 @@ def choose(obj: bpy.types.Object, number: int, extend: bool) -> None:
     """Highlight a part's row; `extend` adds the part to the chosen ones, or takes away.
 
     Chosen are the ticked parts, or the highlighted one. So without `extend` no part
-    stays ticked.
+    stays ticked. A part that came by a join gets a row before.
     """
+    if all(row.number != number for row in obj.wcd_parts):
+        bring_in_step(obj)
     chosen = {number}
     if extend:
         chosen = chosen_numbers(obj) ^ chosen or chosen
@@ -24,6 +28,13 @@ def choose(obj: bpy.types.Object, number: int, extend: bool) -> None:
         row.chosen = len(chosen) > 1 and row.number in chosen
         if row.number == number if number in chosen else chosen == {row.number}:
             obj.wcd_active_part = place
+
+
+def choose_too(obj: bpy.types.Object, number: int) -> None:
+    """Add a part to the chosen ones; the highlighted part stays highlighted."""
+    highlighted = active_row(obj).number
+    choose(obj, number, extend=True)
+    obj.wcd_active_part = [row.number for row in obj.wcd_parts].index(highlighted)
 
 
 def make_active(context: bpy.types.Context, obj: bpy.types.Object) -> None:
@@ -69,7 +80,11 @@ class WCD_OT_choose_part(_OnRows, bpy.types.Operator):
             self.report({"ERROR"}, f"{reason}.")
             return {"CANCELLED"}
         make_active(context, obj)
-        choose(obj, self.number, self.extend)
+        try:
+            choose(obj, self.number, self.extend)
+        except DecompositionError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}
 
 

@@ -6,15 +6,14 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..bridge.parts.read import part_identities
 from ..bridge.parts.rows import chosen_numbers
 from ..bridge.refusals import edit_refusal, faces_refusal
 from ..bridge.stored.names import RESULT
 from ..running import modal
 from . import picking
-from .choose_parts import choose
+from .choose_parts import choose_too
 from .part_at import make_tree, part_at
-from .shown_parts import shown_parts
+from .shown_parts import n_parts_of
 from .turning import Turning, keeps
 from .viewports import viewport_at
 
@@ -43,7 +42,8 @@ class WCD_OT_pick_parts(bpy.types.Operator):
     _asked: int = 0
     _cut_last: int = 0
     _right: bool = False  # whether the right mouse button is down
-    _busy: str | None = None  # what ran when the last event came
+    # What ran when the last event came, and how many parts the active object had.
+    _told: tuple[str | None, int] | None = None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -59,7 +59,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             picking.stop()
             return {"FINISHED"}
         # Both are read now, and not when something hovers.
-        shown_parts(context.active_object)
+        n_parts_of(context.active_object)
         if not bpy.app.timers.is_registered(make_tree):
             bpy.app.timers.register(make_tree, first_interval=0.0)
         self._picking = picking.start(context)
@@ -74,8 +74,9 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         """Take an event; navigation and all else that is not ours passes."""
         if picking.current is not self._picking:  # ended by the button, or by a load
             return {"FINISHED", "PASS_THROUGH"}
-        if self._busy != modal.busy():
-            self._busy = modal.busy()
+        now = modal.busy(), n_parts_of(context.active_object)
+        if self._told != now:
+            self._told = now
             picking.tell(context)
         if self._asked:
             self._cut(context)
@@ -147,30 +148,28 @@ class WCD_OT_pick_parts(bpy.types.Operator):
 
     def _click(self, context: bpy.types.Context, extend: bool) -> None:
         """Choose the part under the cursor, or merge it with those that are chosen."""
-        obj, row = self._picking.object(), self._picking.row()
-        if row is None:
+        obj, part = self._picking.object(), self._picking.part()
+        if part is None:
             return
-        number = row.number
+        number = part.number
         if not self._picking.merging:
-            _choose(obj, number, extend)
+            self._choose(obj, number, extend)
         elif obj != context.active_object:
             self.report({"WARNING"}, f"Click a part of {context.active_object.name}")
             return
         elif number not in chosen_numbers(obj):
             self._picking.merging = False
-            into = obj.wcd_active_part
-            choose(obj, number, extend=True)
-            obj.wcd_active_part = into  # whose name the result has
+            choose_too(obj, number)  # the result has the name of the highlighted one
             self._call(bpy.ops.wcd.merge_parts)
         picking.tell(context)
 
     def _open_menu(self, context: bpy.types.Context) -> set[str]:
         """Open the menu for the part under the cursor; leave where there is none."""
-        obj, row = self._picking.object(), self._picking.row()
-        if row is None or self._picking.merging or self._picking.turning:
+        obj, part = self._picking.object(), self._picking.part()
+        if part is None or self._picking.merging or self._picking.turning:
             return self._escape(context)
-        if obj != context.active_object or row.number not in chosen_numbers(obj):
-            _choose(obj, row.number, extend=False)
+        if obj != context.active_object or part.number not in chosen_numbers(obj):
+            self._choose(obj, part.number, extend=False)
         bpy.ops.wm.call_menu_pie("INVOKE_DEFAULT", name=_MENU)
         return {"RUNNING_MODAL"}
 
@@ -178,7 +177,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         """Ask for one part more or less, from what was asked for last."""
         obj = context.active_object
         if edit_refusal(obj) is None:
-            now = self._asked or len(part_identities(obj))
+            now = self._asked or n_parts_of(obj)
             if self._picking.turning is None:
                 self._picking.turning = Turning.of(obj)
             self._asked = min(max(now + step, _FEWEST), _MOST)
@@ -197,7 +196,12 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             self._picking.turning.n_steps += 1
         self._call(bpy.ops.wcd.choose_part_count, parts=self._asked)
 
-    def _call(self, operator: Any, **values: int) -> None:
+    def _choose(self, obj: bpy.types.Object, number: int, extend: bool) -> None:
+        """Choose a part as a step of its own to undo to."""
+        operator = bpy.ops.wcd.choose_part
+        self._call(operator, object=obj.name, number=number, extend=extend)
+
+    def _call(self, operator: Any, **values: str | int) -> None:
         """Start an operator as its button does; tell if it cannot work."""
         try:
             operator("INVOKE_DEFAULT", True, **values)
@@ -236,13 +240,6 @@ def _refusal(context: bpy.types.Context) -> str | None:
     reason = faces_refusal(context.active_object)
     noted = (obj for obj in context.visible_objects if RESULT in obj)
     return reason and (None if any(not faces_refusal(obj) for obj in noted) else reason)
-
-
-def _choose(obj: bpy.types.Object, number: int, extend: bool) -> None:
-    """Choose a part as a step of its own to undo to."""
-    bpy.ops.wcd.choose_part(
-        "EXEC_DEFAULT", True, object=obj.name, number=number, extend=extend
-    )
 
 
 def _modified(event: bpy.types.Event) -> bool:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..bridge.parts.rows import WCD_PG_part
-from ..bridge.stored.record import record_of
+from ..bridge.stored.identity import Identity
 from ..running import modal
+from .shown_parts import n_parts_of, shown_identities
 from .turning import Turning
 from .viewports import redraw, show_header
 
@@ -46,11 +46,10 @@ class Picking:
     merging: bool = False
     turning: Turning | None = None
 
-    def row(self) -> WCD_PG_part | None:
-        """Return the row of the part under the cursor, None if there is none."""
+    def part(self) -> Identity | None:
+        """Return who the part under the cursor is, None if there is none."""
         obj = self.object()
-        rows = obj.wcd_parts if obj is not None else ()
-        return next((r for r in rows if r.number == self.number), None)
+        return None if obj is None else shown_identities(obj).get(self.number)
 
     @property
     def number(self) -> int:
@@ -102,19 +101,18 @@ def tell(context: bpy.types.Context) -> None:
 def _keys(context: bpy.types.Context) -> str:
     """Return which keys there are, for the status bar."""
     turning = current.turning if current else None
-    obj = context.active_object
-    if turning is None or obj is None:
+    if turning is None:
         return _KEYS
-    return _TURNED.format(record_of(obj).get("k", 0), turning.n_before)
+    return _TURNED.format(n_parts_of(context.active_object), turning.n_before)
 
 
 def _header(context: bpy.types.Context) -> str:
     """Return what is happening, for the header."""
-    row = current.row() if current else None
+    part = current.part() if current else None
     obj = current.object() or context.active_object if current else None
-    of = "" if obj is None else f"{obj.name}: {record_of(obj).get('k', 0)} Parts"
+    of = "" if obj is None else f"{obj.name}: {n_parts_of(obj)} Parts"
     doing = "Merge with" if current and current.merging else "Pick Parts"
-    return "  |  ".join(each for each in (doing, row.name if row else "", of) if each)
+    return "  |  ".join(each for each in (doing, part.name if part else "", of) if each)
 
 
 def register() -> None:

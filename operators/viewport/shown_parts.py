@@ -13,10 +13,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bridge.mesh.attributes import read_flags, read_ints
+from ..bridge.mesh.attributes import IntArray, read_flags, read_ints, read_labels
 from ..bridge.mesh.corners import edge_sides
 from ..bridge.mesh.known import triangles_of
-from ..bridge.stored.names import PART_LAYER, RESULT
+from ..bridge.mesh.layers import layers_of
+from ..bridge.mesh.points import is_cloud
+from ..bridge.parts.read import FoundParts, find_parts_on, noted_identities
+from ..bridge.stored.identity import Identity
+from ..bridge.stored.names import OWNER_LAYER, PART_LAYER, RESULT
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +29,8 @@ class ShownParts:
 
     Attributes
     ----------
+    identities : tuple of Identity
+        Who the parts of the object were when it was read, by number.
     numbers : (F,) int
         Number of the part of each face.
     hidden : (F,) bool
@@ -41,6 +47,7 @@ class ShownParts:
         What is made of them once: trees for rays, and batches for the GPU.
     """
 
+    identities: tuple[Identity, ...]
     numbers: NDArray[np.int32]
     hidden: NDArray[np.bool_]
     corners: NDArray[np.float32]
@@ -66,21 +73,47 @@ def shown_parts(obj: bpy.types.Object) -> ShownParts | None:
     """Return what an object shows of its parts now, None if it shows none."""
     if obj.type != "MESH" or RESULT not in obj:
         return None
+    graph = bpy.context.evaluated_depsgraph_get()  # tells `_forget_changed`
     uid = obj.session_uid
     if uid not in _known:
-        _known[uid] = _read(obj)
+        _known[uid] = _read(obj, graph)
     return _known[uid]
 
 
-def _read(obj: bpy.types.Object) -> ShownParts | None:
+def shown_identities(obj: bpy.types.Object) -> dict[int, Identity]:
+    """Return who the parts of an object are now, by number; empty if it shows none.
+
+    Faces are not read again for that, though names and colors change without them.
+    """
+    shown = shown_parts(obj)
+    if shown is None:
+        return {}
+    noted = noted_identities(obj)
+    return {each.number: noted.get(each.number, each) for each in shown.identities}
+
+
+def n_parts_of(obj: bpy.types.Object | None) -> int:
+    """Return how many parts an object has now, as quickly as its faces are known."""
+    if obj is not None and is_cloud(obj):
+        return len(obj.wcd_parts)
+    shown = None if obj is None else shown_parts(obj)
+    return 0 if shown is None else len(shown.identities)
+
+
+def _read(obj: bpy.types.Object, graph: bpy.types.Depsgraph) -> ShownParts | None:
     """Read the faces of an object as its modifiers leave them."""
-    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    found = find_parts_on(obj)
+    if found is None:
+        return None
+    evaluated = obj.evaluated_get(graph)
     mesh = evaluated.to_mesh()
     try:
         layer = mesh.attributes.get(PART_LAYER)
         if layer is None or layer.domain != "FACE" or layer.data_type != "INT":
             return None
         numbers = read_ints(layer.data, "value")
+        if not found.in_step:
+            numbers = _told_apart(obj, found, mesh)
         hidden = np.zeros(len(numbers), dtype=bool)
         if obj.mode == "EDIT":  # Object Mode shows all faces
             hidden = read_flags(mesh.polygons, "hide")
@@ -92,6 +125,7 @@ def _read(obj: bpy.types.Object) -> ShownParts | None:
         between = (highest >= 0) & (lowest != highest)
         ends = read_ints(mesh.edges, "vertices", 2)[between]
         return ShownParts(
+            identities=found.identities,
             numbers=numbers,
             hidden=hidden,
             corners=places[triangles],
@@ -101,6 +135,44 @@ def _read(obj: bpy.types.Object) -> ShownParts | None:
         )
     finally:
         evaluated.to_mesh_clear()
+
+
+def _told_apart(
+    obj: bpy.types.Object, found: FoundParts, mesh: bpy.types.Mesh
+) -> IntArray:
+    """Return the number of the part of each face of a mesh that modifiers made.
+
+    Parts that share a number after a join were `found` on the object's own faces. Those
+    with the same number, owner and material tell of the faces that modifiers made.
+    """
+    own, shown = _own_marks(obj, len(found.labels)), _shown_marks(mesh)
+    if all(map(np.array_equal, own, shown)):  # no modifier made other faces
+        return found.numbers
+    kinds = np.zeros(len(own[0]) + len(shown[0]), dtype=np.int64)
+    for marks in map(np.append, own, shown):
+        values, places = np.unique(marks, return_inverse=True)
+        kinds = kinds * len(values) + places
+    numbers = np.full(kinds.max() + 1, -1, dtype=np.int32)
+    numbers[kinds[: len(own[0])][::-1]] = found.numbers[::-1]  # the first face tells
+    told = numbers[kinds[len(own[0]) :]]
+    return np.where(told < 0, shown[0], told)
+
+
+def _own_marks(obj: bpy.types.Object, n_faces: int) -> list[IntArray]:
+    """Return the number, the owner and the material index of an object's faces."""
+    layers = layers_of(obj)
+    found = layers.faces(PART_LAYER), layers.faces(OWNER_LAYER)
+    none = np.zeros(n_faces, dtype=np.int32)
+    return [
+        none if marks is None else marks
+        for marks in (*found, layers.material_indices())
+    ]
+
+
+def _shown_marks(mesh: bpy.types.Mesh) -> list[IntArray]:
+    """Return the same of the faces that modifiers made."""
+    names, n_faces = (PART_LAYER, OWNER_LAYER, "material_index"), len(mesh.polygons)
+    return [read_labels(mesh, name, "FACE", n_faces, 0) for name in names]
 
 
 @bpy.app.handlers.persistent

@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..bridge.stored.record import noted_parameters, record_of
+from .shown_parts import n_parts_of
 
 # Buttons and keys beside the wheel that neither keep nor take back a number: they turn
 # the view, or are held while the wheel turns.
@@ -51,7 +52,7 @@ class Turning:
     @classmethod
     def of(cls, obj: bpy.types.Object) -> Turning:
         """Return that nothing was asked for yet."""
-        return cls(obj.session_uid, record_of(obj).get("k", 0), _state(obj))
+        return cls(obj.session_uid, n_parts_of(obj), _state(obj))
 
     def take_back(self) -> None:
         """Undo the steps."""

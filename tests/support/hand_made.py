@@ -116,6 +116,19 @@ def areas(mesh):
     return np.array([polygon.area for polygon in mesh.polygons])
 
 
+def moved_apart(mesh, labels, distance):
+    """Return where an exploded view shows the centers of a mesh's faces."""
+    there = np.array([polygon.center for polygon in mesh.polygons])
+    middle = np.average(there, axis=0, weights=areas(mesh))
+    own = np.array(
+        [
+            np.average(there[mine], axis=0, weights=areas(mesh)[mine])
+            for mine in (labels == part for part in range(max(labels) + 1))
+        ]
+    )
+    return there + distance * (own - middle)[labels]
+
+
 def build_hulls(objects, **settings):
     """Build hulls of objects as the button does; return the hulls."""
     for obj in objects:

@@ -4,11 +4,14 @@ import inspect
 from types import SimpleNamespace
 
 import bpy
+from mathutils import Vector
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 from weak_convex_decomposition.operators.hulls import WCD_OT_build_hulls
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
 from weak_convex_decomposition.operators.running import modal
+from weak_convex_decomposition.operators.viewport.part_at import part_along
 
+FRONT = Vector((0.0, 1.0, 0.0))
 OPERATORS = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_build_hulls)
 
 # What operators are given in place of their defaults.
@@ -26,6 +29,18 @@ def cube_at(x):
     # Each of another shape: lines of sight of the latest are kept.
     bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0), scale=(1, 1, 1 + x))
     return bpy.context.active_object
+
+
+def space_of_window():
+    """Return the space of the viewport of the window."""
+    areas = bpy.context.window_manager.windows[0].screen.areas
+    return next(a for a in areas if a.type == "VIEW_3D").spaces.active
+
+
+def seen(x, z=0.0):
+    """Return the object and part that are seen at x from the front."""
+    bpy.context.view_layer.update()
+    return part_along(bpy.context, space_of_window(), Vector((x, -9.0, z)), FRONT)
 
 
 def select(*objects):

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from .attributes import FloatArray, IntArray, read_ints, write_floats, write_ints
-from .known import corner_faces
+from .known import corner_faces, corner_vertices
 from .points import is_cloud
 
 
@@ -62,6 +62,10 @@ class ObjectModeLayers:
         if attribute is None:
             attribute = self._mesh.attributes.new(name, "INT", self._domain)
         write_ints(attribute.data, "value", values)
+
+    def corners(self) -> tuple[IntArray, IntArray]:
+        """Return the vertex and the face of each corner, (C,) and (C,)."""
+        return corner_vertices(self._mesh), corner_faces(self._mesh)
 
     def set_colors(self, name: str, colors: FloatArray) -> None:
         """Write an attribute of the corners, from a color for each face (P, 4)."""
@@ -134,6 +138,13 @@ class EditModeLayers:
         layer = layers.get(name) or layers.new(name)
         for face, value in zip(self._bm.faces, values.tolist(), strict=True):
             face[layer] = value
+
+    def corners(self) -> tuple[IntArray, IntArray]:
+        """Return the vertex and the face of each corner, (C,) and (C,)."""
+        self._bm.verts.index_update()
+        vertices = [[vertex.index for vertex in f.verts] for f in self._bm.faces]
+        faces = np.repeat(np.arange(len(vertices)), [len(each) for each in vertices])
+        return np.concatenate(vertices).astype(np.int32), faces.astype(np.int32)
 
     def set_colors(self, name: str, colors: FloatArray) -> None:
         """Write a layer of the corners, from a color for each face (P, 4)."""

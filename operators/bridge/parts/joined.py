@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
-from ..mesh.known import corner_faces, corner_vertices
-from ..mesh.layers import flush_edits, layers_of
+from ..mesh.layers import layers_of
 from ..mesh.points import is_cloud
 from ..stored.names import GROUP_LAYER, MATERIAL_TAG, OWNER, OWNER_LAYER
 from ..stored.noted_parts import entry_of, n_faces_of
@@ -153,8 +152,6 @@ def _turns_of_copies(
 
 def _touch(obj: bpy.types.Object, n_faces: int) -> bool:
     """Return whether runs of faces, each as long, share vertices."""
-    flush_edits(obj)
-    runs = corner_faces(obj.data) // n_faces
-    vertices = corner_vertices(obj.data)
-    used = np.unique(np.stack([vertices, runs], axis=1), axis=0)[:, 0]
+    vertices, faces = layers_of(obj).corners()
+    used = np.unique(np.stack([vertices, faces // n_faces], axis=1), axis=0)[:, 0]
     return len(np.unique(used)) < len(used)

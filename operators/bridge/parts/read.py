@@ -49,6 +49,12 @@ class FoundParts:
     origins: tuple[tuple[int, int], ...]
 
     @property
+    def numbers(self) -> IntArray:
+        """The number of the part of each face, or point, (P,): its own, in any case."""
+        own = np.array([each.number for each in self.identities], dtype=np.int32)
+        return own[self.labels]
+
+    @property
     def in_step(self) -> bool:
         """Whether each part has a number of its own on its faces."""
         return all(

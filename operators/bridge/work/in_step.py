@@ -7,6 +7,7 @@ import numpy as np
 
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
+from ..mesh.layers import flush_edits, let_undo_see_all
 from ..parts.figures import figures_of
 from ..parts.present_parts import faces_by_hand
 from ..parts.write import write_parts
@@ -18,9 +19,11 @@ def bring_in_step(obj: bpy.types.Object) -> None:
 
     What was not measured together stays unknown until it is.
     """
+    flush_edits(obj)
     figures = figures_of(obj)
     if figures is None or figures.found.in_step:
         return
+    let_undo_see_all(obj)
     counts, areas = (
         figures.measured_on[:, 0].astype(np.int64),
         figures.measured_on[:, 1],

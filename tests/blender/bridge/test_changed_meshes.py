@@ -4,7 +4,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from edited import FAST, check_in_step, parts_of, record_of
+from edited import FAST, check_in_step, record_of
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
@@ -127,16 +127,6 @@ def test_names_after_a_join_ask_for_a_refresh():
     bpy.ops.wcd.refresh_parts()
     bpy.ops.wcd.rename_parts(way="NUMBER", pattern="Limb ##")
     assert {name[:4] for name in names_of(one)} == {"Limb"}
-
-
-def test_an_exploded_view_after_a_join_moves_each_part_by_itself():
-    suzanne, torus = two_objects()
-    torus.select_set(True)
-    bpy.ops.object.join()
-    bpy.ops.wcd.explode()
-    check_in_step(suzanne)
-    assert len(parts_of(suzanne)) == 5
-    assert "measure" in state(suzanne)[3]
 
 
 def test_a_join_of_copies_keeps_their_parts_apart(monkey):

@@ -5,17 +5,22 @@ import json
 import bpy
 import numpy as np
 import pytest
+from edited import check_in_step
 from hand_made import (
-    areas,
+    activate,
     centers,
     decompose_by_hand,
     in_mode,
+    moved_apart,
 )
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.views.exploding import (
+    explode,
     exploding,
     slider,
 )
+from weak_convex_decomposition.operators.running import joins
 
 
 def call(name, **options):
@@ -25,19 +30,10 @@ def call(name, **options):
 def test_parts_move_away_from_the_center_together(suzanne):
     labels = decompose_by_hand(suzanne, 4)
     before = snapshot(suzanne)["mesh"]
-    there = centers(suzanne)
-    weights = areas(suzanne.data)
-    middle = np.average(there, axis=0, weights=weights)
     for distance in (0.0, 0.7):
         assert call("explode", distance=distance) == {"FINISHED"}
-        moved = centers(suzanne) - there
-        for part in range(4):
-            mine = labels == part
-            own = np.average(there[mine], axis=0, weights=weights[mine])
-            expected = distance * (own - middle)
-            assert moved[mine] == pytest.approx(
-                np.tile(expected, (mine.sum(), 1)), abs=1e-5
-            )
+        expected = moved_apart(suzanne.data, labels, distance)
+        assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
     assert len(suzanne.modifiers) == len(bpy.data.node_groups) == 1
     assert snapshot(suzanne)["mesh"] == before
     owner, path = slider(exploding(suzanne))
@@ -52,6 +48,46 @@ def test_exploded_views_end(suzanne):
     assert bpy.ops.wcd.implode() == {"FINISHED"}
     assert snapshot(suzanne) == before
     assert not bpy.data.node_groups
+
+
+def torus_beside(suzanne, colors="MATERIALS"):
+    """Select a torus beside the monkey, both with parts; return those of both."""
+    labels = decompose_by_hand(suzanne, 3)
+    call("show_colors", colors=colors)
+    bpy.ops.mesh.primitive_torus_add(location=(4, 0, 0))
+    torus = bpy.context.active_object
+    labels = np.append(labels, 3 + decompose_by_hand(torus, 2))
+    call("show_colors", colors=colors)
+    activate(suzanne)
+    torus.select_set(True)
+    return labels
+
+
+def test_a_view_after_a_join_moves_each_part_by_itself(suzanne, monkeypatch):
+    monkeypatch.setattr(joins, "_start", list)  # the operator does it in its undo step
+    labels = torus_beside(suzanne)
+    bpy.ops.object.join()
+    call("explode", distance=0.7)
+    expected = moved_apart(suzanne.data, labels, 0.7)
+    assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
+    check_in_step(suzanne)
+    assert "measure" in figures_of(suzanne).problem
+
+
+@pytest.mark.parametrize("colors", ["MATERIALS", "OVERLAY"])
+def test_a_view_from_before_a_join_moves_each_part_by_itself(suzanne, colors):
+    labels = torus_beside(suzanne, colors)
+    explode(suzanne, 0.7)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.object.join("EXEC_DEFAULT", True)
+    for step in (None, bpy.ops.ed.undo, bpy.ops.ed.redo):
+        if step is not None:
+            step()
+        suzanne = bpy.data.objects["Suzanne"]
+        own = labels[: len(suzanne.data.polygons)]
+        expected = moved_apart(suzanne.data, own, 0.7)
+        assert centers(suzanne) == pytest.approx(expected, abs=1e-5), step
+    assert len(labels) > 500 == len(labels) - 576
 
 
 def test_an_exploded_view_does_not_count_as_a_modifier(suzanne):

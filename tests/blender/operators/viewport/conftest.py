@@ -55,6 +55,14 @@ class Viewport:
 
 
 @pytest.fixture
+def window():
+    """A window with a viewport and no objects, which `seen` looks into."""
+    bpy.ops.wm.read_factory_settings(use_empty=False)
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+
+
+@pytest.fixture
 def viewport(monkeypatch, suzanne):
     decompose_by_hand(suzanne, 4)
     viewport = Viewport(monkeypatch)

@@ -5,12 +5,8 @@ import numpy as np
 import pytest
 from hand_made import activate, decompose_by_hand, in_mode
 from mathutils import Vector
-from weak_convex_decomposition.operators.viewport.part_at import (
-    make_tree,
-    part_along,
-)
-
-FRONT = Vector((0.0, 1.0, 0.0))
+from presses import FRONT, seen
+from weak_convex_decomposition.operators.viewport.part_at import make_tree
 
 
 @pytest.fixture
@@ -19,26 +15,11 @@ def labels(suzanne):
     return decompose_by_hand(suzanne, 4)
 
 
-def seen(x, z=0.0):
-    """Return the object and part that are seen at x from the front."""
-    bpy.context.view_layer.update()
-    areas = bpy.context.window_manager.windows[0].screen.areas
-    space = next(a for a in areas if a.type == "VIEW_3D").spaces.active
-    return part_along(bpy.context, space, Vector((x, -9.0, z)), FRONT)
-
-
 def expected(obj, labels, x, z=0.0):
     """Return the label of the face that a ray meets, by Blender's own ray cast."""
     hit, _, _, face = obj.ray_cast(Vector((x, -9.0, z)), FRONT)
     assert hit
     return labels[face]
-
-
-@pytest.fixture
-def window():
-    bpy.ops.wm.read_factory_settings(use_empty=False)
-    for obj in list(bpy.data.objects):
-        bpy.data.objects.remove(obj)
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

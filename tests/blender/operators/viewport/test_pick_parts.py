@@ -2,11 +2,21 @@
 
 from types import SimpleNamespace
 
+import bmesh
 import bpy
 import pytest
-from hand_made import decompose_by_hand
+from hand_made import activate, decompose_by_hand, in_mode
 from snapshot import snapshot
 from weak_convex_decomposition.operators.viewport import pick_parts, picking
+
+
+def delete_faces(obj, number):
+    """Delete the faces of a part of an object in Edit Mode."""
+    mesh = bmesh.from_edit_mesh(obj.data)
+    layer = mesh.faces.layers.int["wcd_part"]
+    gone = [face for face in mesh.faces if face[layer] == number]
+    bmesh.ops.delete(mesh, geom=gone, context="FACES")
+    bmesh.update_edit_mesh(obj.data)
 
 
 def rows(obj):
@@ -16,15 +26,47 @@ def rows(obj):
 def test_hovering_names_the_part_and_changes_nothing(viewport, suzanne):
     before = snapshot(suzanne)
     viewport.hover(suzanne, 2)
-    assert picking.current.row().name == "Part 03"
+    assert picking.current.part().name == "Part 03"
     assert viewport.header == "Pick Parts  |  Part 03  |  Suzanne: 4 Parts"
     viewport.hover(None, 0)
-    assert picking.current.row() is None
+    assert picking.current.part() is None
     assert viewport.header == "Pick Parts  |  Suzanne: 4 Parts"
     assert snapshot(suzanne) == before
     assert viewport.event("ESC") == {"FINISHED"}
     assert viewport.header is viewport.status is picking.current is None
     assert snapshot(suzanne) == before
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_the_header_counts_the_parts_that_are_there(viewport, suzanne, mode):
+    in_mode(suzanne, "EDIT")
+    delete_faces(suzanne, suzanne.wcd_parts[3].number)
+    in_mode(suzanne, mode)
+    viewport.event("TIMER")
+    assert viewport.header == "Pick Parts  |  Suzanne: 3 Parts"
+    assert viewport.event("WHEELUPMOUSE", alt=True) == {"RUNNING_MODAL"}
+    assert (
+        viewport.status == "Click or Enter: keep 4 parts, Esc or Right-Click: back to 3"
+    )
+
+
+def test_the_header_counts_at_once_what_was_written(viewport, suzanne):
+    viewport.event("TIMER")
+    decompose_by_hand(suzanne, 2)  # Blender has shown nothing of it yet
+    viewport.event("TIMER")
+    assert viewport.header == "Pick Parts  |  Suzanne: 2 Parts"
+
+
+def test_the_header_counts_joined_parts(viewport, suzanne):
+    bpy.ops.mesh.primitive_cube_add(location=(4, 0, 0))
+    cube = bpy.context.active_object
+    decompose_by_hand(cube, 3)
+    activate(suzanne)
+    cube.select_set(True)
+    viewport.hover(suzanne, 0)
+    bpy.ops.object.join()
+    viewport.hover(suzanne, 0)
+    assert viewport.header == "Pick Parts  |  Part 01  |  Suzanne: 7 Parts"
 
 
 def test_clicks_choose_and_add(viewport, suzanne):
@@ -61,7 +103,7 @@ def test_each_choice_is_one_undo_step(viewport, suzanne):
         bpy.ops.ed.undo()
         assert bpy.context.active_object.wcd_active_part == number
     viewport.hover(bpy.context.active_object, 3)  # picking goes on
-    assert picking.current.row().name == "Part 04"
+    assert picking.current.part().name == "Part 04"
 
 
 def test_what_is_not_ours_passes(viewport, suzanne):

@@ -89,7 +89,7 @@ def through_hulls(hands):
     x, y = region.x + region.width // 2, region.y + region.height // 2
     yield from hands.move(int(x), int(y))
     yield 1.0
-    assert picking.current.row() is not None
+    assert picking.current.part() is not None
     hands.picture("hovered-in-hulls", hands.area)
     yield from hands.press("Escape")
     with hands.context():

@@ -25,8 +25,8 @@ def hover(hands, place):
     """Move to a place, and return the name of the part there."""
     yield from hands.move(*at(hands, place))
     yield 0.3
-    row = picking.current.row()
-    return row and row.name
+    part = picking.current.part()
+    return part and part.name
 
 
 def press(hands, button, key=None):
@@ -171,7 +171,7 @@ def steps(hands):
     yield from renamed(hands, chin)
     yield from by_the_wheel(hands)
     yield from hover(hands, NOWHERE)
-    assert picking.current.row() is None
+    assert picking.current.part() is None
     yield from hands.press("Escape")
     yield lambda: picking.current is None
     assert leftovers() == []

@@ -1,0 +1,80 @@
+"""Bring parts in step after a join while a modifier of ours shows them.
+
+Exploded views and isolated parts go by the numbers on faces, which two parts can share
+after a join. All else asks who the parts are, and waits for Refresh. This belongs to
+the undo step of the join, so it is done again if undo brings that back.
+"""
+
+from __future__ import annotations
+
+import bpy
+
+from ...core.errors import DecompositionError
+from ..bridge.views.node_modifiers import is_view
+from ..bridge.work.in_step import bring_in_step
+
+# How many faces the objects with such modifiers have, by their `session_uid`.
+_n_faces: dict[int, int] = {}
+
+
+def bring_views_in_step() -> None:
+    """Bring all objects in step whose parts a modifier of ours shows."""
+    for obj in bpy.data.objects:
+        if _is_viewed(obj):
+            try:
+                bring_in_step(obj)
+            except DecompositionError:  # the buttons report it
+                continue
+
+
+def _is_viewed(obj: bpy.types.Object) -> bool:
+    """Return whether such a modifier shows an object, in the mode of joins."""
+    there = obj.type == "MESH" and obj.mode == "OBJECT"
+    return there and any(map(is_view, obj.modifiers))
+
+
+def _start() -> None:
+    """Do it once whatever changes objects now has ended."""
+    if bpy.app.background:  # nothing calls timers there
+        bring_views_in_step()
+    elif not bpy.app.timers.is_registered(bring_views_in_step):
+        bpy.app.timers.register(bring_views_in_step, first_interval=0.0)
+
+
+@bpy.app.handlers.persistent
+def _look(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
+    """Look whether faces came to an object, or went."""
+    for update in graph.updates:
+        obj = update.id.original
+        if not (update.is_updated_geometry and isinstance(obj, bpy.types.Object)):
+            continue
+        if _is_viewed(obj) and _n_faces.get(obj.session_uid) != len(obj.data.polygons):
+            _n_faces[obj.session_uid] = len(obj.data.polygons)
+            _start()
+
+
+@bpy.app.handlers.persistent
+def _look_again(*_: object) -> None:
+    """Look at all objects. Blender passes arguments to handlers."""
+    _n_faces.clear()
+    _start()
+
+
+_ALL = ("undo_post", "redo_post", "load_post")
+
+
+def register() -> None:
+    """Watch for joins."""
+    bpy.app.handlers.depsgraph_update_post.append(_look)
+    for name in _ALL:
+        getattr(bpy.app.handlers, name).append(_look_again)
+
+
+def unregister() -> None:
+    """Undo `register`."""
+    for name in _ALL:
+        getattr(bpy.app.handlers, name).remove(_look_again)
+    bpy.app.handlers.depsgraph_update_post.remove(_look)
+    if bpy.app.timers.is_registered(bring_views_in_step):
+        bpy.app.timers.unregister(bring_views_in_step)
+    _n_faces.clear()
