@@ -17,7 +17,7 @@ from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..parts.identities import usual_identities
 from ..parts.materials import discard_unused, is_ours, own_materials
-from ..parts.read import find_parts_on, part_materials
+from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..parts.separating import new_collection
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
@@ -67,7 +67,8 @@ def write_hulls(
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
     collection[HULL_TAG] = True
-    rows, materials = _materials(obj, found)
+    parts = find_parts_on(obj) if found.has_parts else None
+    rows, materials = _materials(obj, found, parts)
     scale = stretch(obj)
     hulls, noted = [], []
     for row, name in enumerate(names):
@@ -75,7 +76,7 @@ def write_hulls(
         shape = found.shapes[row]
         mesh = meshes[row] if meshes else hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
-        figures = figures_of_hull(found, row)
+        figures = figures_of_hull(found, row, parts)
         noted.append({"name": hull.name, **figures})
         tag_hull(hull, figures, shape, scale)
         if to_be_edited and shape.kind != "HULL":
@@ -133,10 +134,9 @@ def erase_hulls(
 
 
 def _materials(
-    obj: bpy.types.Object, found: HullDecomposition
+    obj: bpy.types.Object, found: HullDecomposition, parts: FoundParts | None
 ) -> tuple[np.ndarray, list[bpy.types.Material]]:
     """Return materials, and which of them each hull has: those of the parts, or new."""
-    parts = find_parts_on(obj) if found.has_parts else None
     if parts is not None:
         own = part_materials(obj, parts)
         return found.parts, [
@@ -181,14 +181,22 @@ def _hull_object(
     return hull
 
 
-def figures_of_hull(found: HullDecomposition, row: int) -> dict[str, Any]:
-    """Return the figures of a hull, to be noted."""
+def figures_of_hull(
+    found: HullDecomposition, row: int, parts: FoundParts | None = None
+) -> dict[str, Any]:
+    """Return the figures of a hull, to be noted.
+
+    Its part is a place. Those that an object has are noted by number, which stays.
+    """
     shape = found.shapes[row]
+    part = int(found.parts[row]) if found.has_parts else None
+    if parts is not None and part is not None:
+        part = parts.identities[part].number
     return {
         "kind": shape.kind,
         "error": float(found.errors[row]),
         "error_unit": found.error_unit,
         "volume": float(shape.volume),
-        "part": int(found.parts[row]) if found.has_parts else None,
+        "part": part,
         "vertices": len(core.outline_of(shape).vertices),
     }

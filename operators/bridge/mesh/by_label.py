@@ -116,16 +116,29 @@ def sums_by_label(
     -------
     (K, 5) float
     """
+    return run(_sums(labels, n_labels, *_areas_and_centers(obj)))
+
+
+def sums_of_all(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return the same of all faces, or points, of an object together, (5,)."""
+    areas, centers = _areas_and_centers(obj)
+    labels = np.zeros(len(areas), dtype=np.int64)
+    return run(_sums(labels, 1, areas, centers))[0]
+
+
+def _areas_and_centers(
+    obj: bpy.types.Object,
+) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """Return the area (P,) and center (P, 3) of each face, or point."""
     if is_cloud(obj):
         centers = positions_of(obj)
-        areas: NDArray[np.floating] = np.ones(len(centers))
-    elif obj.data.is_editmode:
+        return np.ones(len(centers)), centers
+    if obj.data.is_editmode:
         faces = bmesh.from_edit_mesh(obj.data).faces
         areas = np.array([face.calc_area() for face in faces])
-        centers = np.array([face.calc_center_median() for face in faces])
-    else:
-        areas, centers = face_areas(obj.data), face_centers(obj.data)
-    return run(_sums(labels, n_labels, areas, centers))
+        places = np.array([face.calc_center_median() for face in faces])
+        return areas, places.reshape(-1, 3)
+    return face_areas(obj.data), face_centers(obj.data)
 
 
 def _sums(
