@@ -23,8 +23,9 @@ from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.record import write_hull_record
 from .looks import keep_piece
+from .lost_hulls import leave_to_user, lost_hulls, remove_empty_collections
 from .placed import pose_of
-from .rigid_bodies import soften
+from .rigid_bodies import remove_simulation, soften
 
 
 def is_hull(obj: bpy.types.Object) -> bool:
@@ -66,7 +67,7 @@ def write_hulls(
     _check_free(names, hulls_of(obj))
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
-    collection[HULL_TAG] = True
+    collection[HULL_TAG] = obj.name
     parts = find_parts_on(obj) if found.has_parts else None
     rows, materials = _materials(obj, found, parts)
     scale = stretch(obj)
@@ -101,7 +102,7 @@ def tag_hull(
 def erase_hulls(
     obj: bpy.types.Object, chosen: Sequence[bpy.types.Object] | None = None
 ) -> None:
-    """Remove an object's hulls, and their collection if nothing else is in it.
+    """Remove an object's hulls, and our collections if nothing is left in them.
 
     Parameters
     ----------
@@ -117,20 +118,33 @@ def erase_hulls(
         )
     if len(hulls) == len(hulls_of(obj)):
         soften(obj, hulls)
-    collections = {c for hull in hulls for c in hull.users_collection if HULL_TAG in c}
+    if obj.mode == "OBJECT":
+        if chosen is None:
+            leave_to_user(obj)
+        _remove(hulls)
+
+
+def erase_lost_hulls() -> int:
+    """Remove the hulls whose object is gone; return their number."""
+    hulls = lost_hulls()
+    _remove(hulls)
+    remove_simulation()
+    return len(hulls)
+
+
+def _remove(hulls: Sequence[bpy.types.Object]) -> None:
+    """Remove hulls with their meshes and materials, and our empty collections."""
     meshes = [hull.data for hull in hulls]
     worn = {m for mesh in meshes for m in mesh.materials}
     worn |= {slot.material for hull in hulls for slot in hull.material_slots}
     materials = set(filter(is_ours, worn))
     for hull in hulls:
         bpy.data.objects.remove(hull)
-    for mesh in meshes:
+    for mesh in set(meshes):
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
     discard_unused(materials)
-    for collection in collections:
-        if not collection.all_objects and not collection.children:
-            bpy.data.collections.remove(collection)
+    remove_empty_collections()
 
 
 def _materials(
