@@ -20,11 +20,13 @@ from ..operators.bridge.parts.figures import PartFigures, figures_of
 from ..operators.bridge.refusals import WORKED_ON
 from ..operators.bridge.stored.names import RESULT
 
-# Seconds for which figures are kept in any case: faces may be dragged in Edit Mode.
+# Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
+# and for how many times as long as counting them took.
 _PAUSE = 0.3
+_REST = 4.0
 # The figures of an object's parts, and the fingerprint of all of its faces.
 _Counted: TypeAlias = tuple[PartFigures | None, NDArray[np.float64] | None]
-# Of the object drawn last: what it was, when it was counted, and what was found.
+# Of the object drawn last: what it was, until when it is kept, and what was found.
 _kept: tuple[tuple[object, ...], float, _Counted] | None = None
 _changed = True
 
@@ -48,11 +50,12 @@ def _counted(obj: bpy.types.Object | None) -> _Counted:
     state = obj.session_uid, obj.data.session_uid, obj.mode, obj.get(RESULT)
     now = time.perf_counter()
     if _kept is not None and _kept[0] == state and not bpy.app.background:
-        before, latest = _kept[1:]
-        if not _changed or now < before + _PAUSE:
+        until, latest = _kept[1:]
+        if not _changed or now < until:
             return latest
-    counted = _count(obj)
-    _kept, _changed = (state, now, counted), False
+    counted, ended = _count(obj), time.perf_counter()
+    until = ended + max(_PAUSE, _REST * (ended - now))
+    _kept, _changed = (state, until, counted), False
     return counted
 
 

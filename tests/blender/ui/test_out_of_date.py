@@ -128,7 +128,9 @@ def test_points_have_a_rank_until_they_move():
     bm.to_mesh(sphere.data)
     bm.free()
     bpy.ops.wcd.measure(**QUICK)
-    assert value_of(WCD_PT_parts, "Convexity") != "out of date"
+    for mode in ("EDIT", "OBJECT"):
+        in_mode(sphere, mode)
+        assert value_of(WCD_PT_parts, "Convexity") != "out of date"
     sphere.data.transform(sphere.matrix_world.Translation((1, 0, 0)))
     assert value_of(WCD_PT_parts, "Convexity") == "out of date"
 
