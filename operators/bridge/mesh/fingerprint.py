@@ -5,6 +5,7 @@ A fingerprint is the number of faces, their area and their center.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -19,6 +20,8 @@ MEASURED_ON = "measured_on"
 # Faces are the same if their area, and their center in lengths of the root of that
 # area, differ by no more than this.
 _SAME = 1e-3
+# Digits that are noted of an area, and of a center in lengths of the root of the area.
+_DIGITS = 5
 
 
 def fingerprint_of(obj: bpy.types.Object) -> list[float]:
@@ -27,8 +30,13 @@ def fingerprint_of(obj: bpy.types.Object) -> list[float]:
 
 
 def to_be_noted(sums: NDArray[np.float64]) -> list[float]:
-    """Return a fingerprint, (5,), in as few digits as tell faces from others."""
-    return [float(sums[0]), *(float(f"{value:.8g}") for value in sums[1:])]
+    """Return a fingerprint, (5,), in as few digits as tell faces from others.
+
+    Edit Mode computes areas a little otherwise, and must give the same.
+    """
+    n_faces, area, *center = sums.tolist()
+    digits = _DIGITS - math.ceil(math.log10(area) / 2) if area else _DIGITS
+    return [n_faces, float(f"{area:.{_DIGITS}g}"), *(round(x, digits) for x in center)]
 
 
 def together(sums: NDArray[np.float64]) -> NDArray[np.float64]:
