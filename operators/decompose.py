@@ -8,7 +8,7 @@ import bpy
 
 from ..core.steps.progress import Steps
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
-from .bridge.hulls.hull_objects import erase_hulls
+from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
 from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
@@ -99,6 +99,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         return clear_refusal(obj)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+        in_object_mode = obj.mode == "OBJECT"
         erase_hulls(obj)
         remove_views(obj)
         erase_images(obj)
@@ -109,6 +110,8 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
             clear_carrier(obj)
         else:
             let_undo_see_all(obj)
+        if in_object_mode and (n_lost := erase_lost_hulls()):
+            self.report({"INFO"}, f"Hulls whose object is gone went, too: {n_lost}.")
 
 
 def _cuts_stay(name: str) -> str:

@@ -12,7 +12,14 @@ import bpy
 from ..operators.settings import HULL_RUN, HULLS, draw, hand_over, other_error
 from .panels import line
 from .shown_figures import shown_figures
-from .sidebar import Sidebar, draw_choices, hulls_of, result_of
+from .sidebar import (
+    OUT_OF_DATE,
+    Sidebar,
+    draw_choices,
+    hulls_of,
+    hulls_of_now,
+    result_of,
+)
 
 
 class WCD_PT_hulls(Sidebar, bpy.types.Panel):
@@ -43,9 +50,11 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         hulls = hulls_of(context.active_object) if result else []
         if not hulls:
             return
-        largest = max(hull["error"] for hull in hulls)
-        line(layout, "Largest Error", f"{largest:.3g}")
-        if result["volume_ratio"] and len(hulls) == len(result["hulls"]):
+        current = bool(hulls_of_now(context.active_object))
+        largest = f"{max(hull['error'] for hull in hulls):.3g}"
+        line(layout, "Largest Error", largest if current else OUT_OF_DATE)
+        complete = current and len(hulls) == len(result["hulls"])
+        if result["volume_ratio"] and complete:
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
         draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
         layout.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
@@ -55,7 +64,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         for hull, name in zip(hulls, endings(names), strict=True):
             obj = bpy.data.objects[hull["name"]]
             material = obj.data.materials[0] if obj.data.materials else None
-            error = f"{hull['error']:.3g}"
+            error = f"{hull['error']:.3g}" if current else "–"
             row = box.row(align=True)
             _columns(row, material, name, str(hull["vertices"]), error)
             shape = row.operator_menu_enum(

@@ -15,8 +15,8 @@ from ..operators.running import modal as running
 from ..operators.running.modal import Running
 from ..operators.settings import ADVANCED, FRONT, MEASURE, RUN, draw, hand_over
 from .parts_table import draw_table
-from .shown_figures import shown_figures
-from .sidebar import Sidebar, result_of, width_of
+from .shown_figures import is_of_now, shown_figures
+from .sidebar import Sidebar, hulls_of_now, rank_text, result_of, width_of
 
 # Widths at interface scale 1: of tabs, margins and an icon together; of a letter.
 _MARGINS = 80
@@ -25,12 +25,18 @@ _LETTER = 6
 _LABELS = 0.4
 
 
-def notes_of(result: dict[str, Any]) -> list[str]:
-    """Return the sentences that came with a result, each once.
+def notes_of(obj: bpy.types.Object | None) -> list[str]:
+    """Return the sentences that came with results on an object, each once.
 
-    They are drawn because the status bar shows only the last report.
+    They are drawn because the status bar shows only the last report. A result of a mesh
+    that has changed since has none.
     """
-    results = (result, result.get("measured", {}), result.get("hulls", {}))
+    result, figures = result_of(obj), shown_figures(obj)
+    results = [result] if figures and not figures.problem else []
+    if obj and is_of_now(obj, measured := result.get("measured", {})):
+        results.append(measured)
+    if obj and hulls_of_now(obj):
+        results.append(result["hulls"])
     notes = [note for noted in results for note in noted.get("notes", ())]
     return list(dict.fromkeys(notes))
 
@@ -86,22 +92,19 @@ class WCD_PT_parts(Sidebar, bpy.types.Panel):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is a result to show."""
         obj = context.active_object
-        result = result_of(obj)
-        measured = "measured" in result or notes_of(result)
-        return bool(measured) or shown_figures(obj) is not None
+        if "measured" in result_of(obj) or shown_figures(obj) is not None:
+            return True
+        return bool(notes_of(obj))
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
         layout = self.layout
         obj = context.active_object
         result = result_of(obj)
-        for note in notes_of(result):
+        for note in notes_of(obj):
             paragraph(layout, note, context)
         if "measured" in result:
-            measured = result["measured"]
-            error = measured["standard_error"]
-            value = f"{measured['convexity_rank']:.3f}"
-            line(layout, "Convexity", value + (f" ± {error:.3f}" if error else ""))
+            line(layout, "Convexity", rank_text(obj, result["measured"]))
         figures = shown_figures(obj)
         if figures is None:
             return

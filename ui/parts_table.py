@@ -12,7 +12,7 @@ from ..operators.bridge.parts.figures import PartFigures
 from ..operators.bridge.views.isolating import isolating
 from ..operators.viewport import picking
 from .shown_figures import shown_figures
-from .sidebar import hulls_of, width_of
+from .sidebar import hulls_of, hulls_of_now, width_of
 
 # Rows that are seen at once, at least and at most.
 _FEWEST_ROWS = 3
@@ -58,7 +58,7 @@ class WCD_UL_parts(bpy.types.UIList):
         swatch.enabled = obj.data.is_editable  # not if it is linked from a library
         swatch.prop(row, "color", text="")
         line.prop(row, "name", text="", emboss=False)
-        texts = _figures(figures, place, hulls_of(obj))
+        texts = _figures(figures, place, hulls_of_now(obj))
         for name in headings(hulls_of(obj), width_of(context), len(obj.wcd_parts)):
             _cell(line, name, texts[name])
         lock = "LOCKED" if row.locked else "UNLOCKED"
@@ -105,7 +105,8 @@ def _figures(
 ) -> dict[str, str]:
     """Return the texts for the faces, area, rank and hull error of a part."""
     faces, area = int(figures.measured_on[place, 0]), figures.measured_on[place, 1]
-    errors = [hull["error"] for hull in hulls if hull["part"] == place]
+    number = figures.identities[place].number
+    errors = [hull["error"] for hull in hulls if hull["part"] == number]
     rank = figures.ranks[place]
     return {
         "Faces": f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k",

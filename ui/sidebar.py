@@ -8,7 +8,10 @@ from typing import Any
 import bpy
 
 from ..operators.bridge.stored.record import parse_record
-from .shown_figures import shown_figures
+from .shown_figures import is_of_now, shown_figures
+
+# What stands for figures of a mesh that has changed since.
+OUT_OF_DATE = "out of date"
 
 
 class Sidebar:
@@ -41,6 +44,20 @@ def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
         for hull, found in zip(noted, there, strict=True)
         if found is not None and found.parent == obj
     ]
+
+
+def hulls_of_now(obj: bpy.types.Object) -> list[dict[str, Any]]:
+    """Return the same if their figures are of the faces that the object has now."""
+    hulls = hulls_of(obj)
+    return hulls if hulls and is_of_now(obj, result_of(obj)["hulls"]) else []
+
+
+def rank_text(obj: bpy.types.Object, measured: dict[str, Any]) -> str:
+    """Return the text for a convexity rank that was measured on an object."""
+    if not is_of_now(obj, measured):
+        return OUT_OF_DATE
+    error = measured["standard_error"]
+    return f"{measured['convexity_rank']:.3f}" + (f" ± {error:.3f}" if error else "")
 
 
 def width_of(context: bpy.types.Context) -> float:

@@ -12,7 +12,7 @@ from ..operators.bridge.views.exploding import exploding, slider
 from ..operators.settings import SELECTION, hand_over
 from ..operators.viewport import sight_overlay
 from .panels import line
-from .sidebar import Sidebar, draw_choices, result_of
+from .sidebar import Sidebar, draw_choices, rank_text, result_of
 
 
 class WCD_PT_use(Sidebar, bpy.types.Panel):
@@ -59,12 +59,10 @@ class WCD_PT_why(Sidebar, bpy.types.Panel):
         if context.mode == "EDIT_MESH":
             button = layout.operator("wcd.measure_selection", text="Measure Selection")
             hand_over(settings, button, SELECTION)
-        measured = result_of(context.active_object).get("selection")
+        obj = context.active_object
+        measured = result_of(obj).get("selection")
         if measured:
-            rank = (
-                f"{measured['convexity_rank']:.3f} ± {measured['standard_error']:.3f}"
-            )
-            line(layout, f"{measured['faces']:,} Faces", rank)
+            line(layout, f"{measured['faces']:,} Faces", rank_text(obj, measured))
         draw_choices(
             layout,
             "wcd.show_picture",

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
+from .hulls.lost_hulls import has_hulls_to_clear
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
 from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME, WHOLE_MESH
@@ -98,7 +99,8 @@ def clear_refusal(obj: Candidate) -> str | None:
         reason = library_refusal(obj)  # parts of a linked mesh are the library's
     cut = reason is None and WHOLE_MESH in obj.data
     marked = reason is None and obj.type == "MESH" and has_marked_seams(obj.data)
-    if reason is None and not (cut or marked or has_record(obj)):
+    ours = cut or marked or (reason is None and has_record(obj))
+    if reason is None and not (ours or has_hulls_to_clear(obj)):
         return f"{obj.name} has no parts to clear"
     if cut and obj.data.is_editmode:
         return (

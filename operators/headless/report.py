@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ...core.results.psi import good_numbers
-from ..bridge.stored.noted_parts import MEASURED_ON, psi_by_k_of
+from ..bridge.mesh.fingerprint import MEASURED_ON
+from ..bridge.stored.noted_parts import psi_by_k_of
 from ..bridge.stored.notes import version
 from .atomic import explaining, replacing
 from .request.options import Request
@@ -112,11 +113,15 @@ def _object_entry(result: ObjectResult) -> dict[str, Any]:
 
 def _shown_record(record: Mapping[str, Any]) -> dict[str, Any]:
     """Return a record with good numbers of parts, without what reruns need."""
-    shown = dict(record)
+    shown = {key: _without_fingerprint(value) for key, value in record.items()}
     if "parts" in shown:
         shown["good_k"] = good_numbers(psi_by_k_of(shown), shown["best_k"])
-        shown["parts"] = [
-            {key: value for key, value in part.items() if key != MEASURED_ON}
-            for part in shown["parts"]
-        ]
+        shown["parts"] = list(map(_without_fingerprint, shown["parts"]))
     return shown
+
+
+def _without_fingerprint(noted: Any) -> Any:
+    """Return what is noted of some faces without what tells if they are the same."""
+    if not isinstance(noted, dict):
+        return noted
+    return {key: value for key, value in noted.items() if key != MEASURED_ON}

@@ -15,9 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray, read_floats, read_ints, read_labels, write_ints
+from ..mesh.by_label import sums_of_all
+from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
 from ..mesh.known import corner_vertices
 from ..parts.slots import bare_materials
 from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
+from ..stored.record import beside_parts, record_of, write_record
 from ..stored.restore import read_restore, sharers
 
 # How Blender names the values of an attribute, and how many numbers each has.
@@ -108,19 +111,30 @@ def put_back(obj: bpy.types.Object, whole: bpy.types.Mesh) -> None:
 def replace_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
     """Give an object, and those that share its mesh, another mesh of the same name.
 
-    The former one is removed if nothing else uses it.
+    Its faces have the same shape. The former mesh is removed if nothing else uses it.
     """
-    former = obj.data
+    former, faces_before = obj.data, sums_of_all(obj)
     name, users = former.name, sharers(obj)
     _copy_key_values(former, mesh)
     for user in users:
         index = user.active_shape_key_index
         user.data = mesh
         user.active_shape_key_index = index
+        _keep_figures(user, faces_before)
     former.name = f"{name} (whole)"
     mesh.name = name
     if former.users == 0:
         bpy.data.meshes.remove(former)
+
+
+def _keep_figures(obj: bpy.types.Object, before: NDArray[np.float64]) -> None:
+    """Let figures of an object with other faces before be those of its faces now."""
+    record = record_of(obj)
+    figures = [record[key] for key in beside_parts(obj) if fits(record[key], before)]
+    for each in figures:
+        each[MEASURED_ON] = fingerprint_of(obj)
+    if figures:
+        write_record(obj, record)
 
 
 def _copy_key_values(former: bpy.types.Mesh, mesh: bpy.types.Mesh) -> None:

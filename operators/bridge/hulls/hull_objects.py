@@ -17,14 +17,15 @@ from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..parts.identities import usual_identities
 from ..parts.materials import discard_unused, is_ours, own_materials
-from ..parts.read import find_parts_on, part_materials
+from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..parts.separating import new_collection
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.record import write_hull_record
 from .looks import keep_piece
+from .lost_hulls import leave_to_user, lost_hulls, remove_empty_collections
 from .placed import pose_of
-from .rigid_bodies import soften
+from .rigid_bodies import remove_simulation, soften
 
 
 def is_hull(obj: bpy.types.Object) -> bool:
@@ -66,8 +67,9 @@ def write_hulls(
     _check_free(names, hulls_of(obj))
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
-    collection[HULL_TAG] = True
-    rows, materials = _materials(obj, found)
+    collection[HULL_TAG] = obj.name
+    parts = find_parts_on(obj) if found.has_parts else None
+    rows, materials = _materials(obj, found, parts)
     scale = stretch(obj)
     hulls, noted = [], []
     for row, name in enumerate(names):
@@ -75,7 +77,7 @@ def write_hulls(
         shape = found.shapes[row]
         mesh = meshes[row] if meshes else hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
-        figures = figures_of_hull(found, row)
+        figures = figures_of_hull(found, row, parts)
         noted.append({"name": hull.name, **figures})
         tag_hull(hull, figures, shape, scale)
         if to_be_edited and shape.kind != "HULL":
@@ -100,7 +102,7 @@ def tag_hull(
 def erase_hulls(
     obj: bpy.types.Object, chosen: Sequence[bpy.types.Object] | None = None
 ) -> None:
-    """Remove an object's hulls, and their collection if nothing else is in it.
+    """Remove an object's hulls, and our collections if nothing is left in them.
 
     Parameters
     ----------
@@ -116,27 +118,39 @@ def erase_hulls(
         )
     if len(hulls) == len(hulls_of(obj)):
         soften(obj, hulls)
-    collections = {c for hull in hulls for c in hull.users_collection if HULL_TAG in c}
+    if obj.mode == "OBJECT":
+        if chosen is None:
+            leave_to_user(obj)
+        _remove(hulls)
+
+
+def erase_lost_hulls() -> int:
+    """Remove the hulls whose object is gone; return their number."""
+    hulls = lost_hulls()
+    _remove(hulls)
+    remove_simulation()
+    return len(hulls)
+
+
+def _remove(hulls: Sequence[bpy.types.Object]) -> None:
+    """Remove hulls with their meshes and materials, and our empty collections."""
     meshes = [hull.data for hull in hulls]
     worn = {m for mesh in meshes for m in mesh.materials}
     worn |= {slot.material for hull in hulls for slot in hull.material_slots}
     materials = set(filter(is_ours, worn))
     for hull in hulls:
         bpy.data.objects.remove(hull)
-    for mesh in meshes:
+    for mesh in set(meshes):
         if mesh.users == 0:
             bpy.data.meshes.remove(mesh)
     discard_unused(materials)
-    for collection in collections:
-        if not collection.all_objects and not collection.children:
-            bpy.data.collections.remove(collection)
+    remove_empty_collections()
 
 
 def _materials(
-    obj: bpy.types.Object, found: HullDecomposition
+    obj: bpy.types.Object, found: HullDecomposition, parts: FoundParts | None
 ) -> tuple[np.ndarray, list[bpy.types.Material]]:
     """Return materials, and which of them each hull has: those of the parts, or new."""
-    parts = find_parts_on(obj) if found.has_parts else None
     if parts is not None:
         own = part_materials(obj, parts)
         return found.parts, [
@@ -181,14 +195,22 @@ def _hull_object(
     return hull
 
 
-def figures_of_hull(found: HullDecomposition, row: int) -> dict[str, Any]:
-    """Return the figures of a hull, to be noted."""
+def figures_of_hull(
+    found: HullDecomposition, row: int, parts: FoundParts | None = None
+) -> dict[str, Any]:
+    """Return the figures of a hull, to be noted.
+
+    Its part is a place. Those that an object has are noted by number, which stays.
+    """
     shape = found.shapes[row]
+    part = int(found.parts[row]) if found.has_parts else None
+    if parts is not None and part is not None:
+        part = parts.identities[part].number
     return {
         "kind": shape.kind,
         "error": float(found.errors[row]),
         "error_unit": found.error_unit,
         "volume": float(shape.volume),
-        "part": int(found.parts[row]) if found.has_parts else None,
+        "part": part,
         "vertices": len(core.outline_of(shape).vertices),
     }

@@ -51,7 +51,7 @@ def make_rigid(
 
 
 def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
-    """Undo `make_rigid`; remove our simulation if nothing is left in it."""
+    """Undo `make_rigid`."""
     if RIGID_TAG not in obj:
         return
     del obj[RIGID_TAG]
@@ -59,6 +59,11 @@ def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
         if each.rigid_body is not None:
             with _on(each):
                 bpy.ops.rigidbody.object_remove()
+    remove_simulation()
+
+
+def remove_simulation() -> None:
+    """Remove the simulation that we made in a scene if nothing is left in it."""
     for scene in bpy.data.scenes:
         bodies = scene.rigidbody_world and scene.rigidbody_world.collection
         if bodies and RIGID_TAG in bodies and not bodies.objects:

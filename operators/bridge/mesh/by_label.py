@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ....core.steps.progress import Progress, Steps, run, within
 from ....core.steps.rows import blocks
+from .attributes import FloatArray
 from .known import (
     SLOW,
     Known,
@@ -21,7 +22,7 @@ from .known import (
     face_centers,
     latest_of,
 )
-from .points import is_cloud, positions_of
+from .points import is_cloud, vertices_now
 
 # Bytes for which vertices each label has: all labels at once are quicker.
 _ROOM = 2**26
@@ -116,16 +117,36 @@ def sums_by_label(
     -------
     (K, 5) float
     """
-    if is_cloud(obj):
-        centers = positions_of(obj)
-        areas: NDArray[np.floating] = np.ones(len(centers))
-    elif obj.data.is_editmode:
-        faces = bmesh.from_edit_mesh(obj.data).faces
-        areas = np.array([face.calc_area() for face in faces])
-        centers = np.array([face.calc_center_median() for face in faces])
-    else:
-        areas, centers = face_areas(obj.data), face_centers(obj.data)
+    if is_cloud(obj) or not obj.data.is_editmode:
+        return run(_sums(labels, n_labels, *_areas_and_centers(obj)))
+    faces = bmesh.from_edit_mesh(obj.data).faces
+    areas = np.array([face.calc_area() for face in faces])
+    centers = np.array([face.calc_center_median() for face in faces])
     return run(_sums(labels, n_labels, areas, centers))
+
+
+def sums_of_all(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return the same of all faces, or points, of an object together, (5,).
+
+    It is quick. So in Edit Mode only the number of faces is surely that of now: areas
+    and centers may be from before the latest edits.
+    """
+    areas, centers = _areas_and_centers(obj)
+    labels = np.zeros(len(areas), dtype=np.int64)
+    sums: NDArray[np.float64] = run(_sums(labels, 1, areas, centers))[0]
+    if not is_cloud(obj) and obj.data.is_editmode:
+        sums[0] = len(bmesh.from_edit_mesh(obj.data).faces)
+    return sums
+
+
+def _areas_and_centers(
+    obj: bpy.types.Object,
+) -> tuple[NDArray[np.floating], FloatArray]:
+    """Return the area (P,) and center (P, 3) of each face of a mesh, or point."""
+    if is_cloud(obj):
+        points = vertices_now(obj)
+        return np.ones(len(points)), points
+    return face_areas(obj.data), face_centers(obj.data)
 
 
 def _sums(

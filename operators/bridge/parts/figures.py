@@ -6,7 +6,6 @@ were measured on, and are known only while a part still has these.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,14 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.by_label import sums_by_label
+from ..mesh.fingerprint import fits
 from ..stored.identity import Identity
-from ..stored.noted_parts import MEASURED_ON, entry_of
+from ..stored.noted_parts import entry_of
 from ..stored.record import record_of
 from .read import FoundParts, find_parts_on
 
-# Faces are the same if their area, and their center in lengths of the root of that
-# area, differ by no more than this.
-_SAME = 1e-3
 JOINED = "Another object was joined to this one; press Refresh to list its parts."
 
 
@@ -69,19 +66,10 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
         entry = entry_of(record, identity.number) if turn == 0 else None
         if entry is None or entry["convexity_rank"] is None:
             continue
-        if _fits(entry, measured_on[row]):
+        if fits(entry, measured_on[row]):
             ranks[row] = entry["convexity_rank"]
     problem = _problem(record, found, measured_on)
     return PartFigures(found, measured_on, ranks, record, problem)
-
-
-def _fits(entry: dict[str, Any], now: Sequence[float]) -> bool:
-    """Return whether an entry of a record was measured on these faces."""
-    then = entry.get(MEASURED_ON)
-    if then is None or then[0] != now[0]:
-        return False
-    area, far = now[1], np.abs(np.subtract(then[2:], now[2:])).max()
-    return bool(abs(then[1] - area) <= _SAME * area and far <= _SAME * np.sqrt(area))
 
 
 def _problem(
@@ -96,7 +84,7 @@ def _problem(
         for each, row in zip(found.identities, measured_on, strict=True)
     }
     same = {entry["number"] for entry in entries} == now.keys()
-    fits = same and all(_fits(entry, now[entry["number"]]) for entry in entries)
-    if fits and record["psi"] is not None:
+    fit = same and all(fits(entry, now[entry["number"]]) for entry in entries)
+    if fit and record["psi"] is not None:
         return None
     return "The mesh has changed; press Refresh to measure the parts again."

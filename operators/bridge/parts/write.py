@@ -14,6 +14,7 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
 from ..mesh.by_label import ByLabel
+from ..mesh.fingerprint import to_be_noted
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
@@ -119,8 +120,7 @@ def _note(
     if restore.groups:
         identities = _named(identities, restore.groups)
     materials = _material_names(obj, len(identities))
-    sums = ready.sums.tolist()
-    measured_on = [[float(f"{value:.5g}") for value in row] for row in sums]
+    measured_on = [to_be_noted(row) for row in ready.sums]
     for sharer in sharers(obj):
         write_result(
             sharer,

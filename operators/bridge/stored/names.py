@@ -53,7 +53,8 @@ OWNER = "wcd_owner"
 # Custom properties of a material of ours: the number and the name of the part.
 MATERIAL_TAG = "wcd_part"
 MATERIAL_NAME = "wcd_name"
-# Custom property of hulls, and of the collections made for them: the figures of a hull.
+# Custom property of hulls: the figures of a hull. Of the collections made for them: the
+# name of their object.
 HULL_TAG = "wcd_hull"
 # Custom property of hulls: the points of the piece that a primitive is around.
 PIECE_TAG = "wcd_piece"

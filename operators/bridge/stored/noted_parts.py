@@ -6,9 +6,6 @@ from typing import Any
 
 from .identity import Identity
 
-# Where the entry of a part keeps the fingerprint of the faces it was measured on.
-MEASURED_ON = "measured_on"
-
 
 def entry_of(record: dict[str, Any], number: int) -> dict[str, Any] | None:
     """Return the entry of a part, None if there is none."""

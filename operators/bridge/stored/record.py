@@ -14,9 +14,10 @@ from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 from ....core.results.hulls import HullDecomposition
 from ....core.results.parts import Decomposition, Measurement
+from ..mesh.fingerprint import MEASURED_ON, fingerprint_of
 from .identity import Identity
 from .names import RESULT
-from .noted_parts import MEASURED_ON, entry_of
+from .noted_parts import entry_of
 from .notes import parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore, sharers
 
@@ -191,6 +192,7 @@ def write_measurement(
         "samples": int(measurement.n_samples),
         "pairs_cast": measurement.pairs_cast,
         "parameters": parameters,
+        MEASURED_ON: fingerprint_of(obj),
         "notes": list(measurement.notes),
     }
     if faces is None:
@@ -214,6 +216,7 @@ def write_hull_record(
         "largest_error": float(found.errors.max()),
         "volume_ratio": ratio if math.isfinite(ratio) else None,
         "hulls": hulls,
+        MEASURED_ON: fingerprint_of(obj),
         "notes": list(found.notes),
     }
     write_note(obj, RESULT, result)

@@ -38,14 +38,18 @@ def remove_modifier(obj: bpy.types.Object, tag: str) -> None:
         )
     group = modifier.node_group
     obj.modifiers.remove(modifier)
-    if group.users == 0 and group.library is None:
+    if _is_unused(group):
         bpy.data.node_groups.remove(group)
 
 
 def remove_views(obj: bpy.types.Object) -> None:
-    """Remove all modifiers of ours from an object."""
+    """Remove all modifiers of ours from an object, and node groups without any."""
     for tag in _TAGS:
         remove_modifier(obj, tag)
+    # Their object may have been joined to another.
+    for group in bpy.data.node_groups[:]:
+        if any(tag in group for tag in _TAGS) and _is_unused(group):
+            bpy.data.node_groups.remove(group)
 
 
 def new_node_group(name: str, tag: str) -> bpy.types.GeometryNodeTree:
@@ -76,6 +80,11 @@ class Nodes:
         node.location = 220.0 * column, -height
         self._heights[column] = height + 220.0
         return node
+
+
+def _is_unused(group: bpy.types.NodeTree) -> bool:
+    """Return whether nothing uses a node group, and it may be removed."""
+    return bool(group.users == 0 and group.library is None)
 
 
 def _has_tag(modifier: bpy.types.Modifier, tag: str) -> bool:

@@ -13,7 +13,7 @@ import bpy
 from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
-from ...bridge.hulls.hull_objects import write_hulls
+from ...bridge.hulls.hull_objects import figures_of_hull, write_hulls
 from ...bridge.hulls.placed import placed
 from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
@@ -135,10 +135,9 @@ def _hulls_of(
     with screen.stages.during("hulls"):
         meshes = [hull.data for hull in built.hulls] if built else None
         hulls = write_hulls(obj, found, parameters, meshes)
-        noted = record_of(obj)["hulls"]["hulls"]
         figures = tuple(
-            {**figure, **placed(shape, obj)}
-            for figure, shape in zip(noted, found.shapes, strict=True)
+            {"name": hull.name, **figures_of_hull(found, row), **placed(shape, obj)}
+            for row, (hull, shape) in enumerate(zip(hulls, found.shapes, strict=True))
         )
     if built is None:
         known.append(_Built(obj, found, hulls))

@@ -8,6 +8,7 @@ import pytest
 from edited import check_in_step
 from hand_made import (
     activate,
+    areas,
     centers,
     decompose_by_hand,
     in_mode,
@@ -104,3 +105,16 @@ def test_an_exploded_view_is_not_cleared_in_edit_mode(suzanne):
     in_mode(suzanne, "EDIT")
     with pytest.raises(RuntimeError, match="switch to Object Mode first"):
         bpy.ops.wcd.clear()
+
+
+def test_clear_removes_the_view_of_an_object_that_was_joined(suzanne):
+    bpy.ops.object.duplicate()
+    other = bpy.context.active_object
+    decompose_by_hand(other, 4)
+    call("explode")
+    activate(suzanne)
+    other.select_set(True)
+    bpy.ops.object.join()
+    assert [group.users for group in bpy.data.node_groups] == [0]
+    call("clear")
+    assert not bpy.data.node_groups

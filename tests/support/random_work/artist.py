@@ -6,7 +6,15 @@ from hand_made import in_mode
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from .checks import attempt, bodies, bone, check_body, check_cleared, only
+from .checks import (
+    attempt,
+    bodies,
+    bone,
+    check_body,
+    check_cleared,
+    check_file_cleared,
+    only,
+)
 from .more_hands import FAST, NUMBERS, MoreHands
 
 PARTS = st.sampled_from([0, 2, 3, 4, 6])
@@ -194,7 +202,7 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
         if not self.saved or len(bodies()) > 3:
             return
         with bpy.data.libraries.load(str(self.saved)) as (there, chosen):
-            chosen.objects = there.objects[:1]
+            chosen.objects = [o for o in there.objects if "hull" not in o][:1]
         for obj in chosen.objects:
             bpy.context.collection.objects.link(obj)
         self.done()
@@ -209,9 +217,10 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
         if not hasattr(self, "saved"):
             return
         self.object_mode()
-        for obj in bodies():
+        for obj in bodies(without_faces=True):
             only(obj)
             if bpy.ops.wcd.clear.poll():
                 bpy.ops.wcd.clear()
-        for obj in bodies():
+        for obj in bodies(without_faces=True):
             check_cleared(obj)
+        check_file_cleared()

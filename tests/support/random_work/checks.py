@@ -1,11 +1,14 @@
 """Objects for random work on parts, and what must always hold for them."""
 
+import json
+
 import bmesh
 import bpy
 import numpy as np
 from edited import check_in_step
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
+from weak_convex_decomposition.operators.bridge.stored import names
 
 
 def bone(x=0.0):
@@ -40,10 +43,11 @@ def only(*objects):
     bpy.context.view_layer.objects.active = objects[0]
 
 
-def bodies():
-    """Return the objects that can have parts."""
-    there = [o for o in bpy.context.view_layer.objects if "wcd_hull" not in o]
-    return sorted((o for o in there if o.data.polygons), key=lambda o: o.name)
+def bodies(without_faces=False):
+    """Return the objects that can have parts, by name."""
+    there = [o for o in bpy.context.view_layer.objects if names.HULL_TAG not in o]
+    fit = (o for o in there if without_faces or o.data.polygons)
+    return sorted(fit, key=lambda o: o.name)
 
 
 def attempt(operator, **options):
@@ -61,6 +65,9 @@ def check_body(obj):
     """Check that all that is known of an object's parts tells of the same ones."""
     figures = figures_of(obj)
     if figures is None:
+        record = json.loads(obj.get(names.RESULT, "{}"))
+        assert not {"parts", "psi"} & record.keys()
+        assert names.PART_LAYER not in obj.data.attributes
         return
     identities, labels = figures.identities, figures.found.labels
     assert np.bincount(labels).tolist() == figures.measured_on[:, 0].tolist()
@@ -95,3 +102,11 @@ def check_cleared(obj):
     assert not obj.vertex_groups
     assert not any(edge.use_seam for edge in obj.data.edges)
     assert not [key for key in obj.data.keys() if "wcd" in key]  # noqa: SIM118
+
+
+def check_file_cleared():
+    """Check that no hulls, collections, node groups or images of ours are left."""
+    tags = {names.HULL_TAG, names.EXPLODE_TAG, names.ISOLATE_TAG, names.IMAGE_TAG}
+    kinds = ("objects", "collections", "node_groups", "images")
+    every = [each for kind in kinds for each in getattr(bpy.data, kind)]
+    assert not [each for each in every if tags & set(each.keys())]

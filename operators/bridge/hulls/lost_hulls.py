@@ -1,0 +1,90 @@
+"""Find hulls that nobody has any more, as after their object was joined to another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+
+from ..stored.names import HULL_TAG, RESULT
+from ..stored.record import parse_record
+
+
+def lost_hulls() -> list[bpy.types.Object]:
+    """Return the hulls whose object is gone from the file.
+
+    They are in a collection that we made, and no object notes them. A hull is the
+    user's if the user put it into another collection, or works on it.
+    """
+    found = [
+        hull
+        for collection in _hull_collections()
+        if _object_is_gone(collection)
+        for hull in _without_object(collection)
+    ]
+    noted = set().union(*map(_noted_by, bpy.data.objects)) if found else set()
+    return [hull for hull in dict.fromkeys(found) if hull.name not in noted]
+
+
+def has_hulls_to_clear(obj: bpy.types.Object) -> bool:
+    """Return whether our collections hold hulls of an object, or lost ones.
+
+    Panels ask for it many times a second, and files have thousands of objects.
+    """
+    if HULL_TAG in obj:
+        return False
+    there = (each for c in _hull_collections() for each in c.objects)
+    return any(each.parent == obj and HULL_TAG in each for each in there) or bool(
+        lost_hulls()
+    )
+
+
+def leave_to_user(obj: bpy.types.Object) -> None:
+    """Let hulls that the user took from an object be the user's from now on."""
+    noted = _noted_by(obj)
+    for collection in _hull_collections():
+        if collection[HULL_TAG] == obj.name:
+            for hull in list(_without_object(collection)):
+                if hull.name in noted:
+                    del hull[HULL_TAG]
+
+
+def remove_empty_collections() -> None:
+    """Remove the collections that we made for hulls, and that hold nothing."""
+    for collection in _hull_collections():
+        if not collection.all_objects and not collection.children:
+            bpy.data.collections.remove(collection)
+
+
+def _hull_collections() -> list[bpy.types.Collection]:
+    """Return the collections that we made for hulls, and can change."""
+    return [c for c in bpy.data.collections if HULL_TAG in c and c.is_editable]
+
+
+def _object_is_gone(collection: bpy.types.Collection) -> bool:
+    """Return whether the object that a collection was made for is gone.
+
+    Another one may have its name now: that has no hulls, or the hulls may be its own.
+    """
+    name = collection[HULL_TAG]
+    if not isinstance(name, str):  # older versions noted no name
+        return False
+    return name not in bpy.data.objects or not _noted_by(bpy.data.objects[name])
+
+
+def _without_object(collection: bpy.types.Collection) -> Iterator[bpy.types.Object]:
+    """Yield the hulls in a collection that have no object, and are in it alone."""
+    worlds = [each.rigidbody_world for each in bpy.data.scenes]
+    bodies = [world.collection for world in worlds if world]  # hulls may be in these
+    for hull in collection.objects:
+        if HULL_TAG not in hull or RESULT in hull or not hull.is_editable:
+            continue
+        homes = [c for c in hull.users_collection if c not in bodies]
+        if hull.parent is None and all(HULL_TAG in each for each in homes):
+            yield hull
+
+
+def _noted_by(obj: bpy.types.Object) -> set[str]:
+    """Return the names of the hulls that an object notes."""
+    record = parse_record(obj.get(RESULT)) or {}
+    return {hull["name"] for hull in record.get("hulls", {}).get("hulls", ())}
