@@ -8,7 +8,6 @@ import pytest
 from edited import check_in_step
 from hand_made import (
     activate,
-    areas,
     centers,
     decompose_by_hand,
     in_mode,
