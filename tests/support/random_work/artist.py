@@ -27,7 +27,6 @@ OPERATORS = (
     *("explode", "implode"),
     "clear",
     "separate",
-    "lock_parts",
 )
 
 

@@ -12,13 +12,16 @@ def locks_hold(obj):
     before = _locked(obj)
     yield
     after = _locked(obj)
-    assert after.keys() == before.keys()
+    assert after.keys() >= before.keys()
     for number, figures in before.items():
         assert np.allclose(after[number], figures, atol=1e-4), number
 
 
 def _locked(obj):
-    """Return faces, area and center of the locked parts that have faces, by number."""
+    """Return faces, area and center of the locked parts that have faces, by number.
+
+    Where the record is not in step with the faces, as after a join, numbers change.
+    """
     figures = figures_of(obj)
     if figures is None or not figures.found.in_step:
         return {}

@@ -1,6 +1,7 @@
 """What an artist does to look at parts: measures, selects, isolates, chooses, draws."""
 
 import bpy
+from hand_made import in_mode
 from hypothesis import strategies as st
 from hypothesis.stateful import rule
 from weak_convex_decomposition.core.parameters.choices import PICTURES
@@ -18,7 +19,10 @@ class Looks:
 
     @rule(n=NUMBERS, selected=st.booleans())
     def measure(self, n, selected):
-        self.body(n)
+        obj = self.body(n)
+        if selected:
+            self.select(obj, 0, 20)
+            in_mode(obj, "EDIT")
         call = bpy.ops.wcd.measure_selection if selected else bpy.ops.wcd.measure
         attempt(call, samples=FAST["samples"])
         attempt(bpy.ops.wcd.tell_quality)
@@ -43,6 +47,12 @@ class Looks:
         self.body(n)
         attempt(bpy.ops.wcd.choose_part, number=number, extend=extend)
         attempt(bpy.ops.wcd.rename_part, name=name)
+        self.done()
+
+    @rule(n=NUMBERS, row=NUMBERS)
+    def lock(self, n, row):
+        self.body(n).wcd_active_part = row
+        attempt(bpy.ops.wcd.lock_parts)
         self.done()
 
     @rule(n=NUMBERS, kind=KINDS)
