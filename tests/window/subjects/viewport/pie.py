@@ -1,11 +1,16 @@
-"""The pie of Pick Parts by its keys: split, lock, select and assign; each is undone."""
+"""The tint under the cursor, and the pie by its keys: split, lock, select, assign."""
 
 import bpy
 from leftovers import leftovers
-from subjects.viewport.pick import BROW, CHIN, hover, n_parts
+from subjects.viewport.pick import BROW, CHIN, NOWHERE, hover, n_parts
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.running import modal as running
 from weak_convex_decomposition.operators.viewport import picking
+
+# How much lighter a tint makes each channel at least, and how many points of the
+# screen get lighter: the brow has these, its border a tenth.
+_LIGHTER = 0.03
+_FEWEST, _MOST = 15_000, 80_000
 
 
 def by_key(hands, place, key):
@@ -25,6 +30,15 @@ def counts():
     figures = figures_of(bpy.context.active_object)
     names = [each.name for each in figures.identities]
     return dict(zip(names, figures.measured_on[:, 0].tolist(), strict=True))
+
+
+def tinted(hands):
+    """Hover over a part, and check that all of it gets lighter, not only its border."""
+    yield from hover(hands, NOWHERE)
+    before = hands.pixels("not-hovered")
+    yield from hover(hands, BROW)
+    lighter = (hands.pixels("hovered") - before).min(axis=2) > _LIGHTER
+    assert _FEWEST < lighter.sum() < _MOST, lighter.sum()
 
 
 def split_and_lock(hands, chin):
@@ -69,6 +83,7 @@ def steps(hands):
     chin = yield from hover(hands, CHIN)
     brow = yield from hover(hands, BROW)
     assert chin != brow
+    yield from tinted(hands)
     yield from split_and_lock(hands, chin)
     yield from assign(hands, brow, chin)
     yield from hands.press("Escape")
