@@ -80,6 +80,7 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
             sides = "  .L .R" if len(row.endings) > 1 else ""
             split.label(text=row.base + sides)
             if self.way == "TYPE" and place < len(self.names):
+                split.activate_init = not place  # the first name is ready to be typed
                 split.prop(self.names[place], "new", text="")
             else:
                 split.label(text=base)

@@ -3,7 +3,8 @@
 import json
 
 import numpy as np
-from hand_made import face_values, in_mode
+from hand_made import areas, face_values, in_mode
+from scipy.optimize import linear_sum_assignment
 from weak_convex_decomposition.operators.bridge.parts.kept_materials import (
     is_overlaid,
     kept_materials,
@@ -33,6 +34,26 @@ def parts_of(obj):
     """Return the name, number and material of each part, from the record."""
     keys = ("name", "number", "material")
     return [tuple(part[key] for key in keys) for part in record_of(obj)["parts"]]
+
+
+def faces_by_name(obj):
+    """Return the name of the part of each face."""
+    return np.array([name for name, _, _ in parts_of(obj)])[labels_of(obj)]
+
+
+def needless_change(obj, before, after):
+    """Return the share of the area that changed its name, though it need not.
+
+    `before` and `after` are names, or colors, of all faces.
+    """
+    sizes = areas(obj.data)
+    changed = sizes[before != after].sum()
+    _, before = np.unique(before, return_inverse=True)
+    _, after = np.unique(after, return_inverse=True)
+    shared = np.zeros((before.max() + 1, after.max() + 1))
+    np.add.at(shared, (before, after), sizes)
+    most_kept = shared[linear_sum_assignment(-shared)].sum()
+    return (changed + most_kept) / sizes.sum() - 1
 
 
 def check_in_step(obj):

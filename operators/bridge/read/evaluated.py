@@ -22,7 +22,7 @@ from ..mesh.attributes import read_floats, read_ints, write_ints
 from ..mesh.known import triangles_of
 from ..stored.record import EVALUATED, ORIGINAL
 from .shape import stretch
-from .shown_mesh import differs, evaluated
+from .shown_mesh import count_instances, differs, evaluated
 
 # Carries face numbers, counted from 1, while a mesh is evaluated; 0 is no face.
 _LAYER = "wcd_face"
@@ -46,6 +46,8 @@ class SeenMesh:
         from: itself, or the nearest one that is seen.
     corresponds : bool
         Whether parts can be written to the object's own faces.
+    n_left_out : int
+        Number of instances that are seen and were not read.
     name : str
         Of the object.
     """
@@ -56,6 +58,7 @@ class SeenMesh:
     own_areas: NDArray[np.float64]
     stand_ins: NDArray[np.int64]
     corresponds: bool
+    n_left_out: int
     name: str
 
     @property
@@ -64,11 +67,13 @@ class SeenMesh:
         seen = f"The evaluated mesh was read, with {len(self.areas):,} faces"
         own = f"the {len(self.own_areas):,} faces of the mesh"
         if self.corresponds:
-            return (f"{seen} that come from {own}: these have the parts.",)
-        return (
-            f"{seen} that do not come from {own}: the parts are on the new object"
-            f' "{self.name} parts", and {self.name} is hidden.',
-        )
+            where = f"{seen} that come from {own}: these have the parts."
+        else:
+            where = (
+                f"{seen} that do not come from {own}: the parts are on the new object"
+                f' "{self.name} parts", and {self.name} is hidden.'
+            )
+        return (where, *_leaving_out(self.n_left_out))
 
     def on_own_faces(self, found: Decomposition) -> Decomposition:
         """Return parts of the faces that are seen as parts of the mesh's own faces.
@@ -97,6 +102,17 @@ class SeenMesh:
             ),
             notes=(*found.notes, *_sharing(counts, found.n_parts - len(kept))),
         )
+
+
+def _leaving_out(n_instances: int) -> tuple[str, ...]:
+    """Return a note on instances that were not read."""
+    if not n_instances:
+        return ()
+    instances = "1 instance" if n_instances == 1 else f"{n_instances:,} instances"
+    return (
+        f"{instances} of other objects, such as particles, were left out; make objects"
+        " of them (Object > Apply > Make Instances Real) to include them.",
+    )
 
 
 def _sharing(counts: NDArray[np.int64], n_lost: int) -> tuple[str, ...]:
@@ -132,17 +148,13 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
     """
     if which_mesh(mesh, obj) == ORIGINAL:
         return None
-    if obj.mode != "OBJECT" or not obj.visible_get():
-        raise DecompositionError(
-            f"The evaluated mesh of {obj.name} is read in Object Mode while it is"
-            " visible; leave Edit Mode and show it, or set Mesh to Original."
-        )
+    _check_readable(obj)
     own = obj.data.polygons
     own_areas = read_floats(own, "area").astype(np.float64)
     own_centers = read_floats(own, "center", 3)
     with _numbered(obj) as name, evaluated(obj) as (found, depsgraph):
         shown = found.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph)
-        if not len(own) or not shown.polygons:
+        if not shown.polygons:
             raise DecompositionError(
                 f"No faces of {obj.name} are seen; look at its modifiers, or set Mesh"
                 " to Original."
@@ -151,11 +163,14 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
         areas = read_floats(shown.polygons, "area").astype(np.float64)
         centers = read_floats(shown.polygons, "center", 3)
         origins = _origins(shown, name)
+        n_left_out = count_instances(obj, depsgraph)
         found.to_mesh_clear()
     known = (origins >= 0) & (origins < len(own))
     seen = np.zeros(len(own), dtype=bool)
     seen[origins[known]] = True
-    corresponds = seen.mean() >= _MOST and areas[known].sum() >= _MOST * areas.sum()
+    corresponds = known.any() and (
+        seen.mean() >= _MOST and areas[known].sum() >= _MOST * areas.sum()
+    )
     if corresponds:
         origins = origins[_nearest(centers, known)]
     return SeenMesh(
@@ -165,8 +180,18 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
         own_areas,
         _nearest(own_centers, seen) if corresponds else np.arange(len(own)),
         bool(corresponds),
+        n_left_out,
         obj.name,
     )
+
+
+def _check_readable(obj: bpy.types.Object) -> None:
+    """Raise if an object is in Edit Mode, or Blender does not evaluate it."""
+    if obj.mode != "OBJECT" or not obj.visible_get():
+        raise DecompositionError(
+            f"The evaluated mesh of {obj.name} is read in Object Mode while it is"
+            " visible; leave Edit Mode and show it, or set Mesh to Original."
+        )
 
 
 def _nearest(

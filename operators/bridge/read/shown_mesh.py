@@ -7,7 +7,9 @@ from contextlib import contextmanager
 
 import bpy
 
-from ..views.node_modifiers import is_view
+from ..refusals import CONVERTIBLE
+from ..stored.names import REALIZE_TAG
+from ..views.node_modifiers import Nodes, is_view, new_node_group, remove_modifier
 
 
 def shown_modifiers(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
@@ -33,16 +35,48 @@ def differs(obj: bpy.types.Object | None) -> bool:
 def evaluated(
     obj: bpy.types.Object,
 ) -> Iterator[tuple[bpy.types.Object, bpy.types.Depsgraph]]:
-    """Give the evaluated object, without the modifiers of ours that show parts."""
+    """Give the evaluated object, without the modifiers of ours that show parts.
+
+    Instances that Geometry Nodes make are faces of its mesh.
+    """
     views = [m for m in obj.modifiers if m.show_viewport and is_view(m)]
+    active = obj.modifiers.active
     for modifier in views:
         modifier.show_viewport = False
-    depsgraph = bpy.context.evaluated_depsgraph_get()
     try:
+        if any(each.type == "NODES" for each in shown_modifiers(obj)):
+            _realize_instances(obj)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
         yield obj.evaluated_get(depsgraph), depsgraph
     finally:
+        remove_modifier(obj, REALIZE_TAG)
+        obj.modifiers.active = active
         for modifier in views:
             modifier.show_viewport = True
+
+
+def _realize_instances(obj: bpy.types.Object) -> None:
+    """Add a last modifier that makes faces of the instances of those before."""
+    group = new_node_group("Realize Instances", REALIZE_TAG)
+    nodes, link = Nodes(group), group.links.new
+    given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 2)
+    realize = nodes.add("GeometryNodeRealizeInstances", 1)
+    link(given.outputs[0], realize.inputs[0])
+    link(realize.outputs[0], out.inputs[0])
+    modifier = obj.modifiers.new(group.name, "NODES")
+    modifier.node_group = group
+    modifier.use_pin_to_last = True  # as those that the user pinned
+    last = len(obj.modifiers) - 1
+    obj.modifiers.move(obj.modifiers.find(modifier.name), last)
+
+
+def count_instances(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> int:
+    """Return how many instances of other objects with faces an object shows."""
+    kinds = {"MESH", *CONVERTIBLE}
+    return sum(
+        each.is_instance and each.parent.original == obj and each.object.type in kinds
+        for each in depsgraph.object_instances
+    )
 
 
 def evaluated_copy(obj: bpy.types.Object) -> bpy.types.Mesh:

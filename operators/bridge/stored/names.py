@@ -64,6 +64,8 @@ RIGID_TAG = "wcd_rigid"
 EXPLODE_TAG = "wcd_explode"
 # Custom property of the node group that isolates parts.
 ISOLATE_TAG = "wcd_isolate"
+# Custom property of the node group that realizes instances while a mesh is read.
+REALIZE_TAG = "wcd_realize"
 # Custom property of our images: the name of the object that they show.
 IMAGE_TAG = "wcd_picture"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.

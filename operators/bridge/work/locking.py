@@ -201,8 +201,9 @@ def _parameters_of_rest(
             f"All parts are {kept}, so nothing is left to decompose; {way_out}."
         )
     if n_parts and n_parts <= n_held:
+        count = "1 part is" if n_held == 1 else f"{n_held} parts are"
         raise DecompositionError(
-            f"Parts is {n_parts}, but {n_held} parts are {kept} and count too; raise"
+            f"Parts is {n_parts}, but {count} {kept}, which counts too; raise"
             f" it to {n_held + 1} at least, set it to 0, or {way_out}."
         )
     fewest = max(2, parameters.min_parts - n_held)

@@ -152,7 +152,7 @@ def test_what_cannot_be_done_is_said_in_a_sentence(monkey):
     with say(poll, match="All parts are locked"):
         bpy.ops.wcd.decompose(**FAST)
     monkey.wcd_parts[0].locked = False
-    with say(poll, match="but 3 parts are locked and count too; raise it to 4"):
+    with say(poll, match="but 3 parts are locked, which counts too; raise it to 4"):
         bpy.ops.wcd.decompose(**FAST, parts=3)
     bpy.ops.wcd.clear()
     with say(poll, match="has no parts yet"):

@@ -4,6 +4,8 @@ import json
 
 import bpy
 import pytest
+from edited import check_in_step, faces_by_name, needless_change
+from hand_made import face_values
 from snapshot import snapshot
 from weak_convex_decomposition.core.parts.seams import cutter
 from weak_convex_decomposition.operators.bridge.work import session_cache
@@ -154,3 +156,27 @@ def test_nothing_is_found_ahead_where_parts_stay(suzanne, settings):
     suzanne.wcd_parts[0].locked = True
     settings.parts = 4
     assert ahead.go_on() is None
+
+
+@pytest.mark.parametrize("by", ["chart", "live"])
+def test_names_and_a_lock_stay_from_3_to_12_parts(suzanne, settings, by):
+    settings.live = False
+    bpy.ops.wcd.choose_part_count(parts=3)
+    for row, name in zip(suzanne.wcd_parts, ("Head", "Jaw", "Ear"), strict=True):
+        row.name = name
+    suzanne.wcd_parts[1].locked = True
+    locked = face_values(suzanne.data, "wcd_part") == suzanne.wcd_parts[1].number
+    settings.live = by == "live"
+    for n_parts in (*range(3, 13), *range(11, 2, -1)):
+        before = faces_by_name(suzanne)
+        if by == "live":
+            settings.parts = n_parts
+        else:
+            bpy.ops.wcd.choose_part_count(parts=n_parts)
+        rows = {row.name: row for row in suzanne.wcd_parts}
+        assert len(rows) == n_parts
+        assert needless_change(suzanne, before, faces_by_name(suzanne)) <= 0.02
+        assert [name for name, row in rows.items() if row.locked] == ["Jaw"]
+        parts = face_values(suzanne.data, "wcd_part")
+        assert ((parts == rows["Jaw"].number) == locked).all()
+    check_in_step(suzanne)

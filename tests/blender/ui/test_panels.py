@@ -1,135 +1,28 @@
 """What panels draw: nothing is cut off at the sidebar's usual width, nothing is empty.
 
-The layout is made up: it keeps what is drawn, and knows how Blender shares width out.
+What has changed is said, and the star of the chart is on the best number of parts.
 """
 
+from dataclasses import replace
 from itertools import product
-from types import SimpleNamespace
 
-import blf
 import bpy
 import pytest
 from edited import FAST
-from hand_made import decompose_by_hand
+from hand_made import bands, decompose_by_hand, decomposition_of
+from stand_ins.layout import EDGES, ICON, SIDEBAR, Layout, context, drawn
 from weak_convex_decomposition import ui
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.operators.measure import WCD_OT_tell_quality
 from weak_convex_decomposition.operators.settings import FRONT, is_used
+from weak_convex_decomposition.ui.chart import WCD_PT_chart
 from weak_convex_decomposition.ui.edit_panel import WCD_PT_edit, acted_on
 from weak_convex_decomposition.ui.panels import WCD_PT_main, WCD_PT_parts
 from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
 
-# Of Blender's sidebar at interface scale 1, in points, with tabs and margins; of what
-# an icon and the edges of a button take; of a list's edges; of a unit.
-_SIDEBAR, _EDGES = 280, 53
-_ICON, _BUTTON, _LIST, _UNIT = 20, 16, 12, 20
-# Share of the width of a setting's name.
-_NAMES = 0.4
-
-
-class Layout:
-    """Stands for a layout: its parts are layouts, or texts with their edges."""
-
-    def __init__(self, kind="column", parent=None, factor=None):
-        self.kind, self.factor, self.parts = kind, factor, []
-        self.use_property_split = bool(parent and parent.use_property_split)
-        self.ui_units_x = 0.0
-
-    def _child(self, kind, factor=None):
-        self.parts.append(Layout(kind, self, factor))
-        return self.parts[-1]
-
-    def row(self, align=False, heading=""):
-        return self._child("row")
-
-    def column(self, align=False):
-        return self._child("column")
-
-    def box(self):
-        return self._child("column")
-
-    def split(self, factor=0.5, align=False):
-        return self._child("split", factor)
-
-    def _text(self, text, icon, edges=_BUTTON):
-        blf.size(0, 11.0)
-        width = blf.dimensions(0, text)[0] + edges if text else 0.0
-        self.parts.append((text, width + (icon != "NONE") * _ICON))
-        return SimpleNamespace()
-
-    def label(self, text="", icon="NONE"):
-        self._text(text, icon, 4)
-
-    def operator(self, name, text="", icon="NONE", **look):
-        return self._text(text, icon)
-
-    def operator_menu_enum(self, name, choice, text="", icon="NONE"):
-        return self._text(text, icon)
-
-    def progress(self, factor, text):
-        self._text(text, "NONE")
-
-    def prop(self, owner, name, text=None, icon="NONE", **look):
-        info = owner.bl_rna.properties[name]
-        shown = info.name if text is None else text
-        if self.use_property_split and text is None and info.type != "BOOLEAN":
-            split = self._child("split", _NAMES)
-            split._text(shown, "NONE", 4)
-            value = getattr(owner, name)
-            items = info.enum_items if info.type == "ENUM" else {}
-            split._text(items[value].name if value in items else "2.000", "NONE", 32)
-        elif info.type == "STRING":
-            self._text(getattr(owner, name), "NONE", 6)
-        else:
-            self._text("" if info.subtype == "COLOR" else shown, icon)
-
-    def template_list(self, *names, **look):
-        pass
-
-    def separator(self):
-        pass
-
-    def natural(self):
-        """Return the width that nothing is cut off at."""
-        widths = [p[1] if isinstance(p, tuple) else p.natural() for p in self.parts]
-        width = (sum if self.kind in {"row", "split"} else max)(widths or [0.0])
-        return self.ui_units_x * _UNIT or width
-
-    def cut_off(self, room):
-        """Return the texts that are too long for this width."""
-        room = self.ui_units_x * _UNIT or room
-        total = max(self.natural(), 1.0)
-        for turn, part in enumerate(self.parts):
-            share = 1.0
-            if self.kind == "split":
-                rest = (1 - self.factor) / max(len(self.parts) - 1, 1)
-                share = rest if turn else self.factor
-            if isinstance(part, tuple):
-                width = part[1] if self.kind != "row" else part[1] / total * room
-                if part[0] and min(width, room * share) < part[1] - 0.5:
-                    yield part[0]
-            else:
-                own = part.natural() / total if self.kind == "row" else share
-                yield from part.cut_off(room * own)
-
-    def texts(self):
-        for part in self.parts:
-            yield from [part[0]] if isinstance(part, tuple) else part.texts()
-
-
-def context(scale=1.0):
-    return SimpleNamespace(
-        active_object=bpy.context.active_object,
-        scene=bpy.context.scene,
-        mode=bpy.context.mode,
-        region=SimpleNamespace(width=int(_SIDEBAR * scale)),
-        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=scale)),
-    )
-
-
-def drawn(panel, scale=1.0):
-    layout = Layout()
-    panel.draw(SimpleNamespace(layout=layout), context(scale))
-    return layout
+# Of the edges of a list, in points.
+_LIST = 12
 
 
 @pytest.fixture
@@ -150,7 +43,7 @@ def test_no_text_is_cut_off_in_the_usual_sidebar(decomposed):
         for panel in shown:
             layout = drawn(panel, scale)
             assert list(layout.texts())
-            cut_off = list(layout.cut_off(_SIDEBAR - _EDGES))
+            cut_off = list(layout.cut_off(SIDEBAR - EDGES))
             assert cut_off == [], (panel, scale, row, parts)
 
 
@@ -166,8 +59,8 @@ def test_columns_go_before_figures_are_cut(suzanne, n_parts, hulls):
         None, context(), layout, suzanne, row, 0, suzanne, "wcd_active_part", 0
     )
     bar = 20 if n_parts > 9 else 0
-    room = _SIDEBAR - _EDGES - _LIST - bar
-    assert layout.natural() + 0.35 * _ICON <= room  # and the color
+    room = SIDEBAR - EDGES - _LIST - bar
+    assert layout.natural() + 0.35 * ICON <= room  # and the color
     assert list(layout.cut_off(room)) == []
     assert any("." in text for text in layout.texts() if text != row.name)
 
@@ -204,6 +97,41 @@ def test_a_refused_name_is_told_below_the_table(decomposed):
     decomposed.wcd_active_part = 1
     decomposed.wcd_parts[1].name = "Part 01"
     assert "Another part is called" in " ".join(drawn(WCD_PT_parts).texts())
+
+
+def test_what_is_out_of_date_says_so_until_it_is_refreshed(decomposed):
+    assert "Refresh" not in drawn(WCD_PT_parts).texts()
+    decomposed.data.vertices[0].co.x += 0.5
+    texts = drawn(WCD_PT_parts).texts()
+    assert "Out of date. The mesh has changed; press Refresh" in " ".join(texts)
+    assert "Refresh" in texts
+    assert "Quality" not in texts
+    bpy.ops.wcd.refresh_parts()
+    texts = drawn(WCD_PT_parts).texts()
+    assert "Quality" in texts
+    assert not {"Refresh", "Out of date."} & set(texts)
+
+
+def test_the_switch_for_edits_comes_with_parts(decomposed):
+    assert "Keep Edits" in drawn(WCD_PT_main).texts()
+    bpy.ops.wcd.clear()
+    assert "Keep Edits" not in drawn(WCD_PT_main).texts()
+
+
+@pytest.mark.parametrize(
+    ("best", "why"), [(7, None), (2, "2 is best: 7 gain only 4% more.")]
+)
+def test_the_star_is_on_the_best_number_and_says_why(suzanne, best, why):
+    found = decomposition_of(bands(suzanne, 7))
+    tried = {1: 0.5, 2: 0.74, 3: 0.55, 7: 0.75}
+    write_parts(suzanne, replace(found, best_k=best, psi_by_k=tried), Parameters())
+    layout = drawn(WCD_PT_chart)
+    icons = {
+        text: icon for text, icon in layout.icons() if text in {"1", "2", "3", "7"}
+    }
+    assert [text for text, icon in icons.items() if icon == "SOLO_ON"] == [str(best)]
+    assert icons["1"] == icons["3"] == "NONE"
+    assert why is None or why in " ".join(layout.texts())
 
 
 def test_no_result_is_shown_where_there_is_nothing_to_say(suzanne):

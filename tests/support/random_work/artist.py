@@ -15,12 +15,13 @@ from .checks import (
     check_file_cleared,
     only,
 )
-from .more_hands import FAST, NUMBERS, MoreHands
+from .locks import locks_hold
+from .looks import Looks
+from .more_hands import FAST, NAMES, NUMBERS, MoreHands
 
 PARTS = st.sampled_from([0, 2, 3, 4, 6])
 SEAMS = st.sampled_from(["KEEP", "KEEP", "CUT"])
 COLORED = st.sampled_from(["MATERIALS", "OVERLAY"])
-NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
 COLORS = st.tuples(*[st.sampled_from([0.1, 0.4, 0.8])] * 3)
 KINDS = st.sampled_from(["ARRAY", "MIRROR", "SUBSURF", "TRIANGULATE"])
 OPERATORS = (
@@ -34,11 +35,10 @@ OPERATORS = (
     *("explode", "implode"),
     "clear",
     "separate",
-    "isolate_parts",
 )
 
 
-class RestlessArtist(MoreHands, RuleBasedStateMachine):
+class RestlessArtist(MoreHands, Looks, RuleBasedStateMachine):
     """Operators of ours and of Blender's, in any order."""
 
     folder = None  # where files are saved
@@ -78,8 +78,8 @@ class RestlessArtist(MoreHands, RuleBasedStateMachine):
 
     @rule(n=NUMBERS, parts=PARTS, keep_edits=st.booleans(), seams=SEAMS, colors=COLORED)
     def decompose(self, n, **options):
-        self.body(n)
-        attempt(bpy.ops.wcd.decompose, **FAST, **options)
+        with locks_hold(self.body(n)):
+            attempt(bpy.ops.wcd.decompose, **FAST, **options)
         self.done()
 
     @rule(n=NUMBERS, name=st.sampled_from(OPERATORS))

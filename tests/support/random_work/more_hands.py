@@ -6,9 +6,11 @@ from hypothesis.stateful import rule
 from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
 
 from .checks import attempt
+from .locks import locks_hold
 
 FAST = {"samples": 24, "containers": "HOLLOW", "max_parts": 4}
 NUMBERS = st.integers(0, 5)
+NAMES = st.sampled_from(["Head", "Ear.L", "Ear.R", "Part 01", "Part 03", "Leg.001", ""])
 SHAPES = st.sampled_from(["HULL", "BOX", "SPHERE", "CAPSULE", "CYLINDER"])
 MESHES = st.sampled_from(["ORIGINAL", "EVALUATED"])
 LIVE_KINDS = st.sampled_from(["MIRROR", "ARRAY", "SUBSURF", "WIREFRAME", "BUILD"])
@@ -36,7 +38,7 @@ class MoreHands:
         attempt(bpy.ops.wcd.build_hulls, **options)
         self.done()
 
-    @rule(n=NUMBERS, hull=NUMBERS, shape=SHAPES, what=NUMBERS)
+    @rule(n=NUMBERS, hull=NUMBERS, shape=SHAPES, what=st.integers(0, 7))
     def change_hull(self, n, hull, shape, what):
         self.object_mode()
         obj = self.body(n)
@@ -52,6 +54,10 @@ class MoreHands:
             attempt(bpy.ops.wcd.remove_hulls)
         elif what == 4:
             hull.name = "Mine"
+        elif what == 5:
+            attempt(bpy.ops.wcd.show_hulls, look="WIRE")
+        elif what == 6:
+            attempt(bpy.ops.wcd.make_rigid)
         else:
             bpy.data.objects.remove(hull)
         bpy.context.view_layer.update()
@@ -88,19 +94,20 @@ class MoreHands:
             return
         modifier = obj.modifiers.new("Seen", kind)
         bpy.context.view_layer.update()
-        attempt(bpy.ops.wcd.decompose, **FAST, parts=parts, mesh="EVALUATED")
+        with locks_hold(obj):
+            attempt(bpy.ops.wcd.decompose, **FAST, parts=parts, mesh="EVALUATED")
         obj.modifiers.remove(modifier)
         bpy.context.view_layer.update()
         self.done()
 
     @rule(n=NUMBERS, parts=st.integers(1, 6), live=st.booleans())
     def cut_again(self, n, parts, live):
-        self.body(n)
         settings = bpy.context.scene.wcd
-        if live:
-            settings.live = True
-            settings.parts = parts
-            settings.live = False
-        else:
-            attempt(bpy.ops.wcd.choose_part_count, parts=parts)
+        with locks_hold(self.body(n)):
+            if live:
+                settings.live = True
+                settings.parts = parts
+                settings.live = False
+            else:
+                attempt(bpy.ops.wcd.choose_part_count, parts=parts)
         self.done()

@@ -94,3 +94,22 @@ def steps(hands):
     hands.picture("refused", hands.area)
     assert "called Part 01" in noted_refusal(bpy.context.active_object)
     assert names()[3] == bpy.context.active_object.wcd_parts[3].name != "Part 01"
+    yield from all_renamed(hands)
+
+
+def all_renamed(hands):
+    """Type a name in the dialog Rename All, with no click into it, and undo that."""
+    before = names()
+    place = yield from hands.find("wcd.rename_parts", columns=(0.5,))
+    yield from hands.click(place)
+    yield 0.5
+    yield from hands.press("ctrl+a")
+    hands._do("type", "Skull")
+    yield 0.3
+    hands.picture("rename-all", hands.area)
+    yield from hands.press("Return")  # ends the name, and the other one the dialog
+    yield 0.3
+    yield from hands.press("Return")
+    yield lambda: names() == ["Skull", *before[1:]]
+    yield from hands.undo()
+    yield lambda: names() == before

@@ -4,7 +4,7 @@ from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
-from presses import Window
+from stand_ins.presses import Window
 from weak_convex_decomposition.operators.running import modal
 
 

@@ -6,7 +6,8 @@ import bpy
 import pytest
 import weak_convex_decomposition as package
 from hands import hand_curve
-from presses import (
+from snapshot import snapshot
+from stand_ins.presses import (
     ESC,
     MOUSE,
     OPERATORS,
@@ -15,7 +16,6 @@ from presses import (
     finish,
     press,
 )
-from snapshot import snapshot
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
 from weak_convex_decomposition.operators.running import modal

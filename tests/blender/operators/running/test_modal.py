@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from presses import (
+from snapshot import snapshot
+from stand_ins.presses import (
     ESC,
     GONE,
     MOUSE,
@@ -17,7 +18,6 @@ from presses import (
     select,
     values_of,
 )
-from snapshot import snapshot
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
 from weak_convex_decomposition.operators.running import modal

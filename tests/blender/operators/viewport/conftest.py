@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from hand_made import decompose_by_hand
-from presses import Pressed, Window
+from stand_ins.presses import Pressed, Window
 from weak_convex_decomposition.operators.viewport import pick_parts, picking
 
 

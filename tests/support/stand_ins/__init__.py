@@ -1,0 +1,1 @@
+"""Stand-ins for what Blender as a Python module lacks: windows and panels."""
