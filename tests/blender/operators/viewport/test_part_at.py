@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hand_made import activate, decompose_by_hand, in_mode
 from mathutils import Vector
-from presses import FRONT, seen
+from stand_ins.presses import FRONT, seen
 from weak_convex_decomposition.operators.viewport.part_at import make_tree
 
 

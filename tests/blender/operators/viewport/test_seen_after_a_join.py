@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from edited import check_in_step
 from hand_made import activate, centers, decompose_by_hand, in_mode
-from presses import seen, space_of_window
 from snapshot import snapshot
+from stand_ins.presses import seen, space_of_window
 from weak_convex_decomposition.operators.bridge.parts.read import part_identities
 from weak_convex_decomposition.operators.running import joins
 from weak_convex_decomposition.operators.viewport import picking
