@@ -54,7 +54,7 @@ def mesh_object(name, vertices, faces):
 
 def activate(obj):
     """Make an object the active and only selected one."""
-    for other in bpy.context.view_layer.objects:
+    for other in list(bpy.context.view_layer.objects):
         other.select_set(False)
     bpy.context.view_layer.objects.active = obj
     if obj is not None:

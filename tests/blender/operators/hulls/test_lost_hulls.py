@@ -139,6 +139,7 @@ def test_hulls_that_the_user_keeps_stay(joined, how):
         decompose_by_hand(hull, 2)
     if how == "old file":
         tagged["wcd_hull"] = True
+    bpy.context.view_layer.update()  # Blender 4.2 may crash without
     clear(obj)
     assert "Other hull 01" in left()
     assert ("Other hulls" in left()) == (how != "moved")
