@@ -24,9 +24,11 @@ from .running.computation import Replacement
 from .settings import parameters_from, properties_for
 
 # Seconds that a slider waits for parts, most and least; after that a modal run finds
-# them. To write them takes time for each face, and steps end up to 0.01 s late.
+# them. With writing them it may be somewhat more, as steps end up to 0.01 s late. To
+# write takes time for each face, and for each face again by the number of parts.
 _MOMENT = (0.08, 0.03)
-_WRITING = 1.6e-7
+_WITH_WRITING = 0.088
+_WRITING = (1.45e-7, 0.35e-8)
 # Seconds until the next try to start a modal run.
 _RETRY = 0.02
 
@@ -150,13 +152,19 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         began = time.perf_counter()
         self._rough = obj.mode == "OBJECT"
         key, job = self._key(context, obj), Job(self._begin(context, obj))
-        writing = _WRITING * n_faces_of(record_of(obj))
-        moment = max(_MOMENT[0] - writing, _MOMENT[1])
-        if job.advance(began + moment - time.perf_counter()):
+        if job.advance(began + _moment(obj, parameters) - time.perf_counter()):
             self._commit(obj, job.result())
         else:
             _begun = key, job
         return job.done
+
+
+def _moment(obj: bpy.types.Object, wanted: Parameters) -> float:
+    """Return for how many seconds a slider waits for the parts of an object."""
+    record, (each_face, each_part) = record_of(obj), _WRITING
+    n_parts = max(len(record.get("parts", ())), wanted.parts)
+    writing = n_faces_of(record) * (each_face + each_part * n_parts)
+    return max(min(_WITH_WRITING - writing, _MOMENT[0]), _MOMENT[1])
 
 
 def _invoke() -> float | None:
