@@ -7,7 +7,9 @@ import pytest
 from edited import check_in_step, faces_by_name, needless_change
 from hand_made import face_values
 from snapshot import snapshot
+from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.seams import cutter
+from weak_convex_decomposition.operators import recut
 from weak_convex_decomposition.operators.bridge.work import session_cache
 from weak_convex_decomposition.operators.running import ahead
 from weak_convex_decomposition.operators.settings import RECUT
@@ -53,6 +55,18 @@ def test_a_live_setting_gives_what_a_run_gives(suzanne, settings, name):
     settings.live = False
     bpy.ops.wcd.decompose(samples=200, **{name: CHANGES[name]})
     assert snapshot(suzanne) == live
+
+
+def test_sliders_wait_less_where_writing_takes_longer(suzanne, settings, monkeypatch):
+    def moment(n_faces, n_parts):
+        noted = {"parts": [{"faces": n_faces / 2}] * 2}
+        monkeypatch.setattr(recut, "record_of", lambda obj: noted)
+        return recut._moment(suzanne, Parameters(parts=n_parts))
+
+    most, least = recut._MOMENT
+    assert moment(100, 2) == most > moment(126_000, 2) > moment(126_000, 20) > least
+    assert moment(10**7, 2) == least
+    assert moment(126_000, 0) == moment(126_000, 2)  # as many as there are
 
 
 def test_nothing_happens_unless_live(suzanne, settings):
