@@ -19,6 +19,7 @@ from ..operators.bridge.mesh.fingerprint import fits, together
 from ..operators.bridge.parts.figures import PartFigures, figures_of
 from ..operators.bridge.refusals import WORKED_ON
 from ..operators.bridge.stored.names import RESULT
+from ..operators.running.watching import unwatch, watch
 
 # Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
 # and for how many times as long as counting them took.
@@ -77,18 +78,18 @@ def _forget(*_: object) -> None:
     _changed = True
 
 
-_HANDLERS = ("depsgraph_update_post", "undo_post", "redo_post", "load_post")
+_HANDLERS = dict.fromkeys(
+    ("depsgraph_update_post", "undo_post", "redo_post", "load_post"), _forget
+)
 
 
 def register() -> None:
     """Watch for changes."""
-    for name in _HANDLERS:
-        getattr(bpy.app.handlers, name).append(_forget)
+    watch(_HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`, and forget all figures."""
     global _kept
-    for name in _HANDLERS:
-        getattr(bpy.app.handlers, name).remove(_forget)
+    unwatch(_HANDLERS)
     _kept = None

@@ -12,6 +12,7 @@ import bpy
 from ...core.errors import DecompositionError
 from ..bridge.views.node_modifiers import is_view
 from ..bridge.work.in_step import bring_in_step
+from .watching import changed_objects, unwatch, watch
 
 # How many faces the objects with such modifiers have, by their `session_uid`.
 _n_faces: dict[int, int] = {}
@@ -44,10 +45,7 @@ def _start() -> None:
 @bpy.app.handlers.persistent
 def _look(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Look whether faces came to an object, or went."""
-    for update in graph.updates:
-        obj = update.id.original
-        if not (update.is_updated_geometry and isinstance(obj, bpy.types.Object)):
-            continue
+    for obj in changed_objects(graph):
         if _is_viewed(obj) and _n_faces.get(obj.session_uid) != len(obj.data.polygons):
             _n_faces[obj.session_uid] = len(obj.data.polygons)
             _start()
@@ -60,21 +58,22 @@ def _look_again(*_: object) -> None:
     _start()
 
 
-_ALL = ("undo_post", "redo_post", "load_post")
+_HANDLERS = {
+    "depsgraph_update_post": _look,
+    "undo_post": _look_again,
+    "redo_post": _look_again,
+    "load_post": _look_again,
+}
 
 
 def register() -> None:
     """Watch for joins."""
-    bpy.app.handlers.depsgraph_update_post.append(_look)
-    for name in _ALL:
-        getattr(bpy.app.handlers, name).append(_look_again)
+    watch(_HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`."""
-    for name in _ALL:
-        getattr(bpy.app.handlers, name).remove(_look_again)
-    bpy.app.handlers.depsgraph_update_post.remove(_look)
+    unwatch(_HANDLERS)
     if bpy.app.timers.is_registered(bring_views_in_step):
         bpy.app.timers.unregister(bring_views_in_step)
     _n_faces.clear()

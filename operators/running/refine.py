@@ -27,6 +27,7 @@ from ..bridge.stored.record import (
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
 from . import modal
+from .watching import unwatch, watch
 
 # Seconds that settings rest before their parts are found.
 _REST = 0.3
@@ -138,12 +139,10 @@ _HANDLERS = {
 
 def register() -> None:
     """Look after undo and files."""
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).append(handler)
+    watch(_HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`, and stop."""
-    for name, handler in _HANDLERS.items():
-        getattr(bpy.app.handlers, name).remove(handler)
+    unwatch(_HANDLERS)
     stop()

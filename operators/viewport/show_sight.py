@@ -19,6 +19,7 @@ from ..bridge.work.computing import point_viewer_of
 from ..running import modal
 from ..running.computation import Computation
 from ..running.on_objects import OnActive
+from ..running.watching import changed_objects, unwatch, watch
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
 from .sight_overlay import Overlay
@@ -171,28 +172,24 @@ def _stop_if_stale(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     overlay = sight_overlay.current
     if overlay is None:
         return
-    for update in graph.updates:
-        obj = update.id.original
-        if (
-            update.is_updated_geometry
-            and isinstance(obj, bpy.types.Object)
-            and obj.session_uid == overlay.object_uid
-            and not np.array_equal(vertices_now(obj), overlay.vertices)
-        ):
+    for obj in changed_objects(graph):
+        same = obj.session_uid == overlay.object_uid
+        if same and not np.array_equal(vertices_now(obj), overlay.vertices):
             stop()
             return
 
 
+_HANDLERS = {"load_pre": stop, "depsgraph_update_post": _stop_if_stale}
+
+
 def register() -> None:
     """Hide overlays at each file load, and when the mesh changes."""
-    bpy.app.handlers.load_pre.append(stop)
-    bpy.app.handlers.depsgraph_update_post.append(_stop_if_stale)
+    watch(_HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`, and hide."""
-    bpy.app.handlers.depsgraph_update_post.remove(_stop_if_stale)
-    bpy.app.handlers.load_pre.remove(stop)
+    unwatch(_HANDLERS)
     stop()
 
 

@@ -21,6 +21,7 @@ from ..bridge.mesh.points import is_cloud
 from ..bridge.parts.read import FoundParts, find_parts_on, noted_identities
 from ..bridge.stored.identity import Identity
 from ..bridge.stored.names import OWNER_LAYER, PART_LAYER, RESULT
+from ..running.watching import changed_objects, unwatch, watch
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,24 +185,24 @@ def forget(*_: object) -> None:
 @bpy.app.handlers.persistent
 def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Forget the objects whose geometry has changed."""
-    for update in graph.updates if _known else ():
-        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object):
-            _known.pop(update.id.original.session_uid, None)
+    for obj in changed_objects(graph) if _known else ():
+        _known.pop(obj.session_uid, None)
 
 
-_ALL = ("undo_post", "redo_post", "load_pre")
+_HANDLERS = {
+    "depsgraph_update_post": _forget_changed,
+    "undo_post": forget,
+    "redo_post": forget,
+    "load_pre": forget,
+}
 
 
 def register() -> None:
     """Watch for changes."""
-    bpy.app.handlers.depsgraph_update_post.append(_forget_changed)
-    for name in _ALL:
-        getattr(bpy.app.handlers, name).append(forget)
+    watch(_HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`, and forget all."""
-    for name in _ALL:
-        getattr(bpy.app.handlers, name).remove(forget)
-    bpy.app.handlers.depsgraph_update_post.remove(_forget_changed)
+    unwatch(_HANDLERS)
     forget()

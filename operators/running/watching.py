@@ -1,0 +1,30 @@
+"""Watch for changes through Blender's handlers, and tell which objects changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import bpy
+
+
+def watch(handlers: Mapping[str, Callable[..., Any]]) -> None:
+    """Let Blender call functions, each by the name of its list in `bpy.app.handlers`.
+
+    They are `persistent`, or Blender would drop them with the next file.
+    """
+    for name, handler in handlers.items():
+        getattr(bpy.app.handlers, name).append(handler)
+
+
+def unwatch(handlers: Mapping[str, Callable[..., Any]]) -> None:
+    """Undo `watch`."""
+    for name, handler in handlers.items():
+        getattr(bpy.app.handlers, name).remove(handler)
+
+
+def changed_objects(graph: bpy.types.Depsgraph) -> Iterator[bpy.types.Object]:
+    """Yield the objects of the file whose geometry has changed with an update."""
+    for update in graph.updates:
+        if update.is_updated_geometry and isinstance(update.id, bpy.types.Object):
+            yield update.id.original
