@@ -15,6 +15,7 @@ from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import clear_refusal, decompose_refusal
 from .bridge.stored.names import CARRIER_TAG
+from .bridge.stored.restore import sharers
 from .bridge.views.colors import show_colors_as
 from .bridge.views.images import erase_images
 from .bridge.views.node_modifiers import remove_views
@@ -101,7 +102,8 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         in_object_mode = obj.mode == "OBJECT"
         erase_hulls(obj)
-        remove_views(obj)
+        for each in sharers(obj) if obj.data.is_editable else (obj,):
+            remove_views(each)  # of the same parts, which go
         erase_images(obj)
         clear(obj)
         if is_cut(obj) and obj.data.is_editable and not bring_back(obj):

@@ -1,7 +1,8 @@
 """Isolated parts in Object Mode: a modifier that leaves out the faces of the others.
 
 Blender draws hidden faces in Object Mode, so flags of the mesh would not do. The
-modifier is for viewports only, and renders show the whole object.
+modifier is for viewports only, and renders show the whole object. So do viewports once
+none of these parts is left.
 """
 
 from __future__ import annotations
@@ -37,14 +38,20 @@ def end_isolation(obj: bpy.types.Object) -> None:
 
 
 def _wire(group: bpy.types.GeometryNodeTree, numbers: Iterable[int]) -> None:
-    """Fill the group: delete the faces whose part is none of these."""
+    """Fill the group: delete the faces whose part is none of these, if some are left."""
     nodes, link = Nodes(group), group.links.new
-    given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 4)
+    given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 6)
     part = nodes.add("GeometryNodeInputNamedAttribute", 0, data_type="INT")
     part.inputs["Name"].default_value = PART_LAYER
     delete = nodes.add("GeometryNodeDeleteGeometry", 3, domain="FACE")
     link(given.outputs["Geometry"], delete.inputs["Geometry"])
-    link(delete.outputs["Geometry"], out.inputs["Geometry"])
+    left = nodes.add("GeometryNodeAttributeDomainSize", 4, component="MESH")
+    shown = nodes.add("GeometryNodeSwitch", 5, input_type="GEOMETRY")
+    link(delete.outputs["Geometry"], left.inputs["Geometry"])
+    link(left.outputs["Face Count"], shown.inputs["Switch"])
+    link(given.outputs["Geometry"], shown.inputs["False"])
+    link(delete.outputs["Geometry"], shown.inputs["True"])
+    link(shown.outputs["Output"], out.inputs["Geometry"])
     another = None
     for number in numbers:
         differs = nodes.add(

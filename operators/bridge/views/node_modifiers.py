@@ -26,12 +26,13 @@ def remove_modifier(obj: bpy.types.Object, tag: str) -> None:
     Raises
     ------
     DecompositionError
-        In Edit Mode, if there is one: undo there would not bring it back.
+        In Edit Mode, if there is one: undo there would not bring it back. The mesh may
+        be in Edit Mode on another object.
     """
     modifier = tagged_modifier(obj, tag)
     if modifier is None:
         return
-    if obj.mode != "OBJECT":
+    if obj.mode != "OBJECT" or obj.data.is_editmode:
         raise DecompositionError(
             f"{modifier.name} is a modifier, which Edit Mode cannot bring back on"
             " undo; switch to Object Mode first."

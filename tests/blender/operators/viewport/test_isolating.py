@@ -72,6 +72,33 @@ def test_isolation_is_no_modifier_of_the_shape_and_clear_ends_it(suzanne):
     assert not bpy.data.node_groups
 
 
+def test_all_is_shown_once_no_isolated_part_is_left(suzanne, labels):
+    bpy.ops.wcd.isolate_parts()
+    decompose_by_hand(suzanne, 1)
+    assert [row.number for row in suzanne.wcd_parts] == [0]
+    assert faces_shown(suzanne) == len(labels)
+    labels = decompose_by_hand(suzanne, 3)
+    assert faces_shown(suzanne) == (labels == 1).sum()
+
+
+def test_clear_ends_the_isolation_on_all_objects_that_share_the_mesh(suzanne, labels):
+    twin = suzanne.copy()
+    bpy.context.collection.objects.link(twin)
+    bpy.context.view_layer.objects.active = twin
+    bpy.ops.wcd.isolate_parts()
+    bpy.ops.wcd.explode()
+    bpy.context.view_layer.objects.active = suzanne
+    in_mode(suzanne, "EDIT")
+    with pytest.raises(RuntimeError, match="switch to Object Mode first"):
+        bpy.ops.wcd.clear()
+    assert suzanne.wcd_parts
+    assert len(twin.modifiers) == 2
+    in_mode(suzanne, "OBJECT")
+    bpy.ops.wcd.clear()
+    assert not twin.modifiers
+    assert not bpy.data.node_groups
+
+
 def test_edit_mode_cannot_take_the_modifier_back(suzanne, labels):
     bpy.ops.wcd.isolate_parts()
     in_mode(suzanne, "EDIT")
