@@ -104,7 +104,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         erase_hulls(obj)
         for each in sharers(obj) if obj.data.is_editable else (obj,):
             remove_views(each)  # of the same parts, which go
-        erase_images(obj)
+            erase_images(each)
         clear(obj)
         if is_cut(obj) and obj.data.is_editable and not bring_back(obj):
             self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")

@@ -46,6 +46,9 @@ def images_of(obj: bpy.types.Object) -> list[bpy.types.Image]:
 
 
 def erase_images(obj: bpy.types.Object) -> None:
-    """Remove our images of an object."""
-    for image in images_of(obj):
-        bpy.data.images.remove(image)
+    """Remove our images of an object, and of those that are gone or have a new name."""
+    for image in bpy.data.images[:]:
+        owner = image.get(IMAGE_TAG)
+        lost = image.library is None and owner and owner not in bpy.data.objects
+        if owner == obj.name or lost:
+            bpy.data.images.remove(image)

@@ -201,6 +201,20 @@ def test_pictures_are_images_that_clear_removes(suzanne, tmp_path):
     assert snapshot(bpy.context.active_object) == before
 
 
+def test_clear_removes_pictures_of_renamed_objects_and_of_the_same_mesh(suzanne):
+    decompose_by_hand(suzanne, 3, **FAST)
+    bpy.ops.wcd.show_picture(picture="SIGHT")
+    suzanne.name = "Monkey"
+    twin = suzanne.copy()
+    bpy.context.collection.objects.link(twin)
+    bpy.context.view_layer.objects.active = twin
+    bpy.ops.wcd.show_picture(picture="SIGHT")
+    bpy.context.view_layer.objects.active = suzanne
+    assert len(bpy.data.images) == 2
+    bpy.ops.wcd.clear()
+    assert not bpy.data.images
+
+
 def test_pictures_need_parts_and_object_mode(suzanne):
     with pytest.raises(RuntimeError, match="Suzanne has no parts; press Decompose"):
         bpy.ops.wcd.show_picture()
