@@ -207,10 +207,10 @@ def test_clear_removes_pictures_of_renamed_objects_and_of_the_same_mesh(suzanne)
     suzanne.name = "Monkey"
     twin = suzanne.copy()
     bpy.context.collection.objects.link(twin)
-    bpy.context.view_layer.objects.active = twin
-    bpy.ops.wcd.show_picture(picture="SIGHT")
-    bpy.context.view_layer.objects.active = suzanne
-    assert len(bpy.data.images) == 2
+    bpy.ops.wcd.show_picture(picture="SIGHT")  # of both
+    for each in (suzanne, twin):
+        each.select_set(each == suzanne)
+    assert len(bpy.data.images) == 3
     bpy.ops.wcd.clear()
     assert not bpy.data.images
 
