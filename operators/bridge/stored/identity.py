@@ -6,8 +6,9 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
-# Blender adds a number to a name that is taken: "Ear.001".
-_NUMBERED = re.compile(r"\.\d{3,}$")
+# Blender adds a number to a name that is taken: "Ear.001". Any digits behind a last dot
+# are such a number to it: where "Leg.1" is taken, comes "Leg.002".
+_NUMBERED = re.compile(r"\.\d+$")
 _USUAL = re.compile(r"Part \d{2,}$")
 
 

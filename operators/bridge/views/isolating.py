@@ -38,7 +38,7 @@ def end_isolation(obj: bpy.types.Object) -> None:
 
 
 def _wire(group: bpy.types.GeometryNodeTree, numbers: Iterable[int]) -> None:
-    """Fill the group: delete the faces whose part is none of these, if some are left."""
+    """Fill the group: delete the faces of all other parts, if some faces are left."""
     nodes, link = Nodes(group), group.links.new
     given, out = nodes.add("NodeGroupInput", 0), nodes.add("NodeGroupOutput", 6)
     part = nodes.add("GeometryNodeInputNamedAttribute", 0, data_type="INT")

@@ -226,3 +226,18 @@ def test_hulls_follow_colors_and_those_that_the_user_deleted_are_not_listed(monk
     assert len(hulls_of(monkey)) == 3
     bpy.ops.wcd.clear()
     assert not [o for o in bpy.data.objects if "wcd_hull" in o]
+
+
+def test_materials_of_parts_whose_names_end_in_digits_are_ours_on_copies(suzanne):
+    bpy.ops.wcd.decompose(**FAST, parts=3)
+    suzanne.wcd_parts[1].name = "Leg.1"
+    twin = suzanne.copy()
+    twin.data = suzanne.data.copy()
+    bpy.context.collection.objects.link(twin)
+    activate(twin)
+    bpy.ops.wcd.decompose(**FAST, parts=4)
+    assert "Leg.002" in twin.data.materials  # what Blender makes of a second Leg.1
+    check_in_step(twin)
+    bpy.ops.wcd.clear()
+    assert not twin.data.materials
+    check_in_step(suzanne)
