@@ -37,9 +37,11 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
     Raises
     ------
     DecompositionError
-        At once, if the object has no such hull, or cannot be read.
+        At once, if the object has no such hull, lists it by another name, or cannot be
+        read.
     """
     hull = hull_called(obj, name)
+    _noted_row(obj, name)
     parameters = replace(_noted_parameters(obj), shape=shape)
     points, has_margin = piece_of(hull)
     if has_margin:
@@ -61,7 +63,7 @@ def write_refit(
     obj: bpy.types.Object, name: str, found: HullDecomposition
 ) -> bpy.types.Object:
     """Give a hull of an object the shape that was found; return the hull."""
-    hull, (shape,) = hull_called(obj, name), found.shapes
+    hull, row, (shape,) = hull_called(obj, name), _noted_row(obj, name), found.shapes
     points, _ = piece_of(hull)
     scale, former = stretch(obj), hull.data
     material = former.materials[0]
@@ -70,7 +72,6 @@ def write_refit(
     keep_piece(hull, points)
     record = record_of(obj)
     hulls = record["hulls"]["hulls"]
-    row = next(r for r, each in enumerate(hulls) if each["name"] == name)
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
     before = sum(each["volume"] for each in hulls)
     hulls[row] = {"name": name, **figures}
@@ -115,6 +116,18 @@ def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:
             return hull
     raise DecompositionError(
         f"{obj.name} has no hull {name}; choose one in the list of its hulls."
+    )
+
+
+def _noted_row(obj: bpy.types.Object, name: str) -> int:
+    """Return the row of a hull among those that are noted; raise if it is not there."""
+    noted = record_of(obj).get("hulls", {}).get("hulls", [])
+    for row, each in enumerate(noted):
+        if each["name"] == name:
+            return row
+    raise DecompositionError(
+        f"{name} was renamed, and {obj.name} lists it no more; give it its former name,"
+        " or build the hulls again."
     )
 
 

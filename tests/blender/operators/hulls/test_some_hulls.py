@@ -109,6 +109,16 @@ def test_a_hull_comes_back_after_another_shape(built):
     assert [other.data for other in hulls_of(built)[1:]] == meshes
 
 
+def test_a_renamed_hull_is_told_and_stays(built):
+    hull = hulls_of(built)[0]
+    hull.name = "Mine"
+    mesh, before = hull.data, built["wcd"]
+    with pytest.raises(RuntimeError, match="Mine was renamed, and Suzanne lists it no"):
+        bpy.ops.wcd.refit_hull(hull="Mine", shape="BOX")
+    assert hull.data == mesh
+    assert built["wcd"] == before
+
+
 def test_unreal_names_follow_the_shape(suzanne):
     build(naming="UNREAL", max_hulls=1)
     bpy.ops.wcd.refit_hull(hull="UCX_Suzanne_01", shape="BOX")
