@@ -45,13 +45,9 @@ def find_parts(
     visibility, cut = memo.visibility, memo.cut(parameters)
     yield from within(memo.transfer_in_steps(), 0.0, 0.2)
     partitioner = Partitioner(memo, parameters)
-    search = PartCountSearch(
-        partitioner,
-        SeamCutter(partitioner, cut.seams),
-        parameters.min_parts,
-        parameters.max_parts,
-        cut,
-    )
+    cutter = SeamCutter(partitioner, cut.seams)
+    numbers = parameters.min_parts, parameters.max_parts
+    search = PartCountSearch(partitioner, cutter, *numbers, cut)
     likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
     guesses = rough and likely_k > 0 and not _is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
@@ -60,9 +56,10 @@ def find_parts(
         wanted = guess(search, likely_k, cut.looks)
     else:
         wanted = given(search, parameters.parts) if parameters.parts else search.best()
-    seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.9)
+    seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.85)
     if not guesses:
         memo.tried = yield from search.tried()
+        seams = yield from within(cutter.smoothed(seams), 0.85, 0.9)
     rough = rough and (guesses or seams_take_long(memo, parameters, seams))
     finer = labels_of_nodes(memo, parameters, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)

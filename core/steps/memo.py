@@ -15,7 +15,7 @@ Key = TypeVar("Key", bound=Hashable)
 Value = TypeVar("Value")
 
 
-def digest(labels: NDArray[np.int64]) -> bytes:
+def digest(labels: NDArray[np.int64 | np.bool_]) -> bytes:
     """Return a hash of labels, to be used as a key.
 
     Parameters

@@ -8,7 +8,6 @@ from ..part_count import PartCountSearch, Search
 from ..part_count_given import given
 from ..part_psi import count_parts
 from ..partition import Partitioner
-from ..seams.cutter import Seams
 from .limbs import LimbMerger
 
 
@@ -46,4 +45,4 @@ def with_bends_kept(
     if n_parts and left != n_parts:
         found = yield from within(given(search, n_parts), 0.9, 1.0)
         merged = found.seams.parts
-    return Search(Seams(merged, found.seams.smoothness), found.psi_by_k, best_k)
+    return Search(found.seams._replace(parts=merged), found.psi_by_k, best_k)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -13,11 +14,14 @@ from ...steps.progress import Progress, Steps, within
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .graph_cut import SWEEPS, cut_seams
+from .smoothing import smooth_seams
 
 # Largest cost of a label for a sample.
 _MOST_DISLIKE = 4.0
 # Shares of lambda that are tried in turn, until the seams cost little enough psi.
 _SOFTER = (1.0, 0.25, 0.0625)
+# A part has ragged seams if more than this share of its area is in ragged ones.
+_MOSTLY = 0.5
 
 
 class Seams(NamedTuple):
@@ -29,10 +33,14 @@ class Seams(NamedTuple):
         Part of each node.
     smoothness : float
         The lambda that they were cut with, 0 if no seams were cut.
+    ragged : (P,) bool or None
+        Nodes of parts that would have vanished in the cut, and have their ragged seams
+        still; None if there are none.
     """
 
     parts: NDArray[np.int64]
     smoothness: float = 0.0
+    ragged: NDArray[np.bool_] | None = None
 
 
 class SeamCutter:
@@ -104,22 +112,53 @@ class SeamCutter:
         for share in _SOFTER:
             weight = share * self._smoothness
             steps = cut_seams(partitioner.graph, parts, costs, weight, self._sweeps)
-            cut = yield from within(steps, 0.0, 0.9)
-            cut = partitioner.tidied(self._none_lost(cut, parts, n_parts), n_parts)
+            cut, lost = self._none_lost((yield from within(steps, 0.0, 0.9)), parts)
+            yield Progress("Seams", 0.9)
+            cut = partitioner.tidied(cut, n_parts)
             if count_parts(cut) == n_parts and partitioner.psi(cut) >= enough:
                 cut = yield from within(self._evened(cut, enough), 0.9, 1.0)
-                return Seams(cut, weight)
+                return Seams(cut, weight, lost[parts] if lost.any() else None)
         return Seams(parts)
 
+    def smoothed(self, seams: Seams) -> Steps[Seams]:
+        """Return parts whose ragged seams are smooth, too, near where they are."""
+        parts, smoothness, ragged = seams
+        if ragged is None:
+            return seams
+        key = smoothness, digest(parts) + digest(ragged)
+        steps = partial(self._smoothed, parts, smoothness, ragged)
+        return (yield from self._memo.recall_steps(key, steps))
+
+    def _smoothed(
+        self,
+        parts: NDArray[np.int64],
+        smoothness: float,
+        ragged: NDArray[np.bool_],
+    ) -> Steps[Seams]:
+        """Return parts whose seams are smooth where nodes are ragged, too."""
+        graph, n_parts = self._partitioner.graph, count_parts(parts)
+        areas = np.bincount(parts, graph.areas * ragged)
+        chosen = np.flatnonzero(areas > _MOSTLY * graph.areas_of(parts))
+        steps = smooth_seams(graph, parts, chosen.tolist(), smoothness, self._sweeps)
+        smooth = yield from within(steps, 0.0, 0.9)
+        yield Progress("Seams", 0.9)
+        smooth, _ = self._none_lost(smooth, parts)
+        yield Progress("Seams", 0.9)
+        smooth = self._partitioner.tidied(smooth, n_parts)
+        smooth = yield from within(self._evened(smooth, -np.inf), 0.9, 1.0)
+        return Seams(smooth if count_parts(smooth) == n_parts else parts, smoothness)
+
     def _none_lost(
-        self, cut: NDArray[np.int64], parts: NDArray[np.int64], n_parts: int
-    ) -> NDArray[np.int64]:
+        self, cut: NDArray[np.int64], parts: NDArray[np.int64]
+    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
         """Return the cut labels (P,), where parts are lost those of `parts`.
 
-        A part is lost if none of its pieces is large enough. One that comes back may
-        take what another needs, so that it comes back too.
+        Return which parts these are, too, (K,). A part is lost if none of its pieces is
+        large enough. One that comes back may take what another needs, so that it comes
+        back too.
         """
         graph, smallest = self._partitioner.graph, self._partitioner.smallest_area
+        n_parts = count_parts(parts)
         labels, lost = cut, np.zeros(n_parts, dtype=bool)
         while True:
             pieces = graph.pieces(labels, smallest)
@@ -129,7 +168,7 @@ class SeamCutter:
             np.maximum.at(of_pieces, label_of, areas)
             more = (of_pieces <= smallest) & ~lost
             if not more.any():
-                return labels
+                return labels, lost
             lost |= more
             labels = np.where(lost[parts], parts, cut)
 

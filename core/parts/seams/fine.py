@@ -100,5 +100,7 @@ def _cut(
     enough = by.psi(parts) - by.negligible
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)
     finer = Partitioner(on_nodes, replace(parameters, smoothness=smoothness))
-    cutting = SeamCutter(finer, Memo(), _SWEEPS).cut(start, enough)
-    return (yield from within(cutting, 0.3, 1.0)).parts[places].astype(np.uint16)
+    cutter = SeamCutter(finer, Memo(), _SWEEPS)
+    cut = yield from within(cutter.cut(start, enough), 0.3, 0.9)
+    smooth = yield from within(cutter.smoothed(cut), 0.9, 1.0)
+    return smooth.parts[places].astype(np.uint16)

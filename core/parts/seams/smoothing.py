@@ -10,8 +10,8 @@ from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
 from ...geometry.face_graph import FaceGraph
-from ...steps.progress import Steps
-from .graph_cut import cut_seams
+from ...steps.progress import Progress, Steps, within
+from .graph_cut import SWEEPS, cut_seams
 
 # Distance from a part at which a polygon's cost for that part is 1, as a share of the
 # square root of the total area.
@@ -28,6 +28,7 @@ def smooth_seams(
     labels: NDArray[np.int64],
     chosen: Sequence[int],
     smoothness: float,
+    sweeps: int = SWEEPS,
 ) -> Steps[NDArray[np.int64]]:
     """Move the seams of some parts into short lines and creases near the given seams.
 
@@ -43,6 +44,8 @@ def smooth_seams(
         Parts whose seams move. Seams between two other parts stay.
     smoothness : float
         Weight lambda of the seams' length (eq. 4).
+    sweeps : int, optional
+        Largest number of sweeps over all parts.
 
     Returns
     -------
@@ -51,17 +54,19 @@ def smooth_seams(
         yield `Progress`; `run` returns the labels.
     """
     n_parts = int(labels.max()) + 1
-    costs = _costs(graph, labels, n_parts)
+    costs = yield from within(_costs(graph, labels, n_parts), 0.0, 0.4)
     own = labels[:, None] == np.arange(n_parts)
     free = np.isin(np.arange(n_parts), chosen)
     costs[~own & ~free[labels][:, None] & ~free] = _NEVER
-    return (yield from cut_seams(graph, labels, costs, smoothness))
+    cut = cut_seams(graph, labels, costs, smoothness, sweeps)
+    return (yield from within(cut, 0.4, 1.0))
 
 
 def _costs(
     graph: FaceGraph, labels: NDArray[np.int64], n_parts: int
-) -> NDArray[np.float64]:
+) -> Steps[NDArray[np.float64]]:
     """Return the data term (P, K): distances of nodes from parts along the surface."""
+    yield Progress("Seams", 0.0)
     one, other = graph.neighbors.T
     steps = np.linalg.norm(graph.centers[one] - graph.centers[other], axis=1)
     unit = _UNIT * float(np.sqrt(graph.areas.sum()))
@@ -74,6 +79,7 @@ def _costs(
     ends = labels[graph.neighbors]
     rim = np.unique(graph.neighbors[ends[:, 0] != ends[:, 1]])
     for part in range(n_parts):
+        yield Progress("Seams", part / n_parts)
         starts = rim[labels[rim] == part]
         if len(starts):
             costs[:, part] = dijkstra(

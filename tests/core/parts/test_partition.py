@@ -100,6 +100,24 @@ def test_parts_that_seams_would_swallow_do_not_soften_other_seams(seen, n_parts)
     assert count_parts(seams.parts) == n_parts
 
 
+def test_parts_that_seams_would_swallow_get_short_ones_at_the_end(seen):
+    memo = seen(shapes.comb)
+    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=30.0))
+    cutter = SeamCutter(partitioner, Memo())
+    cut = run(cutter.cut(partitioner.partition(9), -np.inf))
+    assert cut.ragged.any()
+    smooth = run(cutter.smoothed(cut))
+    assert smooth.ragged is None
+    assert count_parts(smooth.parts) == 9
+    borders = partitioner.graph.borders
+    assert borders(smooth.parts, 9).sum() < borders(cut.parts, 9).sum()
+    moved = smooth.parts != cut.parts
+    beside = cut.ragged[partitioner.graph.neighbors].any(axis=1)
+    near = np.unique(partitioner.graph.neighbors[beside])
+    assert np.isin(np.flatnonzero(moved), near).mean() > 0.5
+    assert run(cutter.smoothed(cut)) is smooth
+
+
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 3, 5])
 def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
