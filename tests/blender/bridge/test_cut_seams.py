@@ -111,6 +111,15 @@ def test_cuts_of_an_edited_mesh_stay_and_that_is_said_beforehand(angle):
     assert not [key for key in angle.data.keys() if "wcd" in key]  # noqa: SIM118
 
 
+def test_clear_takes_back_seams_that_were_marked_before_the_cuts(angle):
+    before = snapshot(angle)
+    cut(seams="KEEP", parts=2)
+    bpy.ops.wcd.mark_seams()
+    cut(parts=2)
+    bpy.ops.wcd.clear()
+    assert snapshot(angle) == before
+
+
 def test_materials_given_since_are_an_edit_and_selecting_is_none(angle):
     angle.data.materials.append(bpy.data.materials.new("Own"))
     cut()
