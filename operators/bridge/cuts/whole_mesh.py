@@ -18,6 +18,7 @@ from ..mesh.attributes import IntArray, read_floats, read_ints, read_labels, wri
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
 from ..mesh.known import corner_vertices
+from ..mesh.seams import BLENDERS_LAYERS, users_seams
 from ..parts.slots import bare_materials
 from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
 from ..stored.record import beside_parts, record_of, write_record
@@ -158,10 +159,11 @@ def _state_of(obj: bpy.types.Object) -> str:
     add("faces", read_ints(mesh.polygons, "loop_total"))
     add("corners", corner_vertices(mesh))
     add("edges", read_ints(mesh.edges, "vertices", 2))
+    add("seams", () if mesh.is_editmode else users_seams(mesh))
     for attribute in sorted(mesh.attributes, key=lambda each: each.name):
         if attribute.name.startswith(_PASSING):
             continue
-        if attribute.name in {"material_index", FACE_SETS}:
+        if attribute.name in {"material_index", FACE_SETS, *BLENDERS_LAYERS}:
             continue
         values = _values_of(attribute)
         if np.any(values):  # Edit Mode drops layers without any value

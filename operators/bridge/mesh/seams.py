@@ -16,7 +16,7 @@ from .attributes import BoolArray, read_flags, read_ints, write_flags, write_int
 from .selection import show_flags
 
 # Blender's own attribute of seams, before and since 5.0.
-_BLENDERS = (".uv_seam", "uv_seam")
+BLENDERS_LAYERS = (".uv_seam", "uv_seam")
 
 
 def has_marked_seams(mesh: bpy.types.Mesh) -> bool:
@@ -67,15 +67,21 @@ def unmark_seams(mesh: bpy.types.Mesh) -> None:
             edge.seam = edge.seam and not edge[layer]
         edges.layers.int.remove(layer)
     else:
-        attribute = mesh.attributes[SEAM_LAYER]
-        ours = read_ints(attribute.data, "value") != 0
-        seams = read_flags(mesh.edges, "use_seam") & ~ours
-        mesh.attributes.remove(attribute)
+        seams = users_seams(mesh)
+        mesh.attributes.remove(mesh.attributes[SEAM_LAYER])
         write_flags(mesh.edges, "use_seam", seams)
-        for name in () if seams.any() else _BLENDERS:
+        for name in () if seams.any() else BLENDERS_LAYERS:
             if name in mesh.attributes:
                 mesh.attributes.remove(mesh.attributes[name])
     show_flags(mesh)
+
+
+def users_seams(mesh: bpy.types.Mesh) -> BoolArray:
+    """Return which edges of a mesh in Object Mode are seams of the user's, (E,)."""
+    seams = read_flags(mesh.edges, "use_seam")
+    if has_marked_seams(mesh):
+        seams &= read_ints(mesh.attributes[SEAM_LAYER].data, "value") == 0
+    return seams
 
 
 def _is_ours(attribute: bpy.types.Attribute) -> bool:
