@@ -7,8 +7,6 @@ from edited import check_in_step
 from hand_made import activate, areas, in_mode, mesh_object
 from random_work.low_poly import check_kept, figures, low_poly
 from snapshot import snapshot
-from weak_convex_decomposition import decompose as decompose_arrays
-from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
     edited_since_cut,
     is_cut,
@@ -245,8 +243,3 @@ def test_the_command_line_writes_the_cut_faces(angle, tmp_path):
     assert main([str(source), "--output", str(output), *options]) == 0
     lines = output.read_text(encoding="utf-8").splitlines()
     assert sum(line.startswith("f ") for line in lines) == 11
-
-
-def test_the_function_for_arrays_says_who_cuts(angle):
-    with pytest.raises(DecompositionError, match="or the command line"):
-        decompose_arrays(angle, seams="CUT")

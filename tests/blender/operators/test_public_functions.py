@@ -50,3 +50,8 @@ def test_removed_objects_are_refused(suzanne):
     bpy.data.objects.remove(suzanne)
     with pytest.raises(wcd.DecompositionError, match=r"has been removed .*\.$"):
         wcd.decompose(suzanne)
+
+
+def test_the_function_that_returns_parts_says_who_cuts_faces(suzanne):
+    with pytest.raises(wcd.DecompositionError, match="or the command line"):
+        wcd.decompose(suzanne, seams="CUT")
