@@ -63,6 +63,21 @@ class MoreHands:
         bpy.context.view_layer.update()
         self.done()
 
+    @rule(n=NUMBERS, name=st.sampled_from(["Ape", "Bone", "Bone.001"]))
+    def rename_object(self, n, name):
+        obj = self.body(n)
+        obj.name = obj.data.name = name
+        self.done()
+
+    @rule(n=NUMBERS, size=st.sampled_from([1.0, 0.5, -1.0]), apply=st.booleans())
+    def stretch(self, n, size, apply):
+        self.object_mode()
+        self.body(n).scale.y = size
+        if apply:
+            attempt(bpy.ops.object.transform_apply, location=False)
+        bpy.context.view_layer.update()
+        self.done()
+
     @rule(n=NUMBERS, names=WAYS, chosen=st.booleans())
     def rename_all(self, n, names, chosen):
         self.body(n)
