@@ -11,17 +11,23 @@ from ..mesh.layers import flush_edits, let_undo_see_all
 from ..parts.figures import figures_of
 from ..parts.present_parts import faces_by_hand
 from ..parts.write import write_parts
-from ..stored.record import noted_parameters
+from ..stored.noted_parts import identities_of
+from ..stored.record import noted_parameters, record_of
 
 
 def bring_in_step(obj: bpy.types.Object) -> None:
-    """Write an object's parts again if some of them share a number, after a join.
+    """Write an object's parts again after a join, if the record does not know all.
 
-    What was not measured together stays unknown until it is.
+    Some of them share a number then, or have one that is new. What was not measured
+    together stays unknown until it is.
     """
     flush_edits(obj)
     figures = figures_of(obj)
-    if figures is None or figures.found.in_step:
+    if figures is None:
+        return
+    noted = {each.number for each in identities_of(record_of(obj))}
+    there = {each.number for each in figures.identities}
+    if figures.found.in_step and there <= noted:
         return
     let_undo_see_all(obj)
     counts, areas = (

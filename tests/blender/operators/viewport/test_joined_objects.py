@@ -69,3 +69,21 @@ def test_own_materials_on_faces_of_a_part_are_no_join(suzanne):
     figures = figures_of(suzanne)
     assert figures.problem is None
     assert len(figures.identities) == 2
+
+
+def test_a_part_that_only_a_joined_copy_had_is_shown_as_material(suzanne):
+    decompose_by_hand(suzanne, 2)
+    show("OVERLAY")
+    bpy.ops.object.duplicate()
+    copy = bpy.context.active_object
+    activate(suzanne)
+    decompose_by_hand(suzanne, 3)
+    activate(copy)
+    suzanne.select_set(True)
+    bpy.ops.object.join()
+    show("MATERIALS")
+    assert len(part_identities(copy)) == 3
+    assert len({copy.data.materials[p.material_index] for p in copy.data.polygons}) == 3
+    check_in_step(copy)
+    bpy.ops.wcd.clear()
+    assert not copy.vertex_groups
