@@ -22,6 +22,8 @@ _MOST_DISLIKE = 4.0
 _SOFTER = (1.0, 0.25, 0.0625)
 # A part has ragged seams if more than this share of its area is in ragged ones.
 _MOSTLY = 0.5
+# Sweeps of the cut that smooths them: a second one hardly makes them shorter.
+_SWEEPS = 1
 
 
 class Seams(NamedTuple):
@@ -139,7 +141,7 @@ class SeamCutter:
         graph, n_parts = self._partitioner.graph, count_parts(parts)
         areas = np.bincount(parts, graph.areas * ragged)
         chosen = np.flatnonzero(areas > _MOSTLY * graph.areas_of(parts))
-        steps = smooth_seams(graph, parts, chosen.tolist(), smoothness, self._sweeps)
+        steps = smooth_seams(graph, parts, chosen.tolist(), smoothness, _SWEEPS)
         smooth = yield from within(steps, 0.0, 0.9)
         yield Progress("Seams", 0.9)
         smooth, _ = self._none_lost(smooth, parts)

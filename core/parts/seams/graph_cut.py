@@ -99,6 +99,8 @@ class _Expansion:
         self.heads, self.seams = graph.indices.astype(np.int64), graph.data
         self.starts = graph.indptr[:-1].astype(np.int64)
         self.n_arcs = np.diff(graph.indptr).astype(np.int64)
+        # The most that a node can save by a move: the cost of all seams around it.
+        self._saved = graph.sum(axis=1)
         self._places = np.zeros(n_nodes, dtype=np.int64)
 
     def expand(
@@ -111,10 +113,13 @@ class _Expansion:
         """
         seen = labels == label
         nodes = self._band(seen)
-        if len(nodes) == 0:
-            return nodes, seen
         own = labels[nodes]
         gain = self.data[nodes, label] - self.data[nodes, own]
+        # No seam around the others saves as much as their move costs.
+        may = np.flatnonzero(gain <= self._saved[nodes])
+        nodes, own, gain = nodes[may], own[may], gain[may]
+        if len(nodes) == 0:
+            return nodes, seen
         arcs, tails = self._arcs(nodes)
         ends, weights = self.heads[arcs], self.seams[arcs]
         seen[ends] = True
