@@ -10,7 +10,6 @@ from ..core.steps.progress import Steps
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
 from .bridge.mesh.layers import let_undo_see_all
-from .bridge.mesh.seams import unmark_seams
 from .bridge.parts.erase import clear
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
 from .bridge.read.evaluated import read_as
@@ -107,11 +106,8 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
             remove_views(each)  # of the same parts, which go
             erase_images(each)
         clear(obj)
-        if is_cut(obj) and obj.data.is_editable:
-            if bring_back(obj):
-                unmark_seams(obj.data)  # which were marked before the faces were cut
-            else:
-                self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")
+        if is_cut(obj) and obj.data.is_editable and not bring_back(obj):
+            self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")
         if CARRIER_TAG in obj:
             clear_carrier(obj)
         else:

@@ -65,14 +65,14 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     first, *others = rivals
     least = least_psi(search, n_parts)
     seams = yield from within(search.seams.cut(first, least), 0.8, 0.9)
-    cuts = [seams, *map(Seams, others)]
+    rest = [Seams(rival) for rival in others]
     for rival in others:
-        cuts.append((yield from within(search.seams.cut(rival), 0.9, 1.0)))
+        rest.append((yield from within(search.seams.cut(rival), 0.9, 1.0)))
     psi_by_k = {made: by.psi_seen(first)} | searched.psi_by_k
-    _, *others = (each.parts for each in cuts)
-    parts = search.creases.better(seams.parts, made, made, *others)
+    labels = (each.parts for each in rest)
+    parts = search.creases.better(seams.parts, made, made, *labels)
     if parts is not seams.parts:
-        seams = next((each for each in cuts if each.parts is parts), Seams(parts))
+        seams = next((each for each in rest if each.parts is parts), Seams(parts))
         psi_by_k |= {made: by.psi_seen(parts)}
     return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 

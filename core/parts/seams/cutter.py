@@ -53,7 +53,8 @@ class SeamCutter:
     partitioner : Partitioner
         The partitioner that made the parts; its parameters are used.
     memo : Memo
-        Maps a smoothness and the digest of parts to the parts with their seams cut.
+        Maps a smoothness and the digest of parts to the parts with their seams cut, and
+        with the digest of ragged nodes behind, to those parts with smooth seams.
     sweeps : int, optional
         Largest number of sweeps of a cut over all parts.
     even : bool, optional

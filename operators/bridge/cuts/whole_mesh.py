@@ -18,7 +18,7 @@ from ..mesh.attributes import IntArray, read_floats, read_ints, read_labels, wri
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
 from ..mesh.known import corner_vertices
-from ..mesh.seams import BLENDERS_LAYERS, users_seams
+from ..mesh.seams import BLENDERS_LAYERS, unmark_seams, users_seams
 from ..parts.slots import bare_materials
 from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
 from ..stored.record import beside_parts, record_of, write_record
@@ -99,6 +99,7 @@ def bring_back(obj: bpy.types.Object) -> bool:
         forget_whole(mesh)
         return False
     put_back(obj, whole)
+    unmark_seams(obj.data)  # which we marked before the faces were cut
     return True
 
 
