@@ -18,11 +18,12 @@ from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull, offset
-from .cutting import close_pieces
+from .cutting.cell import whole
+from .cutting.close_pieces import close_pieces
 from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .measure.uncovered import uncovered
-from .piece import Piece, piece_of_part, whole
+from .piece import Piece, piece_of_part
 from .solid import Solid, solid_of
 
 # Shapes whose volumes differ by less, as a share, are the same if one is in the other.

@@ -137,11 +137,11 @@ def directions(count: int) -> NDArray[np.float64]:
 def _hull(points: NDArray[np.float64]) -> Hull:
     """Return the hull of points; raise QhullError or ValueError if they are flat."""
     found = ConvexHull(points)
-    rows = np.full(len(points), -1)
-    rows[found.vertices] = np.arange(len(found.vertices))
+    used = np.zeros(len(points), dtype=bool)
+    used[found.simplices] = True
     return Hull(
-        points[found.vertices],
-        rows[found.simplices],
+        points[used],
+        (np.cumsum(used) - 1)[found.simplices],
         np.asarray(found.equations),
         float(found.volume),
     )

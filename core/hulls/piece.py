@@ -1,4 +1,4 @@
-"""Pieces of a solid: cut them, join them, and measure the errors of their hulls."""
+"""Pieces of a solid: join them, and measure the errors of their hulls."""
 
 from __future__ import annotations
 
@@ -9,11 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ..geometry.frames import heights_above
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import single
 from .convex_hull import THIN, convex_hull
-from .cross_section import cross_section, meeting_points
 from .fitting import Fit
 from .measure.error_bound import ErrorBound
 from .measure.estimate import estimated_depth, estimated_error, volume_error
@@ -115,50 +113,6 @@ class Piece:
         return self._bound.value
 
 
-@dataclass(frozen=True, eq=False)
-class Cell(Piece):
-    """A piece bounded by planes, which can be cut again.
-
-    Attributes
-    ----------
-    on_surface : (N,) bool
-        Which samples of `boundary` are on the surface, not on the face of a cut.
-    chords : (C, 3) float
-        Centers of the chords in the piece.
-    volumes : (C,) float
-        Volume around each chord.
-    planes : (P, 4) float
-        Unit normal n and offset d of each plane: n · x + d ≤ 0 in the piece.
-    """
-
-    on_surface: NDArray[np.bool_]
-    chords: NDArray[np.float64]
-    volumes: NDArray[np.float64]
-    planes: NDArray[np.float64]
-
-
-def whole(solid: Solid, fit: Fit) -> Cell:
-    """Return the whole solid as one piece.
-
-    Parameters
-    ----------
-    solid : Solid
-    fit : Fit
-    """
-    return Cell(
-        solid.vertices,
-        solid.samples,
-        solid.volume,
-        solid,
-        fit,
-        np.zeros((0, 3)),
-        np.ones(len(solid.samples), dtype=bool),
-        solid.chords,
-        solid.volumes,
-        np.zeros((0, 4)),
-    )
-
-
 def piece_of_part(solid: Solid, fit: Fit, chosen: NDArray[np.bool_]) -> Piece:
     """Return a part of the surface as a piece, with the inside that is nearest to it.
 
@@ -185,28 +139,6 @@ def piece_of_part(solid: Solid, fit: Fit, chosen: NDArray[np.bool_]) -> Piece:
     )
 
 
-def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
-    """Cut a piece in two by a plane.
-
-    Parameters
-    ----------
-    cell : Cell
-    plane : (4,) float
-        Unit normal n and offset d: n · x + d = 0 on the plane.
-
-    Returns
-    -------
-    below, above : Cell
-        Either may be empty.
-    """
-    section = cross_section(cell.solid, plane)
-    face = section.spread(cell.points)
-    face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
-    tips = meeting_points(cell.planes, plane)
-    rim = np.concatenate([section.rim_within(cell.planes), tips[section.holds(tips)]])
-    return _side(cell, plane, rim, face), _side(cell, -plane, rim, face)
-
-
 def join(one: Piece, other: Piece) -> Piece:
     """Join two pieces; the samples of the cut face between them are removed.
 
@@ -221,29 +153,4 @@ def join(one: Piece, other: Piece) -> Piece:
         one.solid,
         one.fit,
         np.concatenate([one.all_witnesses, other.all_witnesses]),
-    )
-
-
-def _side(
-    cell: Cell,
-    plane: NDArray[np.float64],
-    rim: NDArray[np.float64],
-    face: NDArray[np.float64],
-) -> Cell:
-    """Return the side of a cell below a plane; `rim` and `face` lie in the plane."""
-    points, boundary, chords = (
-        heights_above(plane[None], places)[:, 0] <= 0
-        for places in (cell.points, cell.boundary, cell.chords)
-    )
-    return Cell(
-        np.concatenate([cell.points[points], rim]),
-        np.concatenate([cell.boundary[boundary], face]),
-        float(cell.volumes[chords].sum()),
-        cell.solid,
-        cell.fit,
-        cell.all_witnesses,
-        np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
-        cell.chords[chords],
-        cell.volumes[chords],
-        np.concatenate([cell.planes, plane[None]]),
     )

@@ -9,15 +9,15 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ...geometry.primitives import CollisionShape, Hull
 from ..outline import fine_outline
 from ..solid import Solid
 from .estimate import volume_error
-from .fragments import distances_to, fragments_of, reach_of
+from .fragments import fragments_of, reach_of
 from .patch_search import Bounds, PatchSearch
 from .surface_within import surface_within
+from .targets import Targets
 from .uncovered import uncovered
 
 # Errors below this share of the largest one allowed need not be told apart.
@@ -27,10 +27,6 @@ _TOLD_APART = 0.5
 _TOLERANCE, _ROUGH_TOLERANCE = 0.03, 0.1
 # Longest edge of the first patches; the longest side of the shape is 2.
 _COARSE = 0.1
-# Longest edge of what the nearest parts of a surface are told by.
-_GRAIN = 0.08
-# Fragments near a patch that its distance is measured to.
-_NEIGHBORS = 3
 
 
 class ErrorBound:
@@ -128,23 +124,23 @@ class ErrorBound:
         return surface_within(self._solid, self._shape)
 
     @cached_property
+    def _targets(self) -> Targets:
+        """What distances of points on the shape are measured to."""
+        return Targets(self._within if len(self._within) else self._solid.corners)
+
+    @cached_property
     def _of_volume(self) -> float:
         """The error R_v of what of the shape is outside the solid."""
         return volume_error(self._solid.inside.volume_outside(self._shape))
 
     def _farthest(self, enough: float, limit: float, tolerance: float) -> float:
         """Return a bound of the distance of points on the shape from the surface."""
-        surface = self._within if len(self._within) else self._solid.corners
-        small, origins = fragments_of(surface, _GRAIN)
-        targets = surface[origins]
-        # Building a balanced tree takes twice as long, and questions are few.
-        tree = cKDTree(small.mean(axis=1), balanced_tree=False, compact_nodes=False)
         outline, gap = fine_outline(self._shape)
         if self._outer is None:
             self._outer = PatchSearch(fragments_of(outline, _COARSE)[0])
 
         def away(corners: NDArray[np.float64], level: float) -> Bounds:
-            return _distances(self._solid, targets, tree, corners, level)
+            return _distances(self._solid, self._targets, corners, level, gap == 0)
 
         enough = max(enough - gap, gap)
         return self._outer.largest(away, enough, limit - gap, tolerance) + gap
@@ -161,35 +157,25 @@ def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> Bounds:
 
 def _distances(
     solid: Solid,
-    targets: NDArray[np.float64],
-    tree: cKDTree,
+    targets: Targets,
     corners: NDArray[np.float64],
     level: float,
+    complete: bool,
 ) -> Bounds:
-    """Return bounds of the distance of patches outside a solid from targets."""
+    """Return bounds of the distance of patches outside a solid from targets.
+
+    `complete` says that the targets are all of the surface that the patches may cross.
+    """
     centers, radii = reach_of(corners)
-    places = np.concatenate([corners, centers[:, None]], axis=1)
-    rows = tree.query(centers, min(_NEIGHBORS, len(targets)))[1]
-    # The distance from a triangle is convex: it is largest at a corner of the patch.
-    away = _from_each(places, targets[rows.reshape(len(centers), -1)])
-    nearest = away[:, 3].min(axis=1)
-    high = np.minimum(away.max(axis=1).min(axis=1), nearest + radii)
+    at_least, nearest, at_most = targets.distances(corners, centers)
+    high = np.minimum(at_most, nearest + radii)
     low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
-    inside, unbroken = solid.inside.holds_patches(centers[hard], radii[hard], level)
+    # A way from inside to a point outside crosses the surface, if through no hole, and
+    # all of the way from the center to there is inside.
+    beyond = radii[hard] - (at_least[hard] if complete else 0.0)
+    beyond = np.clip(beyond, 0.0, high[hard])
+    asked = beyond <= level
+    inside, whole = solid.inside.holds_patches(centers[hard], radii[hard], asked)
     low[hard[~inside]] = nearest[hard[~inside]]
-    # A way from inside to a point outside crosses the surface, if through no hole.
-    whole = hard[unbroken]
-    high[whole] = np.minimum(high[whole], radii[whole])
+    high[hard[whole]] = beyond[whole]
     return low, high
-
-
-def _from_each(
-    places: NDArray[np.float64], targets: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return distances of places (N, P, 3) from triangles (N, K, 3, 3), (N, P, K)."""
-    n, p, k = *places.shape[:2], targets.shape[1]
-    away = distances_to(
-        np.repeat(places.reshape(-1, 3), k, axis=0),
-        np.repeat(targets, p, axis=0).reshape(-1, 3, 3),
-    )
-    return away.reshape(n, p, k)

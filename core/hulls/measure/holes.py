@@ -7,11 +7,14 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.frames import cross_2d
+from .line_crossings import TURNS
 
 # Longest of the short segments that edges of holes are divided into.
 _GRAIN = 0.01
 # Number of segments that are looked at. Among more, nothing is sure.
 _NEIGHBORS = 24
+# Distance between what rays along different axes see; the longest side is 2.
+_APART = 100.0
 # Segments that touch overlap by rounding, seen from a point, by less than this.
 _TOUCHING = 1e-14
 
@@ -32,9 +35,11 @@ class HoleEdges:
         edge = np.repeat(np.arange(len(counts)), counts)
         rank = np.arange(len(edge)) - np.repeat(np.cumsum(counts) - counts, counts)
         shares = np.stack([rank, rank + 1], axis=1) / counts[edge, None]
-        self._ends = starts[edge, None] + shares[..., None] * ways[edge, None]
-        middles = self._ends.mean(axis=1)
-        self._trees = [cKDTree(np.delete(middles, axis, axis=1)) for axis in range(3)]
+        ends = starts[edge, None] + shares[..., None] * ways[edge, None]
+        # The segments three times, as rays along each axis see them.
+        self._ends = np.concatenate([ends[..., turn] for turn in TURNS])
+        axes = np.repeat(np.arange(3), len(ends))
+        self._tree = cKDTree(_spots_of(axes, self._ends.mean(axis=1)))
 
     def surely_inside(
         self,
@@ -58,85 +63,122 @@ class HoleEdges:
         -------
         (M,) bool
         """
-        near = np.stack([self._is_near(axis, points, radii) for axis in range(3)])
+        turned = points[:, TURNS].swapaxes(0, 1)
+        near = self._are_near(turned, radii)
         # Where no edge is near, rays from elsewhere say what those from the center do.
         votes = ((leaving > 0).sum(axis=1) * ~near).sum(axis=0)
-        for axis in range(3):
-            open_votes = 2 * near[axis:].sum(axis=0)
-            rows = np.flatnonzero(near[axis] & (votes <= 3) & (votes + open_votes > 3))
-            losses = self._losses(axis, points[rows], radii[rows])
-            votes[rows] += (leaving[axis][:, rows] > losses).sum(axis=0)
+        unsure = (votes <= 3) & (votes + 2 * near.sum(axis=0) > 3)
+        axes, rows = np.nonzero(near & unsure)
+        more = self._votes(
+            axes, turned[axes, rows], radii[rows], leaving[axes, :, rows]
+        )
+        np.add.at(votes, rows, more)
         return votes > 3
 
-    def _is_near(
-        self, axis: int, points: NDArray[np.float64], radii: NDArray[np.float64]
+    def _are_near(
+        self, turned: NDArray[np.float64], radii: NDArray[np.float64]
     ) -> NDArray[np.bool_]:
-        """Return beside which regions, seen along an axis, edges of holes are, (M,)."""
-        if len(self._ends) == 0 or len(points) == 0:
-            return np.zeros(len(points), dtype=bool)
-        reach = radii + _GRAIN / 2
-        flat = np.delete(points, axis, axis=1)
-        away = self._trees[axis].query(flat, distance_upper_bound=reach.max())[0]
-        return away <= reach
+        """Return beside which regions, seen along an axis, edges of holes are, (3, M).
 
-    def _losses(
-        self, axis: int, points: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> NDArray[np.int64]:
-        """Return how much less often rays may leave the mesh from elsewhere in regions.
-
-        That is, leave it more often than they enter it, less than from the center:
-        (2, M), for rays against the axis, and along it, at most so much.
+        `turned` (3, M, 3) are the centers of regions as rays along each axis see them.
         """
-        found = np.zeros((2, len(points)), dtype=np.int64)
-        if len(points) == 0:
-            return found
+        if len(self._ends) == 0 or len(radii) == 0:
+            return np.zeros(turned.shape[:2], dtype=bool)
+        reach = radii + _GRAIN / 2
+        spots = _spots_of(np.repeat(np.arange(3), len(radii)), turned.reshape(-1, 3))
+        away = self._tree.query(spots, distance_upper_bound=reach.max())[0]
+        near: NDArray[np.bool_] = away.reshape(3, -1) <= reach
+        return near
+
+    def _votes(
+        self,
+        axes: NDArray[np.int64],
+        turned: NDArray[np.float64],
+        radii: NDArray[np.float64],
+        leaving: NDArray[np.int64],
+    ) -> NDArray[np.int64]:
+        """Return how many of the two rays leave the mesh from all of a region, (M,).
+
+        From elsewhere in a region, rays may leave the mesh less often than from the
+        center: as often less as a way there crosses edges of holes. `turned` (M, 3) are
+        the centers as rays along an axis each see them, `leaving` is (M, 2).
+        """
+        votes = np.zeros(len(turned), dtype=np.int64)
+        if len(turned) == 0:
+            return votes
         reach, ranks = radii + _GRAIN / 2, range(1, _NEIGHBORS + 1)
-        flat = np.delete(points, axis, axis=1)
-        away, rows = self._trees[axis].query(
-            flat, ranks, distance_upper_bound=reach.max()
+        away, segments = self._tree.query(
+            _spots_of(axes, turned), ranks, distance_upper_bound=reach.max()
         )
         near = away <= reach[:, None]
         few = ~near[:, -1]
-        found[:, ~few] = len(self._ends)
-        most = near[few].sum(axis=1).max(initial=0)
-        near, rows, radii = near[few, :most], rows[few, :most], radii[few, None]
-        ends = self._ends[np.where(near, rows, 0)] - points[few, None, None]
-        heights = ends[..., axis].mean(axis=2)
-        one, other = np.moveaxis(ends[..., [(axis + 1) % 3, (axis + 2) % 3]], 2, 0)
-        near &= _from_origin(one, other) <= radii
-        for way, (first, last) in enumerate([(other, one), (one, other)]):
-            passed = near & ((2 * way - 1) * heights > -radii - _GRAIN / 2)
-            found[way, few] = _most_crossed(first, last, passed)
-        return found
+        # Pairs of a region and an edge near it.
+        row, rank = np.nonzero(near & few[:, None])
+        ends = self._ends[segments[row, rank]] - turned[row, None]
+        met = _from_origin(ends[..., :2]) <= radii[row]
+        row, rank, ends = row[met], rank[met], ends[met]
+        heights, reach = ends[..., 2].mean(axis=1), reach[row]
+        for way, side in enumerate((-1, 1)):
+            flat = ends[:, ::side, :2]
+            crossed = side * heights > -reach
+            crossed &= cross_2d(flat[:, 0], flat[:, 1]) > 0
+            pairs = row[crossed], rank[crossed], flat[crossed]
+            votes += few & _leave_more(leaving[:, way], *pairs)
+        return votes
 
 
-def _most_crossed(
-    starts: NDArray[np.float64], ends: NDArray[np.float64], passed: NDArray[np.bool_]
-) -> NDArray[np.int64]:
-    """Return how many segments a way from the origin crosses to their right, at most.
+def _spots_of(
+    axes: NDArray[np.int64], turned: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return where rays along an axis each run, (M, 3), those of each axis far apart.
 
-    Each of M rows has K segments (M, K, 2) and which of them count, (M, K). Those that
-    the origin is left of run around it; where the most of them overlap, one starts.
+    `turned` (M, 3) are points as these rays see them.
     """
-    counts = passed & (cross_2d(starts, ends) > 0)
-    begins = starts[:, :, None]
-    over = (cross_2d(starts[:, None], begins) >= 0) & (
-        cross_2d(begins, ends[:, None]) > _TOUCHING
-    )
-    crossed = (over & counts[:, None]).sum(axis=2)
-    most: NDArray[np.int64] = np.where(counts, crossed, 0).max(axis=1, initial=0)
+    return np.column_stack([turned[:, :2], _APART * axes])
+
+
+def _leave_more(
+    leaving: NDArray[np.int64],
+    row: NDArray[np.int64],
+    rank: NDArray[np.int64],
+    flat: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """Return where rays leave more often than a way through the region crosses edges.
+
+    `flat` (P, 2, 2) are the edges that may be crossed to their right; `row` and `rank`
+    (P,) tell which of M regions each is in, and its number there.
+    """
+    total = np.bincount(row, minlength=len(leaving))
+    more = leaving > total
+    unsure = ~more & (leaving > 1)  # one edge at least is crossed
+    if unsure.any():
+        asked = unsure[row]
+        ends = np.zeros((len(leaving), _NEIGHBORS, 2, 2))
+        ends[row[asked], rank[asked]] = flat[asked]
+        more[unsure] = leaving[unsure] > _most_crossed(ends[unsure])
+    return more
+
+
+def _most_crossed(ends: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return how many segments a way from the origin crosses at most, (M,).
+
+    Each row of `ends` (M, K, 2, 2) has segments that the origin is left of, and zeros.
+    These run around it; where the most of them overlap, one starts.
+    """
+    starts, ends = ends[:, :, None, 0], ends[:, :, None, 1]
+    begins = starts.swapaxes(1, 2)
+    over = (cross_2d(starts, begins) >= 0) & (cross_2d(begins, ends) > _TOUCHING)
+    most: NDArray[np.int64] = over.sum(axis=1).max(axis=1)
     return most
 
 
-def _from_origin(
-    starts: NDArray[np.float64], ends: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the distances of segments (M, K, 2) from the origin, (M, K)."""
-    ways = ends - starts
-    squares = np.maximum((ways**2).sum(axis=2), 1e-30)
-    shares = np.clip(-(starts * ways).sum(axis=2) / squares, 0.0, 1.0)
+def _from_origin(segments: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the distances of segments (P, 2, 2) from the origin, (P,)."""
+    starts, ways = segments[:, 0], segments[:, 1] - segments[:, 0]
+    squares = np.maximum((ways**2).sum(axis=1), 1e-30)
+    shares = np.clip(-(starts * ways).sum(axis=1) / squares, 0.0, 1.0)
     distances: NDArray[np.float64] = np.linalg.norm(
-        starts + shares[..., None] * ways, axis=2
+        starts + shares[:, None] * ways, axis=1
     )
     return distances
 

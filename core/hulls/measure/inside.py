@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 
@@ -10,20 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
-from .fragments import fragments_of
 from .holes import HoleEdges
+from .line_crossings import TURNS, LineCrossings
 from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
 # They are part of what is meant by the inside of an open mesh.
 AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
 AXES *= np.sign(np.linalg.det(AXES))
-# Number of cells of the table of triangles along each side.
-_CELLS = 96
 # Lines through a collision shape along the longer side of its bounding box.
 _LINES = 40
-# Longest edge of the triangles in the table.
-_COARSE = 0.3
 # Factor by which volumes are raised, for what lies between the lines: it raises the
 # radius of a ball by a fiftieth.
 _SURELY = 1.06
@@ -50,11 +45,7 @@ class InsideTest:
     def __init__(self, corners: NDArray[np.float64], n_axes: int) -> None:
         self._n_axes = n_axes
         self._corners = corners @ AXES.T
-        corners = fragments_of(self._corners, _COARSE)[0]
-        self._low = corners.min(axis=(0, 1))
-        self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
-        self._slopes = [_slopes_of(corners, axis) for axis in range(3)]
-        self._tables = [self._table(corners, axis) for axis in range(3)]
+        self._crossings = LineCrossings(self._corners)
 
     @cached_property
     def _hole_edges(self) -> HoleEdges:
@@ -72,15 +63,15 @@ class InsideTest:
         -------
         (M,) bool
         """
-        local = points @ AXES.T
-        votes = np.zeros(len(points), dtype=np.int64)
-        for axis in range(self._n_axes):
-            for leaving in self._leaving(axis, local):
-                votes += leaving > 0
-        return votes > self._n_axes
+        votes = (self._leaving(points @ AXES.T) > 0).sum(axis=(0, 1))
+        inside: NDArray[np.bool_] = votes > self._n_axes
+        return inside
 
     def holds_patches(
-        self, centers: NDArray[np.float64], radii: NDArray[np.float64], largest: float
+        self,
+        centers: NDArray[np.float64],
+        radii: NDArray[np.float64],
+        asked: NDArray[np.bool_],
     ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Return which patches have centers inside, and no way out but the surface.
 
@@ -89,8 +80,8 @@ class InsideTest:
         centers : (M, 3) float
         radii : (M,) float
             No point of a patch is farther from its center.
-        largest : float
-            Larger patches are not looked at for ways out.
+        asked : (M,) bool
+            Which patches are looked at for ways out.
 
         Returns
         -------
@@ -99,16 +90,16 @@ class InsideTest:
         whole : (M,) bool
             Of those, whether surely nothing but the surface leads outside.
         """
-        local, small = centers @ AXES.T, radii <= largest
-        leaving = np.array([[*self._leaving(k, local)] for k in range(self._n_axes)])
+        local = centers @ AXES.T
+        leaving = self._leaving(local)
         inside = (leaving > 0).sum(axis=(0, 1)) > self._n_axes
         if self._n_axes == 1:  # nothing but the surface is between inside and outside
-            return inside, inside & small
-        whole, rows = inside & small, np.flatnonzero(inside & small)
+            return inside, inside & asked
+        whole, rows = inside & asked, np.flatnonzero(inside & asked)
         whole[rows] = self._hole_edges.surely_inside(
             local[rows], radii[rows], leaving[..., rows]
         )
-        return inside & (whole | (radii > min(_NARROW, largest))), whole
+        return inside & (whole | ~asked | (radii > _NARROW)), whole
 
     def volume_outside(self, shape: CollisionShape) -> float:
         """Return the volume of a collision shape that is outside.
@@ -126,7 +117,7 @@ class InsideTest:
         step = (high - low).max() / _LINES
         estimates = []
         for axis in range(3):
-            sides = [(axis + 1) % 3, (axis + 2) % 3]
+            sides = TURNS[axis, :2]
             across, up = (
                 np.arange(low[s] + step / 2, high[s] + step / 2, step) for s in sides
             )
@@ -140,19 +131,21 @@ class InsideTest:
             estimates.append((leave - enter).sum() - inside)
         return float(max(*estimates, 0.0) * step**2) * _SURELY
 
-    def _leaving(
-        self, axis: int, local: NDArray[np.float64]
-    ) -> Iterator[NDArray[np.int64]]:
-        """Yield how many more triangles rays leave than enter, either way, (M,).
+    def _leaving(self, local: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Return how many more triangles rays leave than enter, (axes, 2, M).
 
-        The first rays run against the axis, the others along it.
+        Of each axis, the first rays run against it, the others along it.
         """
-        sides = [(axis + 1) % 3, (axis + 2) % 3]
-        line, heights, turns = self._crossings(axis, local[:, sides])
-        below = heights < local[line, axis]
-        for some, side in ((below, 1), (~below, -1)):
-            counts = np.bincount(line[some], side * turns[some], len(local))
-            yield counts.astype(np.int64)
+        n_axes, n = self._n_axes, len(local)
+        turned = local[:, TURNS[:n_axes]].swapaxes(0, 1).reshape(-1, 3)
+        axes = np.repeat(np.arange(n_axes), n)
+        line, heights, turns = self._crossings.of(axes, turned[:, :2])
+        below = heights < turned[line, 2]
+        leaving = [
+            np.bincount(line[some], side * turns[some], n_axes * n).reshape(n_axes, n)
+            for some, side in ((below, 1), (~below, -1))
+        ]
+        return np.stack(leaving, axis=1).astype(np.int64)
 
     def _length_inside(
         self,
@@ -162,7 +155,8 @@ class InsideTest:
         leave: NDArray[np.float64],
     ) -> float:
         """Return the length of segments of lines along an axis that is inside."""
-        line, heights, turns = self._crossings(axis, spots)
+        axes = np.full(len(spots), axis)
+        line, heights, turns = self._crossings.of(axes, spots)
         order = np.lexsort((heights, line))
         line, heights, turns = line[order], heights[order], turns[order]
         first = np.r_[True, line[1:] != line[:-1]][: len(line)]
@@ -177,66 +171,6 @@ class InsideTest:
         start = np.maximum(heights[inside], enter[rows])
         end = np.minimum(heights[inside + 1], leave[rows])
         return float(np.maximum(end - start, 0.0).sum())
-
-    def _table(
-        self, corners: NDArray[np.float64], axis: int
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Return the triangles over each cell of a grid, and where they start."""
-        sides = [(axis + 1) % 3, (axis + 2) % 3]
-        flat = (corners[:, :, sides] - self._low[sides]) / self._step
-        low, high = (
-            np.clip(ends.astype(np.int64), 0, _CELLS - 1)
-            for ends in (flat.min(axis=1), flat.max(axis=1))
-        )
-        widths = high - low + 1
-        faces_lines = self._slopes[axis][-1] != 0
-        counts = np.where(faces_lines, widths.prod(axis=1), 0)
-        triangle = np.repeat(np.arange(len(flat)), counts)
-        rank = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
-        column, row = np.divmod(rank, widths[triangle, 1])
-        cell = (column + low[triangle, 0]) * _CELLS + row + low[triangle, 1]
-        order = np.argsort(cell, kind="stable")
-        starts = np.searchsorted(cell[order], np.arange(_CELLS**2 + 1))
-        return triangle[order], starts
-
-    def _crossings(
-        self, axis: int, spots: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-        """Return line, height and turn of each crossing of lines with triangles."""
-        triangles, starts = self._tables[axis]
-        sides = [(axis + 1) % 3, (axis + 2) % 3]
-        cells = np.floor((spots - self._low[sides]) / self._step).astype(np.int64)
-        known = ((cells >= 0) & (cells < _CELLS)).all(axis=1)
-        cell = np.where(known, cells[:, 0] * _CELLS + cells[:, 1], 0)
-        counts = np.where(known, starts[cell + 1] - starts[cell], 0)
-        line = np.repeat(np.arange(len(spots)), counts)
-        rank = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
-        triangle = triangles[starts[cell[line]] + rank]
-        x0, y0, z0, bx, by, bz, cx, cy, cz, turns = self._slopes[axis]
-        x, y = spots[line, 0] - x0[triangle], spots[line, 1] - y0[triangle]
-        b = x * bx[triangle] + y * by[triangle]
-        c = x * cx[triangle] + y * cy[triangle]
-        hit = np.flatnonzero((b >= 0) & (c >= 0) & (b + c <= 1))
-        triangle = triangle[hit]
-        heights = z0[triangle] + b[hit] * bz[triangle] + c[hit] * cz[triangle]
-        return line[hit], heights, turns[triangle].astype(np.int64)
-
-
-def _slopes_of(corners: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
-    """Return what tells where lines along an axis cross triangles, (10, T).
-
-    Three rows have the first corner: x and y across the lines, z along them. Then three
-    for each other corner: how much its share of a point grows along x and y, and its z
-    above that of the first corner. The last row is 1 where a line along the axis
-    enters the inside, −1 where it leaves it, 0 where it is in the plane.
-    """
-    a, b, c = np.moveaxis(corners[..., [(axis + 1) % 3, (axis + 2) % 3, axis]], 1, 0)
-    a, b, c = a.T, (b - a).T, (c - a).T
-    area = b[0] * c[1] - b[1] * c[0]
-    faces = area != 0
-    of_b = np.divide([c[1], -c[0]], area, out=np.zeros((2, len(area))), where=faces)
-    of_c = np.divide([-b[1], b[0]], area, out=np.zeros((2, len(area))), where=faces)
-    return np.concatenate([a, of_b, b[2:], of_c, c[2:], [-np.sign(area)]])
 
 
 def _turned(shape: CollisionShape) -> CollisionShape:

@@ -10,8 +10,9 @@ from weak_convex_decomposition.core.hulls.cost import (
     least_cost,
     least_cost_of_sides,
 )
+from weak_convex_decomposition.core.hulls.cutting.cell import cut, whole
 from weak_convex_decomposition.core.hulls.fitting import Fit
-from weak_convex_decomposition.core.hulls.piece import cut, join, whole
+from weak_convex_decomposition.core.hulls.piece import join
 from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run

@@ -1,5 +1,8 @@
 """Stated errors: known ones, and dense measurements of others."""
 
+from dataclasses import replace
+from itertools import product
+
 import changes
 import numpy as np
 import pytest
@@ -7,11 +10,13 @@ import shapes
 from computed import build_hulls
 from convexity_check import heights_above_shape
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.core.hulls.convex_hull import THIN, convex_hull
+from weak_convex_decomposition.core.hulls.cutting.cell import whole
 from weak_convex_decomposition.core.hulls.fitting import fit_for
+from weak_convex_decomposition.core.hulls.measure.error_bound import ErrorBound
 from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
 from weak_convex_decomposition.core.hulls.measure.inside import InsideTest
 from weak_convex_decomposition.core.hulls.outline import fine_outline
-from weak_convex_decomposition.core.hulls.piece import whole
 from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run
@@ -61,6 +66,19 @@ def test_a_hull_over_a_gap_strays_to_its_middle():
 def test_a_notch_between_samples_is_seen():
     found = one_shape(notched(0.001, 0.8))
     assert 0.8 <= found.errors[0] <= 0.8 * 1.05
+
+
+def test_a_shaft_beside_the_centers_of_patches_is_seen():
+    # A thin slab across the shaft: its walls are hardly deep in it.
+    full = np.ones((41, 41, 1), dtype=bool)
+    full[20, 20] = False
+    mesh = shapes.voxels(full)
+    mesh = replace(mesh, vertices=mesh.vertices * [2 / 41, 2 / 41, 2] - 1)
+    corners = np.array([*product((-1, 1), (-1, 1), (-0.002, 0.002))])
+    solid, hull = run(solid_of(mesh, 0)), convex_hull(corners, THIN)
+    shape = fit_for(mesh, HullParameters(), 1.0)[0].shape(hull)
+    bound = ErrorBound(solid, shape, hull, 0.02)
+    assert 1 / 41 <= bound.value <= 1.05 / 41
 
 
 @pytest.mark.parametrize("margin", [0.2, -0.2])
@@ -184,10 +202,12 @@ def test_regions_inside_an_open_mesh_have_no_sliver_outside(seed):
     rng = np.random.default_rng(seed)
     ball = shapes.sphere(2)
     corners = ball.vertices[ball.triangles]
+    # Rays leave two shells: one hole alone is no way out.
+    corners = np.concatenate([corners, 0.9 * corners])
     corners = corners[rng.random(len(corners)) > 0.1]
     centers, radii = rng.uniform(-0.5, 0.5, (20_000, 3)), rng.uniform(0, 0.03, 20_000)
     test = InsideTest(corners, 3)
-    inside, whole = test.holds_patches(centers, radii, 0.03)
+    inside, whole = test.holds_patches(centers, radii, radii < 0.03)
     # The surface is farther away than all radii: there is no other way out.
     sure = inside & whole
     assert 0.3 < sure.mean() < 1

@@ -3,7 +3,10 @@ import numpy as np
 import pytest
 import shapes
 from weak_convex_decomposition.core.hulls.convex_hull import hull_volume
-from weak_convex_decomposition.core.hulls.extremes import reaches_of, volumes_beside
+from weak_convex_decomposition.core.hulls.cutting.extremes import (
+    reaches_of,
+    volumes_beside,
+)
 
 
 def beside(points, *ends):

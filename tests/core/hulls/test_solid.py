@@ -2,7 +2,10 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.hulls.cross_section import contour, cross_section
+from weak_convex_decomposition.core.hulls.cutting.cross_section import (
+    contour,
+    cross_section,
+)
 from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
 from weak_convex_decomposition.core.steps.progress import run
 

@@ -7,12 +7,13 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..steps.progress import Progress, Steps, within
-from .cost import cost_of_sides, least_cost_of_sides
-from .cut_planes import ranked_planes
-from .enclosing.shapes import roughly_around
-from .joining import Joints, join_pieces
-from .piece import Cell, Piece, cut
+from ...steps.progress import Progress, Steps, within
+from ..cost import cost_of_sides, least_cost_of_sides
+from ..enclosing.shapes import roughly_around
+from ..joining import Joints, join_pieces
+from ..piece import Piece
+from .cell import Cell, cut
+from .planes import ranked_planes
 
 # Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
 # best at their turn only. Shapes other than hulls take longer to fit, and spheres

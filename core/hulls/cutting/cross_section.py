@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.frames import frames, heights_above
-from .solid import Solid
+from ...geometry.frames import cross, frames, heights_above
+from ..solid import Solid
 
 # Distance between the sample points of a cross-section; the longest side is 2.
 _GRAIN = 0.04
@@ -160,8 +160,32 @@ def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
     return Section(plane, axes, rim, rim @ axes.T)
 
 
+def lines_of(
+    planes: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the lines in which two planes meet, by Plücker coordinates.
+
+    Parameters
+    ----------
+    planes : (P, 4) float
+        Unit normal n and offset d of each plane.
+
+    Returns
+    -------
+    ways : (L, 3) float
+        n × n' of each two planes, which is along the line.
+    moments : (L, 3) float
+        d n' − d' n, which is p × (n × n') for any point p of the line.
+    """
+    one, other = (planes[rows] for rows in np.triu_indices(len(planes), 1))
+    moments = one[:, 3:] * other[:, :3] - other[:, 3:] * one[:, :3]
+    return cross(one[:, :3], other[:, :3]), moments
+
+
 def meeting_points(
-    planes: NDArray[np.float64], plane: NDArray[np.float64]
+    lines: tuple[NDArray[np.float64], NDArray[np.float64]],
+    planes: NDArray[np.float64],
+    plane: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Return the corners of a cell where a plane meets two others, (M, 3).
 
@@ -169,17 +193,19 @@ def meeting_points(
 
     Parameters
     ----------
+    lines : two of (L, 3) float
+        Those of the planes, see `lines_of`.
     planes : (P, 4) float
         Those of the cell: n · x + d ≤ 0 in it.
     plane : (4,) float
         The plane that cuts it.
     """
-    one, other = np.triu_indices(len(planes), 1)
-    triples = np.stack([planes[one], planes[other], plane + 0 * planes[one]], axis=1)
-    firm = np.abs(np.linalg.det(triples[:, :, :3])) > _PARALLEL
-    points: NDArray[np.float64] = np.linalg.solve(
-        triples[firm, :, :3], -triples[firm, :, 3:]
-    )[..., 0].astype(np.float64)
+    ways, moments = lines
+    falls = ways @ plane[:3]
+    firm = np.abs(falls) > _PARALLEL
+    ways, moments, falls = ways[firm], moments[firm], falls[firm, None]
+    normals = np.broadcast_to(plane[:3], ways.shape)
+    points = -(cross(moments, normals) + plane[3] * ways) / falls
     return points[(heights_above(planes, points) <= _ON_PLANE).all(axis=1)]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import build_hulls
-from weak_convex_decomposition.core.hulls import cutting
+from weak_convex_decomposition.core.hulls.cutting import close_pieces
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
 
@@ -24,13 +24,13 @@ def test_a_cube_is_cut_where_that_lowers_the_error(kind, n_shapes, error):
 
 
 def test_pieces_are_cut_again_while_joining_leaves_room(monkeypatch):
-    rounds, cut_until_close = [], cutting._cut_until_close
+    rounds, cut_until_close = [], close_pieces._cut_until_close
 
     def hasty(cells, most):
         rounds.append(cells)
         return cut_until_close(cells, most if len(rounds) > 1 else 2)
 
-    monkeypatch.setattr(cutting, "_cut_until_close", hasty)
+    monkeypatch.setattr(close_pieces, "_cut_until_close", hasty)
     found = build_hulls(shapes.comb(), HullParameters(max_hulls=8))
     assert len(rounds) > 1
     assert 2 < found.n_hulls <= 8
@@ -39,12 +39,12 @@ def test_pieces_are_cut_again_while_joining_leaves_room(monkeypatch):
 
 def test_a_film_with_one_sample_of_the_surface_is_cut(monkeypatch):
     # Planes beside flat faces leave such films, with little but faces of cuts.
-    seen, best_cut = [], cutting.best_cut
+    seen, best_cut = [], close_pieces.best_cut
 
     def one_sample(cell):
         first = np.arange(len(cell.on_surface)) == 0
         seen.append(cell)
         return best_cut(replace(cell, on_surface=first) if len(seen) == 1 else cell)
 
-    monkeypatch.setattr(cutting, "best_cut", one_sample)
+    monkeypatch.setattr(close_pieces, "best_cut", one_sample)
     assert build_hulls(shapes.comb(), HullParameters()).n_hulls > 1

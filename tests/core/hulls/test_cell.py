@@ -2,8 +2,9 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from weak_convex_decomposition.core.hulls.cutting.cell import cut, whole
 from weak_convex_decomposition.core.hulls.fitting import Fit
-from weak_convex_decomposition.core.hulls.piece import cut, join, whole
+from weak_convex_decomposition.core.hulls.piece import join
 from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run

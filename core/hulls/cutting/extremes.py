@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from ..geometry.frames import cross
-from .convex_hull import directions
+from ...geometry.frames import cross
+from ..convex_hull import directions
 
 # E unit vectors; extreme points are found along these and their opposites.
 _DIRECTIONS = directions(96)[:48]

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.frames import principal_axes
-from ..steps.progress import Progress, Steps
+from ...geometry.frames import principal_axes
+from ...steps.progress import Progress, Steps
+from .cell import Cell
 from .extremes import reaches_of, volumes_beside
-from .piece import Cell
 
 # Number of evenly spaced planes along each direction.
 _PLANES = 7

@@ -1,0 +1,1 @@
+"""Cuts of a solid into pieces whose hulls are close."""

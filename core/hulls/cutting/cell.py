@@ -1,0 +1,117 @@
+"""Pieces bounded by planes, which can be cut again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...geometry.frames import heights_above
+from ..fitting import Fit
+from ..piece import Piece
+from ..solid import Solid
+from .cross_section import cross_section, lines_of, meeting_points
+
+
+@dataclass(frozen=True, eq=False)
+class Cell(Piece):
+    """A piece bounded by planes, which can be cut again.
+
+    Attributes
+    ----------
+    on_surface : (N,) bool
+        Which samples of `boundary` are on the surface, not on the face of a cut.
+    chords : (C, 3) float
+        Centers of the chords in the piece.
+    volumes : (C,) float
+        Volume around each chord.
+    planes : (P, 4) float
+        Unit normal n and offset d of each plane: n · x + d ≤ 0 in the piece.
+    """
+
+    on_surface: NDArray[np.bool_]
+    chords: NDArray[np.float64]
+    volumes: NDArray[np.float64]
+    planes: NDArray[np.float64]
+
+    @cached_property
+    def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The lines in which two of the planes meet, see `lines_of`."""
+        return lines_of(self.planes)
+
+
+def whole(solid: Solid, fit: Fit) -> Cell:
+    """Return the whole solid as one piece.
+
+    Parameters
+    ----------
+    solid : Solid
+    fit : Fit
+    """
+    return Cell(
+        solid.vertices,
+        solid.samples,
+        solid.volume,
+        solid,
+        fit,
+        np.zeros((0, 3)),
+        np.ones(len(solid.samples), dtype=bool),
+        solid.chords,
+        solid.volumes,
+        np.zeros((0, 4)),
+    )
+
+
+def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
+    """Cut a piece in two by a plane.
+
+    Parameters
+    ----------
+    cell : Cell
+    plane : (4,) float
+        Unit normal n and offset d: n · x + d = 0 on the plane.
+
+    Returns
+    -------
+    below, above : Cell
+        Either may be empty.
+    """
+    section = cross_section(cell.solid, plane)
+    face = section.spread(cell.points)
+    face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
+    tips = meeting_points(cell.lines, cell.planes, plane)
+    rim = np.concatenate([section.rim_within(cell.planes), tips[section.holds(tips)]])
+    heights = [
+        places @ plane[:3] + plane[3]
+        for places in (cell.points, cell.boundary, cell.chords)
+    ]
+    below, above = [each <= 0 for each in heights], [each >= 0 for each in heights]
+    return _side(cell, plane, below, rim, face), _side(cell, -plane, above, rim, face)
+
+
+def _side(
+    cell: Cell,
+    plane: NDArray[np.float64],
+    kept: list[NDArray[np.bool_]],
+    rim: NDArray[np.float64],
+    face: NDArray[np.float64],
+) -> Cell:
+    """Return the side of a cell below a plane; `rim` and `face` lie in the plane.
+
+    `kept` says which points, samples and chords are on that side.
+    """
+    points, boundary, chords = kept
+    return Cell(
+        np.concatenate([cell.points[points], rim]),
+        np.concatenate([cell.boundary[boundary], face]),
+        float(cell.volumes[chords].sum()),
+        cell.solid,
+        cell.fit,
+        cell.all_witnesses,
+        np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
+        cell.chords[chords],
+        cell.volumes[chords],
+        np.concatenate([cell.planes, plane[None]]),
+    )

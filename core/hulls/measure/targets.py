@@ -1,0 +1,73 @@
+"""How far patches are from the nearest of many triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .fragments import distances_to, fragments_of, reach_of
+
+# Longest edge of the fragments by whose centers the nearest triangles are found.
+_GRAIN = 0.08
+# Fragments near a patch that its distance is measured to.
+_NEIGHBORS = 3
+
+
+class Targets:
+    """Triangles that distances are measured to.
+
+    Parameters
+    ----------
+    corners : (N, 3, 3) float
+    """
+
+    def __init__(self, corners: NDArray[np.float64]) -> None:
+        small, origins = fragments_of(corners, _GRAIN)
+        self._corners, self._origins = corners, origins
+        centers, radii = reach_of(small)
+        self._reach = float(radii.max())
+        # Building a balanced tree takes twice as long, and questions are few.
+        self._tree = cKDTree(centers, balanced_tree=False, compact_nodes=False)
+
+    def distances(
+        self, patches: NDArray[np.float64], centers: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return how far patches are from the triangles.
+
+        Parameters
+        ----------
+        patches : (M, 3, 3) float
+            Corners of each patch.
+        centers : (M, 3) float
+            Their centers.
+
+        Returns
+        -------
+        at_least : (M,) float
+            No triangle is nearer to the center.
+        nearest : (M,) float
+            About how near one is; surely no nearer than that.
+        at_most : (M,) float
+            From no place of the patch is the nearest triangle farther away.
+        """
+        n_near = min(_NEIGHBORS, len(self._origins))
+        apart, rows = (x.reshape(-1, n_near) for x in self._tree.query(centers, n_near))
+        places = np.concatenate([patches, centers[:, None]], axis=1)
+        away = _from_each(places, self._corners[self._origins[rows]])
+        nearest = away[:, 3].min(axis=1)
+        at_least = np.clip(apart[:, -1] - self._reach, 0.0, nearest)
+        # The distance from a triangle is convex: largest at a corner of the patch.
+        return at_least, nearest, away.max(axis=1).min(axis=1)
+
+
+def _from_each(
+    places: NDArray[np.float64], targets: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return distances of places (N, P, 3) from triangles (N, K, 3, 3), (N, P, K)."""
+    n, p, k = *places.shape[:2], targets.shape[1]
+    away = distances_to(
+        np.repeat(places.reshape(-1, 3), k, axis=0),
+        np.repeat(targets, p, axis=0).reshape(-1, 3, 3),
+    )
+    return away.reshape(n, p, k)

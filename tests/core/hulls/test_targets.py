@@ -1,0 +1,31 @@
+"""Distances of patches from triangles, compared with those of many points."""
+
+import numpy as np
+import pytest
+import shapes
+from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
+from weak_convex_decomposition.core.hulls.measure.targets import Targets
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_bounds_of_distances_hold(seed):
+    rng = np.random.default_rng(seed)
+    mesh = shapes.table()
+    corners = mesh.vertices[mesh.triangles] / 4
+    patches = rng.uniform(-1, 1, (200, 1, 3)) + rng.uniform(-0.1, 0.1, (200, 3, 3))
+    centers = patches.mean(axis=1)
+    at_least, nearest, at_most = Targets(corners).distances(patches, centers)
+    exact = nearest_of(centers, corners)
+    assert (at_least <= exact + 1e-9).all()
+    assert (exact <= nearest + 1e-9).all()
+    # Triangles are told by their fragments: nearly always the nearest one is found.
+    assert (at_least > exact - 0.1).mean() > 0.8
+    assert (nearest < exact + 1e-6).mean() > 0.9
+    for shares in rng.dirichlet([1, 1, 1], 20):
+        assert (nearest_of(shares @ patches, corners) <= at_most + 1e-9).all()
+
+
+def nearest_of(points, corners):
+    """Return the distance of each point from the nearest of all triangles."""
+    away = [distances_to(points, np.tile(t, (len(points), 1, 1))) for t in corners]
+    return np.min(away, axis=0)
