@@ -138,6 +138,8 @@ class Partitioner(PartPsi):
             if count_parts(most) >= n_parts:
                 break
             yield Progress("Number of parts", 0.0)
+            self.embedding(n_parts)  # takes as long as the clusters
+            yield Progress("Number of parts", 0.5)
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self._on_nodes(labels, n_clusters)
             finer = parts * n_clusters + clusters

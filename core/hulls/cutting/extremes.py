@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from ...geometry.frames import cross
 from ..convex_hull import directions
 
 # E unit vectors; extreme points are found along these and their opposites.
@@ -67,19 +66,20 @@ def volumes_beside(
     first, others : (K,) float
         Volumes of the points before and after each split.
     """
+    edges = np.concatenate([[0], ends, [len(points)]])
     rows = np.zeros((len(ends) + 1, 2, len(reaches)), dtype=np.int64)
-    farthest = np.full(rows.shape, -np.inf)
-    edges = [0, *ends.tolist(), len(points)]
-    for k, (start, end) in enumerate(pairwise(edges)):
+    for layer, (start, end) in enumerate(pairwise(edges.tolist())):
         if start < end:
-            layer = reaches[:, start:end]
-            rows[k] = layer.argmax(axis=1), layer.argmin(axis=1)
-            farthest[k] = layer[np.arange(len(layer)), rows[k]]
-            farthest[k, 1] *= -1
-            rows[k] += start
+            some = reaches[:, start:end]
+            some.argmax(axis=1, out=rows[layer, 0])
+            some.argmin(axis=1, out=rows[layer, 1])
+    filled = (edges[:-1] < edges[1:])[:, None, None]
+    rows = np.where(filled, rows + edges[:-1, None, None], 0)
+    farthest = reaches[np.arange(len(reaches)), rows] * [[1], [-1]]
+    farthest = np.where(filled, farthest, -np.inf)
     before = _running(rows[:-1], farthest[:-1])
     after = _running(rows[:0:-1], farthest[:0:-1])[::-1]
-    volumes = _volumes_about(points[np.concatenate([before, after])])
+    volumes = _volumes_about(points, np.concatenate([before, after]))
     return volumes[: len(ends)], volumes[len(ends) :]
 
 
@@ -94,8 +94,15 @@ def _running(
     return running.reshape(len(rows), -1)
 
 
-def _volumes_about(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the volumes enclosed by extreme points (K, 2 E, 3), (K,)."""
-    a, b, c = (points[:, corner] for corner in _TRIANGLES.T)
-    volumes: NDArray[np.float64] = np.einsum("kfd,kfd->k", cross(b, c), a) / 6
+def _volumes_about(
+    points: NDArray[np.float64], rows: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Return the volumes enclosed by extreme points, whose rows are (K, 2 E), (K,)."""
+    # Coordinate by coordinate, one row a direction: so NumPy takes a third of the time.
+    chosen = np.ascontiguousarray(points[rows.T].transpose(2, 0, 1))
+    a, b, c = (np.take(chosen, corner, axis=1) for corner in _TRIANGLES.T)
+    sixfold = a[0] * (b[1] * c[2] - b[2] * c[1])
+    sixfold += a[1] * (b[2] * c[0] - b[0] * c[2])
+    sixfold += a[2] * (b[0] * c[1] - b[1] * c[0])
+    volumes: NDArray[np.float64] = sixfold.sum(axis=0) / 6
     return volumes

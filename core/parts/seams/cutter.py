@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...clusters.moves import MoveGains
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within
+from ...steps.rows import blocks
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .graph_cut import SWEEPS, cut_seams
@@ -109,8 +110,7 @@ class SeamCutter:
             enough = min(
                 partitioner.psi(partitioner.plain(n_parts)), partitioner.psi(parts)
             )
-        labels = partitioner.transfer.to_samples(parts)
-        costs = partitioner.transfer.shares @ self._data_costs(labels, n_parts)
+        costs = yield from within(self._costs_of_nodes(parts, n_parts), 0.0, 0.0)
         yield Progress("Seams", 0.0)
         for share in _SOFTER:
             weight = share * self._smoothness
@@ -186,6 +186,18 @@ class SeamCutter:
         best = max(even, key=lambda each: each.psi, default=None)
         least = max(enough, partitioner.psi(parts) - 2 * partitioner.negligible)
         return parts if best is None or best.psi < least else best.parts
+
+    def _costs_of_nodes(
+        self, parts: NDArray[np.int64], n_parts: int
+    ) -> Steps[NDArray[np.float64]]:
+        """Return the data term of eq. 4 for each node, (P, K)."""
+        transfer = self._partitioner.transfer
+        of_samples = self._data_costs(transfer.to_samples(parts), n_parts)
+        costs = np.empty((len(parts), n_parts))
+        for rows in blocks(len(parts)):
+            yield Progress("Seams", rows.start / len(parts))
+            costs[rows] = transfer.shares[rows] @ of_samples
+        return costs
 
     def _data_costs(
         self, labels: NDArray[np.int64], n_labels: int

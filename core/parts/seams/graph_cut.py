@@ -52,9 +52,9 @@ def cut_seams(
     Steps of (P,) int
         The new labels. The steps yield `Progress`; `run` returns the labels.
     """
-    data = costs * graph.weights[:, None]
     unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
-    cutter = _Expansion(graph.neighbors, data, smoothness * unit * graph.seam_costs)
+    seams = smoothness * unit * graph.seam_costs
+    cutter = _Expansion(graph.neighbors, costs, graph.weights, seams)
     labels, n_labels = labels.copy(), costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)
     seen = np.zeros((n_labels, len(labels)), dtype=bool)
@@ -83,11 +83,12 @@ class _Expansion:
     def __init__(
         self,
         neighbors: NDArray[np.integer[Any]],
-        data: NDArray[np.float64],
+        costs: NDArray[np.float64],
+        weights: NDArray[np.float64],
         seams: NDArray[np.float64],
     ) -> None:
-        self.data = data
-        n_nodes = len(data)
+        self.costs, self.weights = costs, weights
+        n_nodes = len(costs)
         ends = np.concatenate([neighbors, neighbors[:, ::-1]])
         # Arcs in both directions, sorted by tail. Several edges between two nodes are
         # added up.
@@ -114,7 +115,8 @@ class _Expansion:
         seen = labels == label
         nodes = self._band(seen)
         own = labels[nodes]
-        gain = self.data[nodes, label] - self.data[nodes, own]
+        weights = self.weights[nodes]
+        gain = self.costs[nodes, label] * weights - self.costs[nodes, own] * weights
         # No seam around the others saves as much as their move costs.
         may = np.flatnonzero(gain <= self._saved[nodes])
         nodes, own, gain = nodes[may], own[may], gain[may]

@@ -54,19 +54,21 @@ def smooth_seams(
         yield `Progress`; `run` returns the labels.
     """
     n_parts = int(labels.max()) + 1
-    costs = yield from within(_costs(graph, labels, n_parts), 0.0, 0.4)
-    own = labels[:, None] == np.arange(n_parts)
     free = np.isin(np.arange(n_parts), chosen)
-    costs[~own & ~free[labels][:, None] & ~free] = _NEVER
+    costs = yield from within(_costs(graph, labels, free), 0.0, 0.4)
     cut = cut_seams(graph, labels, costs, smoothness, sweeps)
     return (yield from within(cut, 0.4, 1.0))
 
 
 def _costs(
-    graph: FaceGraph, labels: NDArray[np.int64], n_parts: int
+    graph: FaceGraph, labels: NDArray[np.int64], free: NDArray[np.bool_]
 ) -> Steps[NDArray[np.float64]]:
-    """Return the data term (P, K): distances of nodes from parts along the surface."""
+    """Return the data term (P, K): distances of nodes from parts along the surface.
+
+    `free` (K,) says which parts' seams move.
+    """
     yield Progress("Seams", 0.0)
+    n_parts, fixed = len(free), ~free[labels]
     one, other = graph.neighbors.T
     steps = np.linalg.norm(graph.centers[one] - graph.centers[other], axis=1)
     unit = _UNIT * float(np.sqrt(graph.areas.sum()))
@@ -75,20 +77,25 @@ def _costs(
         (np.maximum(steps, 1e-6 * unit), (one, other)),
         shape=(graph.n_polygons,) * 2,
     ).tocsr()
-    costs = np.full((graph.n_polygons, n_parts), np.inf)
+    costs = np.full((graph.n_polygons, n_parts), _NEVER)
     ends = labels[graph.neighbors]
     rim = np.unique(graph.neighbors[ends[:, 0] != ends[:, 1]])
+    depths = np.full(graph.n_polygons, 4 * unit)
     for part in range(n_parts):
         yield Progress("Seams", part / n_parts)
-        starts = rim[labels[rim] == part]
-        if len(starts):
-            costs[:, part] = dijkstra(
-                ways, directed=False, indices=starts, min_only=True, limit=4 * unit
-            )
-    costs[np.arange(len(labels)), labels] = np.inf
-    depths = np.minimum(costs.min(axis=1), 4 * unit)
+        own = labels == part
+        starts = rim[own[rim]]
+        if len(starts) == 0:
+            continue
+        away = dijkstra(
+            ways, directed=False, indices=starts, min_only=True, limit=4 * unit
+        )
+        np.minimum(depths, away, out=depths, where=~own)
+        may = np.flatnonzero((away < np.inf) & (free[part] | ~fixed))
+        costs[may, part] = away[may] / unit
+    yield Progress("Seams", 1.0)
     deepest = np.zeros(n_parts)
     np.maximum.at(deepest, labels, depths)
-    costs[depths >= _CORE * deepest[labels]] = np.inf
+    costs[depths >= _CORE * deepest[labels]] = _NEVER
     costs[np.arange(len(labels)), labels] = 0.0
-    return np.minimum(costs / unit, _NEVER)
+    return costs
