@@ -139,7 +139,7 @@ class Partitioner(PartPsi):
                 break
             yield Progress("Number of parts", 0.0)
             self.embedding(n_parts)  # takes as long as the clusters
-            yield Progress("Number of parts", 0.5)
+            yield Progress("Number of parts", 0.0)
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self._on_nodes(labels, n_clusters)
             finer = parts * n_clusters + clusters

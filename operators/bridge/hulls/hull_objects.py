@@ -16,7 +16,7 @@ from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..parts.identities import usual_identities
-from ..parts.materials import discard_unused, is_ours, own_materials
+from ..parts.materials import discard_unused, hull_material, is_ours, own_materials
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..parts.separating import new_collection
 from ..read.shape import stretch
@@ -64,7 +64,7 @@ def write_hulls(
     """
     kinds = [shape.kind for shape in found.shapes]
     names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
-    _check_free(names, hulls_of(obj))
+    _check_free(names, obj)
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")
     collection[HULL_TAG] = obj.name
@@ -110,13 +110,14 @@ def erase_hulls(
     chosen : sequence of Object, optional
         The hulls to remove; the others stay.
     """
-    hulls = hulls_of(obj) if chosen is None else chosen
+    all_of_it = hulls_of(obj)
+    hulls = all_of_it if chosen is None else chosen
     if hulls and obj.mode != "OBJECT":
         raise DecompositionError(
             "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
             " Object Mode first."
         )
-    if len(hulls) == len(hulls_of(obj)):
+    if len(hulls) == len(all_of_it):
         soften(obj, hulls)
     if obj.mode == "OBJECT":
         if chosen is None:
@@ -159,13 +160,14 @@ def _materials(
         ]
     rows = found.parts if found.has_parts else np.arange(found.n_hulls)
     identities = usual_identities(int(rows.max()) + 1)
-    return rows, own_materials(identities, [None] * len(identities))
+    return rows, [hull_material(row, each.color) for row, each in enumerate(identities)]
 
 
-def _check_free(names: Sequence[str], former: Sequence[bpy.types.Object]) -> None:
-    """Raise if an object that is not in `former` has a name that a hull needs."""
-    ours = {hull.name for hull in former}
-    taken = [name for name in names if name in bpy.data.objects and name not in ours]
+def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
+    """Raise if an object that is no hull of `obj` has a name that a hull needs."""
+    taken = [name for name in names if name in bpy.data.objects]
+    ours = {hull.name for hull in hulls_of(obj)} if taken else set()
+    taken = [name for name in taken if name not in ours]
     if taken:
         raise DecompositionError(
             f"There is an object {taken[0]} already; rename it or choose another"

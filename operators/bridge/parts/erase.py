@@ -24,7 +24,7 @@ from ..stored.record import (
 )
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from .kept_materials import drop_kept, marked_groups
-from .materials import discard_unused, is_ours, name_of, our_materials
+from .materials import discard_unused, is_of_part, name_of, our_materials
 from .rows import erase_rows
 from .slots import take_out_of_slots
 
@@ -97,7 +97,7 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
         return set()
     found = set(marked_groups(obj).values())
     if restore.user_groups is not None:
-        ours = [each for each in obj.data.materials if is_ours(each)]
+        ours = [each for each in obj.data.materials if is_of_part(each)]
         found |= {name_of(m) for m in ours if m.name not in restore.slots}
     return found - set(restore.user_groups or ())
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 
 import bpy
 
@@ -65,6 +66,7 @@ class Newcomers:
         return {each.name for each in self.known}
 
 
+@cache
 def usual_identities(n_parts: int) -> tuple[Identity, ...]:
     """Return the identities of parts that were never edited, numbered from 0."""
     newcomers = Newcomers(())

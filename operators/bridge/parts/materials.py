@@ -1,7 +1,8 @@
 """The materials of parts: each object has its own, one for each part.
 
-A material is ours if it has our tag and the name that we gave it. A material that the
-user renames becomes the user's, unless it is renamed in the table of parts.
+Hulls that are of no part share theirs with those of other objects: files may have
+thousands. A material is ours if it has our tag and the name that we gave it. A material
+that the user renames becomes the user's, unless it is renamed in the table of parts.
 """
 
 from __future__ import annotations
@@ -16,16 +17,22 @@ from ..stored.names import MATERIAL_NAME, MATERIAL_TAG, OVERLAY
 from ..stored.restore import read_restore
 from .palette import Color
 
-# The number in the tag of the material that shows the parts of all point clouds.
-_OF_POINTS = -1
+# The number in the tag of the material that shows the parts of all point clouds. Below
+# are those of hulls: the first, the second and so on of an object.
+_OF_POINTS, _OF_HULL = -1, -2
 _POINTS_NAME = "Parts of Points"
 
 
 def name_of(material: bpy.types.Material) -> str:
-    """Return the name of the part that a material of ours was made for."""
-    tag = material[MATERIAL_TAG]
-    usual = _POINTS_NAME if tag == _OF_POINTS else part_name(tag)
-    return str(material.get(MATERIAL_NAME, usual))
+    """Return the name of the part, or hull, that a material of ours was made for."""
+    return str(material.get(MATERIAL_NAME, _usual_name(material[MATERIAL_TAG])))
+
+
+def _usual_name(tag: int) -> str:
+    """Return the name of a material of ours that nobody named otherwise."""
+    if tag == _OF_POINTS:
+        return _POINTS_NAME
+    return part_name(tag) if tag >= 0 else f"Hull {_OF_HULL - tag + 1:02d}"
 
 
 def is_ours(material: bpy.types.Material | None) -> bool:
@@ -33,6 +40,11 @@ def is_ours(material: bpy.types.Material | None) -> bool:
     if material is None or not isinstance(material.get(MATERIAL_TAG), int):
         return False
     return plain_name(material.name) == plain_name(name_of(material))
+
+
+def is_of_part(material: bpy.types.Material | None) -> bool:
+    """Return whether a material of ours is that of a part."""
+    return material is not None and is_ours(material) and material[MATERIAL_TAG] >= 0
 
 
 def our_materials() -> list[bpy.types.Material]:
@@ -58,8 +70,7 @@ def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
     restore = read_restore(mesh)
     before = restore.slots if restore else ()
     for index, material in enumerate(mesh.materials):
-        ours = is_ours(material) and material.name not in before
-        if ours and material[MATERIAL_TAG] != _OF_POINTS:
+        if is_of_part(material) and material.name not in before:
             slots.setdefault(material[MATERIAL_TAG], []).append(index)
     return slots
 
@@ -121,6 +132,30 @@ def points_material(color_layer: str, taken: list[str]) -> bpy.types.Material:
     attribute.location = (-250.0, 300.0)
     for shader in _shaders(material):
         links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
+    return material
+
+
+def hull_material(row: int, color: Color) -> bpy.types.Material:
+    """Return the material of a hull that is of no part: the same for all objects.
+
+    Parameters
+    ----------
+    row : int
+        Place of the hull among those of its object, from 0.
+    color : tuple of float
+        Linear; what the user gave it since stays.
+    """
+    tag = _OF_HULL - row
+    name = _usual_name(tag)
+    named = bpy.data.materials.get((name, None))
+    for material in [named, *our_materials()] if named else ():
+        ours = is_ours(material) and material[MATERIAL_TAG] == tag
+        opaque = material.diffuse_color[3] == 1.0  # others are copies, seen through
+        if ours and opaque and material.library is None:
+            return material
+    material = _new(name)
+    material[MATERIAL_TAG] = tag
+    recolor(material, color)
     return material
 
 

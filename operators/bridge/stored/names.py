@@ -50,7 +50,8 @@ FACE_SETS = ".sculpt_face_set"
 OVERLAY = "wcd_overlay"
 OWNER = "wcd_owner"
 
-# Custom properties of a material of ours: the number and the name of the part.
+# Custom properties of a material of ours: the number and the name of the part. Those of
+# other things have numbers below 0.
 MATERIAL_TAG = "wcd_part"
 MATERIAL_NAME = "wcd_name"
 # Custom property of hulls: the figures of a hull. Of the collections made for them: the
