@@ -153,9 +153,10 @@ def _leave_more(
     unsure = ~more & (leaving > 1)  # one edge at least is crossed
     if unsure.any():
         asked = unsure[row]
-        ends = np.zeros((len(leaving), _NEIGHBORS, 2, 2))
-        ends[row[asked], rank[asked]] = flat[asked]
-        more[unsure] = leaving[unsure] > _most_crossed(ends[unsure])
+        row, rank = (np.cumsum(unsure) - 1)[row[asked]], rank[asked]
+        ends = np.zeros((unsure.sum(), rank.max() + 1, 2, 2))
+        ends[row, rank] = flat[asked]
+        more[unsure] = leaving[unsure] > _most_crossed(ends)
     return more
 
 

@@ -102,7 +102,8 @@ def test_hulls_of_no_part_share_materials_with_those_of_other_objects(suzanne):
     users = bpy.data.materials.new("Hull 01")
     build()
     worn = [hull.data.materials[0] for hull in hulls_of(suzanne)]
-    assert worn[0].name == "Hull 01.001" and worn[1].name == "Hull 02"
+    assert worn[0].name == "Hull 01.001"
+    assert worn[1].name == "Hull 02"
     worn[1].diffuse_color = (0.1, 0.2, 0.3, 1.0)
     copy = suzanne.copy()
     copy.data = suzanne.data.copy()
