@@ -68,7 +68,7 @@ def _costs(
     `free` (K,) says which parts' seams move.
     """
     yield Progress("Seams", 0.0)
-    n_parts, fixed = len(free), ~free[labels]
+    n_parts, may_leave = len(free), free[labels]
     one, other = graph.neighbors.T
     steps = np.linalg.norm(graph.centers[one] - graph.centers[other], axis=1)
     unit = _UNIT * float(np.sqrt(graph.areas.sum()))
@@ -91,8 +91,9 @@ def _costs(
             ways, directed=False, indices=starts, min_only=True, limit=4 * unit
         )
         np.minimum(depths, away, out=depths, where=~own)
-        may = np.flatnonzero((away < np.inf) & (free[part] | ~fixed))
-        costs[may, part] = away[may] / unit
+        # Seams between two parts that are not free stay.
+        near = np.flatnonzero((away < np.inf) & (free[part] | may_leave))
+        costs[near, part] = away[near] / unit
     yield Progress("Seams", 1.0)
     deepest = np.zeros(n_parts)
     np.maximum.at(deepest, labels, depths)
