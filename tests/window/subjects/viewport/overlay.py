@@ -30,7 +30,8 @@ def shade(hands, kind):
     space.overlay.show_floor = space.overlay.show_axis_x = False
     space.overlay.show_axis_y = space.overlay.show_cursor = False
     space.overlay.show_outline_selected = space.overlay.show_object_origins = False
-    yield 1.5
+    yield 1.0  # one long drawing may take all of it, and shaders come with the next
+    yield 1.0
 
 
 def steps(hands):
