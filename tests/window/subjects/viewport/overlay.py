@@ -7,6 +7,8 @@ from leftovers import leftovers
 from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
 from weak_convex_decomposition.operators.viewport import picking
 
+# Largest difference of red, green and blue in gray; bright light makes colors pale.
+GRAY = 0.18
 # How many points are far from gray without an overlay: the wires of what is selected.
 SHADINGS = {"SOLID": 500, "MATERIAL": 500, "WIREFRAME": 80_000}
 
@@ -14,7 +16,7 @@ SHADINGS = {"SOLID": 500, "MATERIAL": 500, "WIREFRAME": 80_000}
 def colorful(hands, name):
     """Return how many points of the view are far from gray."""
     pixels = hands.pixels(name)[200:700, 400:1100]
-    return int((np.ptp(pixels, axis=2) > 0.25).sum())
+    return int((np.ptp(pixels, axis=2) > GRAY).sum())
 
 
 def gray(obj):
