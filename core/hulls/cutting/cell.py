@@ -84,7 +84,7 @@ def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
     tips = meeting_points(cell.lines, cell.planes, plane)
     rim = np.concatenate([section.rim_within(cell.planes), tips[section.holds(tips)]])
     heights = [
-        places @ plane[:3] + plane[3]
+        heights_above(plane[None], places)[:, 0]
         for places in (cell.points, cell.boundary, cell.chords)
     ]
     below, above = [each <= 0 for each in heights], [each >= 0 for each in heights]

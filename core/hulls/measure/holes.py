@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.frames import cross_2d
-from .line_crossings import TURNS
+from .line_crossings import as_seen
 
 # Longest of the short segments that edges of holes are divided into.
 _GRAIN = 0.01
@@ -37,7 +37,7 @@ class HoleEdges:
         shares = np.stack([rank, rank + 1], axis=1) / counts[edge, None]
         ends = starts[edge, None] + shares[..., None] * ways[edge, None]
         # The segments three times, as rays along each axis see them.
-        self._ends = np.concatenate([ends[..., turn] for turn in TURNS])
+        self._ends = as_seen(ends).reshape(-1, 2, 3)
         axes = np.repeat(np.arange(3), len(ends))
         self._tree = cKDTree(_spots_of(axes, self._ends.mean(axis=1)))
 
@@ -63,7 +63,7 @@ class HoleEdges:
         -------
         (M,) bool
         """
-        turned = points[:, TURNS].swapaxes(0, 1)
+        turned = as_seen(points)
         near = self._are_near(turned, radii)
         # Where no edge is near, rays from elsewhere say what those from the center do.
         votes = ((leaving > 0).sum(axis=1) * ~near).sum(axis=0)

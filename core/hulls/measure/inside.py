@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
 from .holes import HoleEdges
-from .line_crossings import TURNS, LineCrossings
+from .line_crossings import TURNS, LineCrossings, as_seen
 from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
@@ -137,7 +137,7 @@ class InsideTest:
         Of each axis, the first rays run against it, the others along it.
         """
         n_axes, n = self._n_axes, len(local)
-        turned = local[:, TURNS[:n_axes]].swapaxes(0, 1).reshape(-1, 3)
+        turned = as_seen(local)[:n_axes].reshape(-1, 3)
         axes = np.repeat(np.arange(n_axes), n)
         line, heights, turns = self._crossings.of(axes, turned[:, :2])
         below = heights < turned[line, 2]

@@ -15,6 +15,14 @@ _CELLS = 96
 _COARSE = 0.3
 
 
+def as_seen(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return places (..., 3) as lines along each axis see them, (3, ..., 3).
+
+    Coordinates are in the order of `TURNS`.
+    """
+    return np.stack([places[..., turn] for turn in TURNS])
+
+
 class LineCrossings:
     """Finds the triangles that lines along the axes cross.
 
@@ -30,7 +38,7 @@ class LineCrossings:
         self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
         # The triangles three times, as lines along each axis see them.
         axes = np.repeat(np.arange(3), len(corners))
-        turned = np.concatenate([corners[..., turn] for turn in TURNS])
+        turned = as_seen(corners).reshape(-1, 3, 3)
         self._slopes = _slopes_of(turned)
         self._triangles, self._starts = self._table(axes, turned)
 

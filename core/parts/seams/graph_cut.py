@@ -115,8 +115,8 @@ class _Expansion:
         seen = labels == label
         nodes = self._band(seen)
         own = labels[nodes]
-        weights = self.weights[nodes]
-        gain = self.costs[nodes, label] * weights - self.costs[nodes, own] * weights
+        sizes = self.weights[nodes]
+        gain = self.costs[nodes, label] * sizes - self.costs[nodes, own] * sizes
         # No seam around the others saves as much as their move costs.
         may = np.flatnonzero(gain <= self._saved[nodes])
         nodes, own, gain = nodes[may], own[may], gain[may]

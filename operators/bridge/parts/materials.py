@@ -7,7 +7,7 @@ that the user renames becomes the user's, unless it is renamed in the table of p
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import bpy
 import numpy as np
@@ -120,9 +120,8 @@ def points_material(color_layer: str, taken: list[str]) -> bpy.types.Material:
 
     All point clouds share it. Materials with the names `taken` are the user's.
     """
-    for material in our_materials():
-        fits = material[MATERIAL_TAG] == _OF_POINTS and material.library is None
-        if fits and material.name not in taken:
+    for material in _shared(_OF_POINTS, bpy.data.materials):
+        if material.name not in taken:
             return material
     material = _new(_POINTS_NAME)
     material[MATERIAL_TAG] = _OF_POINTS
@@ -148,15 +147,23 @@ def hull_material(row: int, color: Color) -> bpy.types.Material:
     tag = _OF_HULL - row
     name = _usual_name(tag)
     named = bpy.data.materials.get((name, None))
-    for material in [named, *our_materials()] if named else ():
-        ours = is_ours(material) and material[MATERIAL_TAG] == tag
-        opaque = material.diffuse_color[3] == 1.0  # others are copies, seen through
-        if ours and opaque and material.library is None:
+    for material in _shared(tag, [named, *bpy.data.materials] if named else ()):
+        if material.diffuse_color[3] == 1.0:  # others are copies, seen through
             return material
     material = _new(name)
     material[MATERIAL_TAG] = tag
     recolor(material, color)
     return material
+
+
+def _shared(
+    tag: int, materials: Iterable[bpy.types.Material]
+) -> Iterator[bpy.types.Material]:
+    """Yield those of some materials that are ours, have a tag and are in no library."""
+    for material in materials:
+        tagged = is_ours(material) and material[MATERIAL_TAG] == tag
+        if tagged and material.library is None:
+            yield material
 
 
 def discard_unused(materials: Iterable[bpy.types.Material]) -> None:
