@@ -15,6 +15,7 @@ from typing import TypeAlias, TypeVar
 import bpy
 
 from ...core.errors import DecompositionError
+from ...core.geometry.patches import MOST_NODES
 from ...core.parameters.parameter import info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
@@ -44,18 +45,21 @@ _current: tuple[Wanted, Job[object]] | None = None
 def start(found: Edited) -> None:
     """Find parts of the latest shape for other numbers than that of a run, from now on.
 
-    First come looks at those for all usual numbers, then the parts themselves for near
-    ones. Of the looks, that for the highest number comes first: its eigenvectors, which
-    take longest, serve all high numbers. Then come near ones. Other numbers are looked
-    for in the same way only if all faces are free.
+    First come looks at those for all usual numbers, then the parts themselves, for near
+    numbers before the others. Of large meshes only those for near numbers are found:
+    others would take long. Of the looks, that for the highest number comes first: its
+    eigenvectors, which take longest, serve all high numbers. Nothing is found if some
+    faces are not free.
     """
     if found.by_hand is not None or found.faces is not None:
         return
     n_parts = found.decomposition.n_parts
     near = _with_numbers(found.parameters, [n_parts + step for step in _NEAR])
     usual = _with_numbers(found.parameters, range(2, _USUAL + 1))
-    looks = [(each, True) for each in dict.fromkeys((*usual[-1:], *near, *usual))]
-    _wanted[:] = [*looks, *((each, False) for each in near)]
+    looks = dict.fromkeys((*usual[-1:], *near, *usual))
+    is_large = len(found.decomposition.labels) > MOST_NODES
+    exact = near if is_large else dict.fromkeys((*near, *usual))
+    _wanted[:] = [*((each, True) for each in looks), *((each, False) for each in exact)]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
         bpy.app.timers.register(go_on, first_interval=_PAUSE)
 

@@ -138,9 +138,9 @@ def test_parts_found_ahead_are_those_of_a_run(suzanne, settings, monkeypatch, sl
     for _ in range(slices):
         if ahead.go_on() is None:
             break
-    if slices > 1:  # nothing is left to be cut for the numbers beside
+    if slices > 1:  # nothing is left to be cut for any usual number
         monkeypatch.setattr(cutter, "cut_seams", None)
-    for parts in (5, 3, 6, 2):
+    for parts in (5, 3, 6, 2, *((13, 20) if slices > 1 else ())):
         settings.parts = parts
         assert record(suzanne)["k"] == parts
     monkeypatch.undo()
@@ -156,6 +156,13 @@ def test_parts_are_found_ahead_from_the_first_run_on(suzanne):
     ahead.stop()
     bpy.ops.wcd.decompose(samples=200, parts=4)
     assert ahead.go_on() is not None
+
+
+def test_parts_of_a_large_mesh_are_found_ahead_for_near_numbers(suzanne, monkeypatch):
+    monkeypatch.setattr(ahead, "MOST_NODES", 100)
+    bpy.ops.wcd.decompose(samples=200, parts=4)
+    exact = [each.parts for each, is_look in ahead._wanted if not is_look]
+    assert exact == [5, 3, 6, 2]
 
 
 def test_nothing_is_found_ahead_after_a_file_is_loaded(suzanne, settings):
