@@ -23,7 +23,12 @@ from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.record import write_hull_record
 from .looks import keep_piece
-from .lost_hulls import leave_to_user, lost_hulls, remove_empty_collections
+from .lost_hulls import (
+    leave_to_user,
+    lost_hulls,
+    noted_by,
+    remove_empty_collections,
+)
 from .placed import pose_of
 from .rigid_bodies import remove_simulation, soften
 
@@ -112,6 +117,8 @@ def erase_hulls(
     """
     all_of_it = hulls_of(obj)
     hulls = all_of_it if chosen is None else chosen
+    if not hulls and not noted_by(obj):  # files have thousands of collections
+        return
     if hulls and obj.mode != "OBJECT":
         raise DecompositionError(
             "Hulls are objects, which Edit Mode cannot bring back on undo; switch to"
@@ -165,12 +172,12 @@ def _materials(
 
 def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
     """Raise if an object that is no hull of `obj` has a name that a hull needs."""
-    taken = [name for name in names if name in bpy.data.objects]
-    ours = {hull.name for hull in hulls_of(obj)} if taken else set()
-    taken = [name for name in taken if name not in ours]
+    # All names at once: Blender looks through all objects for each that is asked for.
+    taken = set(bpy.data.objects.keys()).intersection(names)
+    taken -= {hull.name for hull in hulls_of(obj)} if taken else set()
     if taken:
         raise DecompositionError(
-            f"There is an object {taken[0]} already; rename it or choose another"
+            f"There is an object {min(taken)} already; rename it or choose another"
             " Naming."
         )
 

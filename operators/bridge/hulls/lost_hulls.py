@@ -22,7 +22,7 @@ def lost_hulls() -> list[bpy.types.Object]:
         if _object_is_gone(collection)
         for hull in _without_object(collection)
     ]
-    noted = set().union(*map(_noted_by, bpy.data.objects)) if found else set()
+    noted = set().union(*map(noted_by, bpy.data.objects)) if found else set()
     return [hull for hull in dict.fromkeys(found) if hull.name not in noted]
 
 
@@ -41,7 +41,7 @@ def has_hulls_to_clear(obj: bpy.types.Object) -> bool:
 
 def leave_to_user(obj: bpy.types.Object) -> None:
     """Let hulls that the user took from an object be the user's from now on."""
-    noted = _noted_by(obj)
+    noted = noted_by(obj)
     for collection in _hull_collections():
         if collection[HULL_TAG] == obj.name:
             for hull in list(_without_object(collection)):
@@ -69,7 +69,7 @@ def _object_is_gone(collection: bpy.types.Collection) -> bool:
     name = collection[HULL_TAG]
     if not isinstance(name, str):  # older versions noted no name
         return False
-    return name not in bpy.data.objects or not _noted_by(bpy.data.objects[name])
+    return name not in bpy.data.objects or not noted_by(bpy.data.objects[name])
 
 
 def _without_object(collection: bpy.types.Collection) -> Iterator[bpy.types.Object]:
@@ -84,7 +84,7 @@ def _without_object(collection: bpy.types.Collection) -> Iterator[bpy.types.Obje
             yield hull
 
 
-def _noted_by(obj: bpy.types.Object) -> set[str]:
+def noted_by(obj: bpy.types.Object) -> set[str]:
     """Return the names of the hulls that an object notes."""
     record = parse_record(obj.get(RESULT)) or {}
     return {hull["name"] for hull in record.get("hulls", {}).get("hulls", ())}
