@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 
+from ..operators.bridge.hulls.listed import listed_hulls
 from ..operators.bridge.stored.record import parse_record
 from .shown_figures import is_of_now, shown_figures
 
@@ -36,13 +37,14 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
 
 
 def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
-    """Return what is noted of an object's hulls, without those that were deleted."""
+    """Return what is noted of an object's hulls, without those that were deleted.
+
+    Hulls that the user renamed have their new names.
+    """
     noted = result_of(obj).get("hulls", {}).get("hulls", ())
-    there = (bpy.data.objects.get(hull["name"]) for hull in noted)
     return [
-        hull
-        for hull, found in zip(noted, there, strict=True)
-        if found is not None and found.parent == obj
+        {**noted[row], "name": hull.name}
+        for row, hull in listed_hulls(obj, noted).items()
     ]
 
 

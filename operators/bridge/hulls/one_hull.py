@@ -20,6 +20,7 @@ from ..stored.record import ORIGINAL, record_of, write_record
 from ..work.libraries import with_libraries
 from ..work.session_cache import session_cache
 from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, hulls_of, tag_hull
+from .listed import listed_hulls
 from .looks import keep_piece, piece_of
 
 
@@ -37,8 +38,7 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
     Raises
     ------
     DecompositionError
-        At once, if the object has no such hull, lists it by another name, or cannot be
-        read.
+        At once, if the object has no such hull or does not list it, or cannot be read.
     """
     hull = hull_called(obj, name)
     _noted_row(obj, name)
@@ -74,8 +74,10 @@ def write_refit(
     hulls = record["hulls"]["hulls"]
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
     before = sum(each["volume"] for each in hulls)
+    is_renamed = hulls[row]["name"] != name
     hulls[row] = {"name": name, **figures}
-    hulls[row]["name"] = hull.name = hull.data.name = _name(obj, hulls, row)
+    if not is_renamed:
+        hulls[row]["name"] = hull.name = hull.data.name = _name(obj, hulls, row)
     tag_hull(hull, figures, shape, scale)
     after = sum(each["volume"] for each in hulls)
     _note(obj, record, after / before)
@@ -84,11 +86,12 @@ def write_refit(
 
 def remove_hull(obj: bpy.types.Object, name: str) -> None:
     """Remove one hull of an object."""
-    erase_hulls(obj, [hull_called(obj, name)])
-    record = record_of(obj)
+    hull, record = hull_called(obj, name), record_of(obj)
     hulls = record.get("hulls", {}).get("hulls", [])
     before = sum(each["volume"] for each in hulls)
-    kept = [each for each in hulls if each["name"] != name]
+    listed = listed_hulls(obj, hulls)
+    kept = [each for row, each in enumerate(hulls) if listed.get(row) != hull]
+    erase_hulls(obj, [hull])
     if not kept:
         forget_hulls(obj)
         return
@@ -122,12 +125,12 @@ def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:
 def _noted_row(obj: bpy.types.Object, name: str) -> int:
     """Return the row of a hull among those that are noted; raise if it is not there."""
     noted = record_of(obj).get("hulls", {}).get("hulls", [])
-    for row, each in enumerate(noted):
-        if each["name"] == name:
+    for row, hull in listed_hulls(obj, noted).items():
+        if hull.name == name:
             return row
     raise DecompositionError(
-        f"{name} was renamed, and {obj.name} lists it no more; give it its former name,"
-        " or build the hulls again."
+        f"{name} is not in the list of {obj.name}'s hulls, as a copy is not; choose one"
+        " that is, or build the hulls again."
     )
 
 

@@ -7,6 +7,7 @@ from edited import record_of
 from hand_made import decompose_by_hand
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.ui import sidebar
 
 QUICK = {"max_hulls": 3, "max_error": 0.2}
 
@@ -109,13 +110,29 @@ def test_a_hull_comes_back_after_another_shape(built):
     assert [other.data for other in hulls_of(built)[1:]] == meshes
 
 
-def test_a_renamed_hull_is_told_and_stays(built):
+def test_a_renamed_hull_is_listed_and_keeps_its_name(built):
     hull = hulls_of(built)[0]
+    figures = noted(built)[hull.name]
     hull.name = "Mine"
-    mesh, before = hull.data, built["wcd"]
-    with pytest.raises(RuntimeError, match="Mine was renamed, and Suzanne lists it no"):
-        bpy.ops.wcd.refit_hull(hull="Mine", shape="BOX")
-    assert hull.data == mesh
+    assert sidebar.hulls_of(built)[0] == {**figures, "name": "Mine"}
+    bpy.ops.wcd.refit_hull(hull="Mine", shape="BOX")
+    assert len(sidebar.hulls_of(built)) == 3
+    assert noted(built)["Mine"]["kind"] == "BOX"
+    hull.name = "Mine again"
+    bpy.ops.wcd.remove_hull(hull="Mine again")
+    assert len(noted(built)) == len(sidebar.hulls_of(built)) == 2
+
+
+def test_a_copy_of_a_hull_is_not_listed_and_stays(built):
+    hull = hulls_of(built)[0]
+    copy = hull.copy()
+    copy.data = hull.data.copy()
+    bpy.context.collection.objects.link(copy)
+    mesh, before = copy.data, built["wcd"]
+    assert len(sidebar.hulls_of(built)) == 3
+    with pytest.raises(RuntimeError, match="is not in the list of Suzanne's hulls"):
+        bpy.ops.wcd.refit_hull(hull=copy.name, shape="BOX")
+    assert copy.data == mesh
     assert built["wcd"] == before
 
 

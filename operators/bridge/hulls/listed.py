@@ -1,0 +1,53 @@
+"""Which hulls an object notes, by whatever names they have now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+
+from ..stored.names import HULL_TAG
+from ..stored.notes import parse_json
+from .hull_objects import hulls_of
+
+# Figures by which a hull is known that the user renamed.
+_FIGURES = ("kind", "error", "volume", "vertices")
+
+
+def listed_hulls(
+    obj: bpy.types.Object, noted: Sequence[dict[str, Any]]
+) -> dict[int, bpy.types.Object]:
+    """Return the hulls of an object that are noted, by row; deleted ones are missing.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    noted : sequence of dict
+        What the object notes of each hull.
+
+    Returns
+    -------
+    dict of int to Object
+        In the order of the rows.
+    """
+    named = (bpy.data.objects.get(each["name"]) for each in noted)
+    found = {
+        row: hull
+        for row, hull in enumerate(named)
+        if hull is not None and hull.parent == obj and HULL_TAG in hull
+    }
+    if len(found) < len(noted):  # it takes a look at all objects of the file
+        others = [hull for hull in hulls_of(obj) if hull not in found.values()]
+        for row, each in enumerate(noted):
+            same = [hull for hull in others if _is_noted_as(hull, each)]
+            if row not in found and same:
+                found[row] = same[0]
+                others.remove(same[0])
+    return dict(sorted(found.items()))
+
+
+def _is_noted_as(hull: bpy.types.Object, noted: dict[str, Any]) -> bool:
+    """Return whether a hull has the figures that are noted of one."""
+    own = parse_json(hull[HULL_TAG]) or {}
+    return all(own.get(figure) == noted.get(figure) for figure in _FIGURES)
