@@ -8,7 +8,8 @@ import bpy
 
 from ..core.results.hulls import HullDecomposition
 from ..core.steps.progress import Steps
-from .bridge.hulls.hull_objects import erase_hulls, hulls_of, write_hulls
+from .bridge.hulls.hull_objects import erase_hulls, write_hulls
+from .bridge.hulls.listed import hulls_of
 from .bridge.hulls.looks import look_like
 from .bridge.hulls.one_hull import (
     forget_hulls,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..bridge.hulls.hull_objects import is_hull
+from ..bridge.hulls.listed import is_hull
 from ..bridge.mesh.points import count_points, is_cloud
 from .quiet import quiet_blender
 

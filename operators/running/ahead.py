@@ -15,7 +15,6 @@ from typing import TypeAlias, TypeVar
 import bpy
 
 from ...core.errors import DecompositionError
-from ...core.geometry.patches import MOST_NODES
 from ...core.parameters.parameter import info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
@@ -32,6 +31,8 @@ Wanted: TypeAlias = tuple[Parameters, bool]
 _NEAR = (1, -1, 2, -2)
 # The highest number that sliders show.
 _USUAL = next(int(info_of(f).usual) for f in fields(Parameters) if f.name == "parts")
+# With more faces the parts themselves are found for near numbers only: all take long.
+_MOST_FACES = 40_000
 # Seconds of work in a slice, and between two slices: the hand may soon ask for more.
 # Steps end some 20 ms late.
 _SLICE = 0.02
@@ -57,7 +58,7 @@ def start(found: Edited) -> None:
     near = _with_numbers(found.parameters, [n_parts + step for step in _NEAR])
     usual = _with_numbers(found.parameters, range(2, _USUAL + 1))
     looks = dict.fromkeys((*usual[-1:], *near, *usual))
-    is_large = len(found.decomposition.labels) > MOST_NODES
+    is_large = len(found.decomposition.labels) > _MOST_FACES
     exact = near if is_large else dict.fromkeys((*near, *usual))
     _wanted[:] = [*((each, True) for each in looks), *((each, False) for each in exact)]
     if not bpy.app.background and not bpy.app.timers.is_registered(go_on):

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import Decomposition
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 
 

@@ -22,6 +22,7 @@ from ..parts.separating import new_collection
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.record import write_hull_record
+from .listed import hulls_of
 from .looks import keep_piece
 from .lost_hulls import (
     leave_to_user,
@@ -31,16 +32,6 @@ from .lost_hulls import (
 )
 from .placed import pose_of
 from .rigid_bodies import remove_simulation, soften
-
-
-def is_hull(obj: bpy.types.Object) -> bool:
-    """Return whether an object is a hull of its parent."""
-    return HULL_TAG in obj and obj.parent is not None
-
-
-def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """Return the hulls of an object, sorted by name."""
-    return sorted((c for c in obj.children if HULL_TAG in c), key=lambda c: c.name)
 
 
 def write_hulls(

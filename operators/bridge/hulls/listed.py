@@ -1,4 +1,4 @@
-"""Which hulls an object notes, by whatever names they have now."""
+"""Find the hulls of an object, by whatever names they have now."""
 
 from __future__ import annotations
 
@@ -9,10 +9,19 @@ import bpy
 
 from ..stored.names import HULL_TAG
 from ..stored.notes import parse_json
-from .hull_objects import hulls_of
 
 # Figures by which a hull is known that the user renamed.
 _FIGURES = ("kind", "error", "volume", "vertices")
+
+
+def is_hull(obj: bpy.types.Object) -> bool:
+    """Return whether an object is a hull of its parent."""
+    return HULL_TAG in obj and obj.parent is not None
+
+
+def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return the hulls of an object, sorted by name."""
+    return sorted((c for c in obj.children if HULL_TAG in c), key=lambda c: c.name)
 
 
 def listed_hulls(

@@ -19,8 +19,8 @@ from ..read.shape import read_shape, scene_unit, stretch
 from ..stored.record import ORIGINAL, record_of, write_record
 from ..work.libraries import with_libraries
 from ..work.session_cache import session_cache
-from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, hulls_of, tag_hull
-from .listed import listed_hulls
+from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, tag_hull
+from .listed import hulls_of, listed_hulls
 from .looks import keep_piece, piece_of
 
 

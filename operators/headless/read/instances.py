@@ -13,7 +13,7 @@ from pathlib import Path
 import bpy
 
 from ....core.errors import DecompositionError
-from ...bridge.hulls.hull_objects import is_hull
+from ...bridge.hulls.listed import is_hull
 from .evaluated import EvaluatedMeshes, everything_shown, give_mesh
 from .instance_objects import Instance, add_objects
 

@@ -7,7 +7,7 @@ import re
 
 import bpy
 
-from ...bridge.hulls.hull_objects import is_hull
+from ...bridge.hulls.listed import is_hull
 from ...bridge.stored.names import HULL_TAG
 
 # How Unreal knows hulls: UCX_Name_01, of the mesh called Name.

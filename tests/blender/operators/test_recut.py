@@ -159,7 +159,7 @@ def test_parts_are_found_ahead_from_the_first_run_on(suzanne):
 
 
 def test_parts_of_a_large_mesh_are_found_ahead_for_near_numbers(suzanne, monkeypatch):
-    monkeypatch.setattr(ahead, "MOST_NODES", 100)
+    monkeypatch.setattr(ahead, "_MOST_FACES", 100)
     bpy.ops.wcd.decompose(samples=200, parts=4)
     exact = [each.parts for each, is_look in ahead._wanted if not is_look]
     assert exact == [5, 3, 6, 2]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from edited import FAST
 from hand_made import activate, decompose_by_hand, face_values, in_mode, mesh_object
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.bridge.mesh.fingerprint import (
     MEASURED_ON,
     fits,

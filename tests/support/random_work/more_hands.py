@@ -3,7 +3,7 @@
 import bpy
 from hypothesis import strategies as st
 from hypothesis.stateful import rule
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 
 from .checks import attempt
 from .locks import locks_hold

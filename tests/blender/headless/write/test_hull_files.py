@@ -6,7 +6,7 @@ from functools import cache
 import bpy
 import numpy as np
 import pytest
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.request.options import parse

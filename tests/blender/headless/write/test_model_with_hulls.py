@@ -10,7 +10,7 @@ import pytest
 import trimesh
 from checkout import ROOT
 from hand_made import add_ring, build_hulls, decompose_by_hand
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import is_hull
+from weak_convex_decomposition.operators.bridge.hulls.listed import is_hull
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.formats import HULLS_WITHIN_ENDINGS
 from weak_convex_decomposition.operators.headless.read.known_hulls import hull_note

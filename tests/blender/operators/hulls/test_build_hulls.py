@@ -7,7 +7,7 @@ from convexity_check import assert_convex
 from hand_made import decompose_by_hand, in_mode, mesh_object
 from snapshot import snapshot
 from weak_convex_decomposition.core.hulls.convex_hull import Hull
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 
 QUICK = {"max_hulls": 4, "max_error": 0.2}
 

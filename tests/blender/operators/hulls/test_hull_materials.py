@@ -5,7 +5,7 @@ import json
 import bpy
 import pytest
 from hand_made import decompose_by_hand
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 
 
 def build():

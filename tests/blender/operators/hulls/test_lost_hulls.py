@@ -3,7 +3,7 @@
 import bpy
 import pytest
 from hand_made import activate, build_hulls, decompose_by_hand, mesh_object
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 
 QUICK = {"max_hulls": 1, "max_error": 1.0}
 

@@ -4,7 +4,7 @@ import pytest
 import shapes
 from hand_made import activate, in_mode, mesh_object
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import pytest
 from edited import record_of
 from hand_made import decompose_by_hand
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.hulls.hull_objects import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.ui import sidebar
 
 QUICK = {"max_hulls": 3, "max_error": 0.2}
