@@ -16,7 +16,7 @@ from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..parts.identities import usual_identities
-from ..parts.materials import discard_unused, hull_material, is_ours, own_materials
+from ..parts.materials import discard_unused, hull_material, is_ours, none_missing
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..parts.separating import new_collection
 from ..read.shape import stretch
@@ -152,10 +152,7 @@ def _materials(
     """Return materials, and which of them each hull has: those of the parts, or new."""
     if parts is not None:
         own = part_materials(obj, parts)
-        return found.parts, [
-            material or own_materials([identity], [None])[0]
-            for identity, material in zip(parts.identities, own, strict=True)
-        ]
+        return found.parts, none_missing(parts.identities, own)
     rows = found.parts if found.has_parts else np.arange(found.n_hulls)
     identities = usual_identities(int(rows.max()) + 1)
     return rows, [hull_material(row, each.color) for row, each in enumerate(identities)]

@@ -101,6 +101,16 @@ def own_materials(
     return materials
 
 
+def none_missing(
+    identities: Iterable[Identity], materials: Sequence[bpy.types.Material | None]
+) -> list[bpy.types.Material]:
+    """Return the materials of parts, new ones in place of those the user removed."""
+    return [
+        material or own_materials([identity], [None])[0]
+        for identity, material in zip(identities, materials, strict=True)
+    ]
+
+
 def own_material(
     material: bpy.types.Material, identity: Identity
 ) -> bpy.types.Material:

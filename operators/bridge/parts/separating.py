@@ -11,7 +11,7 @@ from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
 from ..views.node_modifiers import remove_views
 from .erase import clear
-from .materials import own_materials
+from .materials import none_missing
 from .read import find_parts_on, part_materials
 
 
@@ -42,10 +42,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     remove_views(bare)
     clear(bare)
     forget_whole(bare.data)
-    materials = [  # new ones where the user removed them; Clear would discard these
-        material or own_materials([identity], [None])[0]
-        for identity, material in zip(identities, own, strict=True)
-    ]
+    materials = none_missing(identities, own)  # after Clear, which discards new ones
     pieces: list[bpy.types.Object] = []
     for part in range(len(identities)):
         piece = _copy(bare)
