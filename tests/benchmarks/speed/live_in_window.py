@@ -150,7 +150,12 @@ def settings(hands, pulse, view):
     yield from live(pulse, view, "alpha", FINER, 0.5)
     anew(hands)
     yield from live(pulse, view, "smallest_part", SMALLEST, 0.5)
-    for values, rest, exact in ((FAR, 0.5, False), (UP, 5.0, False), (UP, 0.5, True)):
+    for values, rest, exact in (
+        (FAR, 0.5, False),
+        (UP, 5.0, False),
+        (FAR, 5.0, True),
+        (UP, 0.5, True),
+    ):
         anew(hands)
         yield from live(pulse, view, "parts", values, rest, exact)
 
