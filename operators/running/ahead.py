@@ -33,10 +33,11 @@ _NEAR = (1, -1, 2, -2)
 _USUAL = next(int(info_of(f).usual) for f in fields(Parameters) if f.name == "parts")
 # With more faces the parts themselves are found for near numbers only: all take long.
 _MOST_FACES = 40_000
-# Seconds of work in a slice, and between two slices: the hand may soon ask for more.
-# Steps end some 20 ms late.
+# Seconds of work in a slice. Steps end some 20 ms late.
 _SLICE = 0.02
-_PAUSE = 0.005
+# Seconds between two slices of first looks, which the hand may soon ask for, and of the
+# parts themselves: these take longer, and the view should turn smoothly meanwhile.
+_PAUSE, _REST = 0.005, 0.03
 
 # What is still to be found, and what is being found.
 _wanted: list[Wanted] = []
@@ -85,9 +86,10 @@ def go_on() -> float | None:
             stop()
             return None
         _current = _wanted.pop(0), Job(steps)
-    if _current[1].advance(_SLICE):
+    (_, is_look), job = _current
+    if job.advance(_SLICE):
         _current = None
-    return _PAUSE
+    return _PAUSE if is_look else _REST
 
 
 def after_rest(wanted: Wanted, steps: Steps[T]) -> Steps[T]:
