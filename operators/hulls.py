@@ -167,7 +167,6 @@ class WCD_OT_refit_hull(OnActive, Computation, bpy.types.Operator):
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         hull = write_refit(obj, self.hull, value)
-        look_like([hull], bpy.context.scene.wcd.look)
         return f"{hull.name}, error {value.errors[0]:.3g}"
 
 

@@ -34,6 +34,9 @@ _RETRY = 0.02
 
 # Parts that a slider did not wait for: what is wanted of which object, and the work.
 _begun: tuple[Any, Job[Edited]] | None = None
+# The address of that slider's window, which may be closed before the run starts; 0 for
+# no window, as where a script sets the slider.
+_window = 0
 
 
 class _Recut(Replacement):
@@ -134,8 +137,11 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
                 return {"FINISHED"}
         except DecompositionError:
             pass  # the modal run fails, too, and reports it
-        if not bpy.app.background and not bpy.app.timers.is_registered(_invoke):
-            bpy.app.timers.register(_invoke)
+        if not bpy.app.background:
+            global _window
+            _window = context.window.as_pointer() if context.window else 0
+            if not bpy.app.timers.is_registered(_invoke):
+                bpy.app.timers.register(_invoke)
         return {"CANCELLED"}
 
     def _cut(self, context: bpy.types.Context) -> bool:
@@ -173,10 +179,12 @@ def _invoke() -> float | None:
     if modal.busy():
         _begun = None  # the object may be another one after what runs
         return _RETRY
-    window = bpy.context.window_manager.windows[0]
-    with bpy.context.temp_override(window=window):
-        if bpy.ops.wcd.recut.poll():
-            bpy.ops.wcd.recut("INVOKE_DEFAULT")
+    windows = list(bpy.context.window_manager.windows)
+    asked = [each for each in windows if each.as_pointer() == _window]
+    for window in asked if _window else windows[:1]:  # none if it was closed
+        with bpy.context.temp_override(window=window):
+            if bpy.ops.wcd.recut.poll():
+                bpy.ops.wcd.recut("INVOKE_DEFAULT")
     return None
 
 

@@ -14,6 +14,8 @@ _UNREAL = {"HULL": "UCX", "BOX": "UBX", "SPHERE": "USP", "CAPSULE": "UCP"}
 # Most characters that a template may add to the name of the object. Blender cuts names
 # off after 255 bytes.
 _LONGEST = 255
+# No object has more hulls.
+_MOST_NUMBERS = 10_000
 
 
 @dataclass(frozen=True)
@@ -85,13 +87,11 @@ def hull_names(
     DecompositionError
         If the template cannot be filled in, or names are too long or not different.
     """
-    chosen = next(n.template for n in NAMINGS if n.identifier == naming) or template
+    chosen = _template_of(naming) or template
     try:
         wide = _widest_field(chosen) > _LONGEST
         names = [
-            chosen.format(
-                name=name, n=n, kind=kind.lower(), prefix=_UNREAL.get(kind, "UCX")
-            )
+            _filled(chosen, name, n, kind)
             for n, kind in enumerate([] if wide else kinds, start=1)
         ]
     except (KeyError, IndexError, ValueError, AttributeError, TypeError) as error:
@@ -109,6 +109,43 @@ def hull_names(
             f"Template {template!r} gives all hulls one name; put {{n}} in it."
         )
     return names
+
+
+def name_of_kind(
+    naming: str, template: str, name: str, former: str, kinds: tuple[str, str]
+) -> str:
+    """Return the name of a hull that gets another kind; its number stays.
+
+    Parameters
+    ----------
+    naming, template, name : str
+        As for `hull_names`, which takes them.
+    former : str
+        Its name so far.
+    kinds : tuple of two str
+        Its kind so far, and the new one.
+
+    Returns
+    -------
+    str
+        The former name if `hull_names` does not give it.
+    """
+    chosen = _template_of(naming) or template
+    for n in range(1, _MOST_NUMBERS):
+        if _filled(chosen, name, n, kinds[0]) == former:
+            return _filled(chosen, name, n, kinds[1])
+    return former
+
+
+def _template_of(naming: str) -> str:
+    """Return the pattern of a naming, empty if the user gives it."""
+    return next(each.template for each in NAMINGS if each.identifier == naming)
+
+
+def _filled(template: str, name: str, n: int, kind: str) -> str:
+    """Return the name of a hull by a pattern; raise what `str.format` does."""
+    prefix = _UNREAL.get(kind, "UCX")
+    return template.format(name=name, n=n, kind=kind.lower(), prefix=prefix)
 
 
 def _widest_field(template: str) -> int:

@@ -88,7 +88,11 @@ def main():
     # drags, which says where the cursor is, would be taken to jump.
     preferences.inputs.use_mouse_continuous = False
     package.register()
-    play = Play(load(subject).steps(Hands(Path(subject).stem)))
+
+    def steps():  # what fails as the subject is loaded ends Blender, too
+        yield from load(subject).steps(Hands(Path(subject).stem))
+
+    play = Play(steps())
     bpy.app.timers.register(play, first_interval=1.0, persistent=True)
 
 

@@ -15,10 +15,10 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
+from ..homes import new_collection
 from ..parts.identities import usual_identities
 from ..parts.materials import discard_unused, hull_material, is_ours, none_missing
 from ..parts.read import FoundParts, find_parts_on, part_materials
-from ..parts.separating import new_collection
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.record import write_hull_record
@@ -171,13 +171,17 @@ def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
 
 
 def hull_mesh(
-    name: str, shape: CollisionShape, scale: np.ndarray, material: bpy.types.Material
+    name: str,
+    shape: CollisionShape,
+    scale: np.ndarray,
+    material: bpy.types.Material | None,
 ) -> bpy.types.Mesh:
-    """Return the mesh of a shape."""
+    """Return the mesh of a shape, with a material or without."""
     vertices, faces = core.faces_of(shape)
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata((vertices / scale).tolist(), [], faces.tolist())
-    mesh.materials.append(material)
+    if material is not None:
+        mesh.materials.append(material)
     return mesh
 
 

@@ -20,7 +20,7 @@ def look_like(hulls: Sequence[bpy.types.Object], look: str) -> None:
     """Show hulls as transparent or opaque solids, or as wires.
 
     The material of the mesh may be that of a part, which is opaque. So a transparent
-    hull wears a copy of its own.
+    hull wears a copy of its own. Materials that the user gave it stay as they are.
 
     Parameters
     ----------
@@ -32,14 +32,23 @@ def look_like(hulls: Sequence[bpy.types.Object], look: str) -> None:
         opacity = _OPACITY if look == TRANSPARENT else 1.0
         hull.color = (*hull.color[:3], opacity)
         for slot in hull.material_slots:
+            if slot.material is not None and not is_ours(slot.material):
+                continue
             if slot.link == "OBJECT":
                 worn, slot.material = slot.material, None
-                discard_unused([worn] if is_ours(worn) else ())
+                discard_unused([worn] if worn else ())
             slot.link = "DATA"
-            if look == TRANSPARENT and slot.material is not None:
+            if look == TRANSPARENT and is_ours(slot.material):
                 seen_through = _transparent(slot.material)
                 slot.link = "OBJECT"
                 slot.material = seen_through
+
+
+def look_of(hull: bpy.types.Object) -> str:
+    """Return how a hull is seen, as `look_like` takes it."""
+    if hull.display_type == "WIRE":
+        return WIRE
+    return TRANSPARENT if hull.color[3] < 1.0 else SOLID
 
 
 def _transparent(material: bpy.types.Material) -> bpy.types.Material:

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import bpy
 
+from ..homes import homes_of
 from ..stored.names import HULL_TAG, RESULT
+from ..stored.notes import parse_json
 from ..stored.record import parse_record
 
 
@@ -14,7 +16,8 @@ def lost_hulls() -> list[bpy.types.Object]:
     """Return the hulls whose object is gone from the file.
 
     They are in a collection that we made, and no object notes them. A hull is the
-    user's if the user put it into another collection, or works on it.
+    user's if the user put it into another collection, joined something to it, or works
+    on it.
     """
     found = [
         hull
@@ -74,14 +77,19 @@ def _object_is_gone(collection: bpy.types.Collection) -> bool:
 
 def _without_object(collection: bpy.types.Collection) -> Iterator[bpy.types.Object]:
     """Yield the hulls in a collection that have no object, and are in it alone."""
-    worlds = [each.rigidbody_world for each in bpy.data.scenes]
-    bodies = [world.collection for world in worlds if world]  # hulls may be in these
     for hull in collection.objects:
         if HULL_TAG not in hull or RESULT in hull or not hull.is_editable:
             continue
-        homes = [c for c in hull.users_collection if c not in bodies]
-        if hull.parent is None and all(HULL_TAG in each for each in homes):
+        if _has_other_faces(hull):
+            continue
+        if hull.parent is None and all(HULL_TAG in each for each in homes_of(hull)):
             yield hull
+
+
+def _has_other_faces(hull: bpy.types.Object) -> bool:
+    """Return whether a hull is not as we made it, as after a join of other objects."""
+    n_vertices = len(hull.data.vertices)
+    return (parse_json(hull[HULL_TAG]) or {}).get("vertices", n_vertices) != n_vertices
 
 
 def noted_by(obj: bpy.types.Object) -> set[str]:

@@ -10,7 +10,7 @@ import bpy
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
-from ....core.parameters.hull_names import hull_names
+from ....core.parameters.hull_names import name_of_kind
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
@@ -21,7 +21,7 @@ from ..work.libraries import with_libraries
 from ..work.session_cache import session_cache
 from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, tag_hull
 from .listed import hulls_of, listed_hulls
-from .looks import keep_piece, piece_of
+from .looks import keep_piece, look_like, look_of, piece_of
 
 
 def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecomposition]:
@@ -65,20 +65,20 @@ def write_refit(
     """Give a hull of an object the shape that was found; return the hull."""
     hull, row, (shape,) = hull_called(obj, name), _noted_row(obj, name), found.shapes
     points, _ = piece_of(hull)
-    scale, former = stretch(obj), hull.data
-    material = former.materials[0]
+    scale, former, look = stretch(obj), hull.data, look_of(hull)
+    material = former.materials[0] if former.materials else None
     hull.data = hull_mesh(former.name, shape, scale, material)
-    bpy.data.meshes.remove(former)
+    if former.users == 0:  # else the user has linked copies of the hull
+        bpy.data.meshes.remove(former)
     keep_piece(hull, points)
     record = record_of(obj)
     hulls = record["hulls"]["hulls"]
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
     before = sum(each["volume"] for each in hulls)
-    is_renamed = hulls[row]["name"] != name
-    hulls[row] = {"name": name, **figures}
-    if not is_renamed:
-        hulls[row]["name"] = hull.name = hull.data.name = _name(obj, hulls, row)
+    hull.name = hull.data.name = _name(obj, name, (hulls[row]["kind"], shape.kind))
+    hulls[row] = {"name": hull.name, **figures}
     tag_hull(hull, figures, shape, scale)
+    look_like([hull], look)
     after = sum(each["volume"] for each in hulls)
     _note(obj, record, after / before)
     return hull
@@ -143,12 +143,12 @@ def _note(obj: bpy.types.Object, record: dict[str, Any], growth: float) -> None:
     write_record(obj, record)
 
 
-def _name(obj: bpy.types.Object, hulls: list[dict[str, Any]], row: int) -> str:
-    """Return the name of a hull: with Unreal's naming, its kind is in it."""
-    parameters, kinds = _noted_parameters(obj), [each["kind"] for each in hulls]
-    names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
-    former = str(hulls[row]["name"])
-    return former if names[row] in bpy.data.objects else names[row]
+def _name(obj: bpy.types.Object, former: str, kinds: tuple[str, str]) -> str:
+    """Return the name of a hull of a new kind: with Unreal's naming, that is in it."""
+    parameters = _noted_parameters(obj)
+    naming = parameters.naming, parameters.template
+    name = name_of_kind(*naming, obj.name, former, kinds)
+    return former if name in bpy.data.objects else name
 
 
 def _noted_parameters(obj: bpy.types.Object) -> HullParameters:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.seams import unmark_seams
@@ -10,7 +12,6 @@ from ..stored.names import (
     FACE_SET_LAYER,
     FACE_SETS,
     LAYERS,
-    PART_LAYER,
     WHOLE_LAYER,
     WHOLE_MESH,
 )
@@ -25,6 +26,7 @@ from ..stored.record import (
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from .kept_materials import drop_kept, marked_groups
 from .materials import discard_unused, is_of_part, name_of, our_materials
+from .read import part_labels
 from .rows import erase_rows
 from .slots import take_out_of_slots
 
@@ -64,10 +66,11 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     restore = read_restore(mesh)
     if restore is None:
         return []
+    labels = part_labels(obj)
     _erase_groups(obj, restore)
     layers = layers_of(obj)
     materials = [*take_out_of_slots(obj, restore), *drop_kept(mesh)]
-    _restore_face_sets(layers)
+    _restore_face_sets(layers, labels)
     for name in LAYERS:
         layers.remove(name)
     layers.finish()
@@ -102,11 +105,15 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
     return found - set(restore.user_groups or ())
 
 
-def _restore_face_sets(layers: ObjectModeLayers | EditModeLayers) -> None:
-    """Restore the former face sets, unless the user changed ours since."""
-    before, parts = layers.faces(FACE_SET_LAYER), layers.faces(PART_LAYER)
-    now = layers.faces(FACE_SETS)
-    if before is None or now is None or parts is None or (now != parts + 1).any():
+def _restore_face_sets(
+    layers: ObjectModeLayers | EditModeLayers, labels: NDArray[np.int64] | None
+) -> None:
+    """Restore the former face sets, unless the user changed ours since.
+
+    `labels` are the places of the faces' parts, as `write_face_sets` numbers them.
+    """
+    before, now = layers.faces(FACE_SET_LAYER), layers.faces(FACE_SETS)
+    if before is None or now is None or labels is None or (now != labels + 1).any():
         return
     if before.any():
         layers.set_faces(FACE_SETS, before)

@@ -9,6 +9,7 @@ from typing import Any
 import bpy
 
 from ....core.errors import DecompositionError
+from ..hulls.looks import look_like, look_of
 from ..mesh.points import is_cloud
 from ..refusals import library_refusal, name_refusal
 from ..stored.identity import Identity
@@ -149,6 +150,7 @@ def _give_hulls(
     for child in obj.children if before != material else ():
         if HULL_TAG in child and before in child.data.materials[:]:
             child.data.materials[0] = material
-            child.color = material.diffuse_color
+            child.color = (*material.diffuse_color[:3], child.color[3])
+            look_like([child], look_of(child))
     if before != material:
         discard_unused([before])

@@ -9,21 +9,12 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
+from ..homes import new_collection
+from ..hulls.rigid_bodies import soften
 from ..views.node_modifiers import remove_views
 from .erase import clear
 from .materials import none_missing
 from .read import find_parts_on, part_materials
-
-
-def new_collection(obj: bpy.types.Object, name: str) -> bpy.types.Collection:
-    """Return a new collection in the first editable one that holds an object.
-
-    It is in the scene's collection if a library holds all of the object's.
-    """
-    collection = bpy.data.collections.new(name)
-    homes = [c for c in obj.users_collection if c.is_editable]
-    (homes[0] if homes else bpy.context.scene.collection).children.link(collection)
-    return collection
 
 
 def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
@@ -39,6 +30,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
     identities, own = found.identities, part_materials(obj, found)
     collection = new_collection(obj, f"{obj.name} parts")
     bare = _copy(obj)
+    soften(bare, ())
     remove_views(bare)
     clear(bare)
     forget_whole(bare.data)

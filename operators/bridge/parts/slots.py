@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
-from ..stored.names import MATERIAL_LAYER
+from ..stored.names import MATERIAL_LAYER, OVERLAY
 from ..stored.restore import Restore, sharers
 from .materials import is_ours
 
@@ -106,12 +106,20 @@ def _indices_without_ours(
 
 
 def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
-    """Return the indices of the slots that hold our materials."""
-    return [
+    """Return the indices of the slots that hold our materials.
+
+    They come after the user's. Where the user deleted one of the materials, the slot is
+    empty; no more than that are missing.
+    """
+    ours = [
         index
         for index, material in enumerate(mesh.materials)
         if is_ours(material) and material.name not in restore.slots
     ]
+    first = min([len(restore.slots), *ours])
+    empty = [i for i in range(first, len(mesh.materials)) if mesh.materials[i] is None]
+    n_missing = 0 if OVERLAY in mesh else max(len(restore.groups) - len(ours), 0)
+    return sorted(ours + empty[:n_missing])
 
 
 def _names_without(mesh: bpy.types.Mesh, ours: list[int]) -> list[str]:
@@ -153,7 +161,7 @@ def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Mate
         (sharer, [_object_link(slot) for slot in sharer.material_slots])
         for sharer in sharers(obj)
     ]
-    materials = [mesh.materials[i] for i in ours]
+    materials = [mesh.materials[i] for i in ours if mesh.materials[i] is not None]
     if len(ours) == len(mesh.materials):
         mesh.materials.clear()  # `pop` would leave the objects an empty slot
     else:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
+from ..homes import homes_of
 from ..parts.erase import erase_parts
 from ..parts.materials import discard_unused, is_ours
 from ..refusals import CONVERTIBLE
@@ -70,7 +71,7 @@ def placed_carrier(
             _remove(child)
     carrier.name = carrier.data.name = f"{obj.name} parts"
     carrier.matrix_basis = Matrix()
-    for collection in obj.users_collection:
+    for collection in homes_of(obj):
         collection.objects.link(carrier)
     bpy.context.view_layer.update()
     # The user may look at another view layer since the computation began.

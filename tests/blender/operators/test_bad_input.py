@@ -162,3 +162,22 @@ def test_parts_that_came_with_a_joined_object_are_replaced(suzanne):
     bpy.ops.wcd.clear()
     assert not bpy.context.active_object.vertex_groups
     assert "wcd_part" not in bpy.context.active_object.data.attributes
+
+
+def test_an_override_of_a_library_is_refused(tmp_path, suzanne):
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Suzanne"]
+    (linked,) = wanted.objects
+    bpy.context.scene.collection.objects.link(linked)
+    override = linked.override_create(remap_local_usages=True)
+    override.data = linked.data.copy()
+    activate(override)
+    refused(bpy.ops.wcd.decompose, "Suzanne is an override of a library, which cannot")
+    assert not override.vertex_groups
+    override.select_set(True)
+    bpy.ops.object.make_local(type="SELECT_OBDATA")
+    bpy.ops.wcd.decompose(samples=100, parts=2)
+    assert len(bpy.context.active_object.wcd_parts) == 2

@@ -145,3 +145,17 @@ def test_clear_takes_materials_whose_slots_the_user_removed(suzanne):
     suzanne.data.materials.pop(index=1)
     erase.clear(suzanne)
     assert snapshot(suzanne) == before
+
+
+def test_a_material_deleted_meanwhile_leaves_no_slot_behind(suzanne):
+    gold, skin = (bpy.data.materials.new(name) for name in ("Gold", "Skin"))
+    for material in (gold, skin):
+        suzanne.data.materials.append(material)
+    for polygon in suzanne.data.polygons:
+        polygon.material_index = polygon.index % 2
+    before = snapshot(suzanne)
+    for _ in range(2):
+        decompose_by_hand(suzanne, 3)
+        bpy.data.materials.remove(bpy.data.materials["Part 01"])
+    bpy.ops.wcd.clear()
+    assert snapshot(suzanne) == before

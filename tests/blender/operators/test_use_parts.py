@@ -128,9 +128,13 @@ def test_face_sets_are_the_parts_and_earlier_ones_come_back(suzanne):
     own = suzanne.data.attributes.new(".sculpt_face_set", "INT", "FACE")
     own.data.foreach_set("value", np.arange(500, dtype=np.int32) + 1)
     before = snapshot(suzanne)
-    for _ in range(2):
+    for merged in (False, True):
         decompose_by_hand(suzanne, 3)
         call("face_sets")
+        if merged:  # leaves numbers 0 and 2
+            for row in suzanne.wcd_parts[:2]:
+                row.chosen = True
+            bpy.ops.wcd.merge_parts()
     bpy.ops.wcd.clear()
     assert snapshot(suzanne) == before
 

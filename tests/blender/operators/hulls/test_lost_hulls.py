@@ -145,6 +145,16 @@ def test_hulls_that_the_user_keeps_stay(joined, how):
     assert ("Other hulls" in left()) == (how != "moved")
 
 
+def test_what_was_joined_into_a_hull_stays(joined):
+    obj, hull = joined
+    mine = mesh_object("mine", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    activate(hull)
+    mine.select_set(True)
+    bpy.ops.object.join()
+    clear(obj)
+    assert hull.name in left()
+
+
 def test_the_users_objects_stay(joined):
     obj, _ = joined
     mine = mesh_object("mine", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])

@@ -2,7 +2,7 @@ import bpy
 import numpy as np
 import pytest
 import shapes
-from hand_made import activate, in_mode, mesh_object
+from hand_made import activate, decompose_by_hand, in_mode, mesh_object
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 
@@ -91,3 +91,31 @@ def test_hulls_and_object_mode_are_needed(table):
     in_mode(table, "EDIT")
     with pytest.raises(RuntimeError, match="Object Mode"):
         bpy.ops.wcd.make_rigid()
+
+
+def test_hulls_and_pieces_of_a_rigid_body_are_beside_it_and_are_none(suzanne):
+    home = bpy.data.collections.new("Walls")  # comes after "RigidBodyWorld"
+    bpy.context.scene.collection.children.link(home)
+    home.objects.link(suzanne)
+    for other in suzanne.users_collection:
+        if other != home:
+            other.objects.unlink(suzanne)
+    bpy.ops.rigidbody.object_add()
+    decompose_by_hand(suzanne, 3)
+    bpy.context.scene.wcd.samples = 100
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    bpy.ops.wcd.separate()
+    assert {each.name for each in home.children} == {"Suzanne hulls", "Suzanne parts"}
+    for each in home.all_objects:
+        assert each.name in bpy.context.view_layer.objects
+
+
+def test_pieces_of_an_object_whose_hulls_are_a_rigid_body_are_none(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.context.scene.wcd.samples = 100
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    bpy.ops.wcd.make_rigid()
+    bpy.ops.wcd.separate()
+    pieces = bpy.data.collections["Suzanne parts"].objects
+    assert not any(piece.rigid_body or "wcd_rigid" in piece for piece in pieces)
+    assert suzanne.rigid_body is not None

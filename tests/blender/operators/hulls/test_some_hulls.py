@@ -160,3 +160,68 @@ def test_boxes_have_six_quads(suzanne):
     middle = sum((v.co for v in hull.data.vertices), start=hull.data.vertices[0].co * 0)
     for face in hull.data.polygons:
         assert face.normal.dot(face.center - middle / 8) > 0
+
+
+def test_linked_copies_of_a_hull_stay(built):
+    hull = hulls_of(built)[0]
+    copy = hull.copy()
+    bpy.context.collection.objects.link(copy)
+    copy.parent = None
+    mesh = copy.data
+    bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
+    assert (copy.data, len(hull.data.vertices)) == (mesh, 8)
+
+
+def test_a_hull_without_material_gets_another_shape(built):
+    hull = hulls_of(built)[0]
+    hull.data.materials.clear()
+    bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
+    assert (len(hull.data.vertices), len(hull.data.materials)) == (8, 0)
+
+
+def test_a_hull_keeps_its_name_after_another_is_removed(built):
+    first, second, _ = (hull.name for hull in hulls_of(built))
+    bpy.ops.wcd.remove_hull(hull=first)
+    bpy.ops.wcd.refit_hull(hull=second, shape="BOX")
+    assert hulls_of(built)[0].name == second
+    assert noted(built)[second]["kind"] == "BOX"
+
+
+def test_a_hull_of_an_object_with_a_long_name_stays_listed(suzanne):
+    suzanne.name = "A" * 60
+    build(max_hulls=1)
+    hull = hulls_of(suzanne)[0]
+    bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
+    assert list(noted(suzanne)) == [hull.name]
+
+
+@pytest.mark.parametrize("look", ["WIRE", "SOLID", "TRANSPARENT"])
+def test_another_shape_is_seen_as_the_hull_was(built, look):
+    bpy.ops.wcd.show_hulls(look=look)
+    hull = hulls_of(built)[0]
+    before = hull.display_type, hull.color[3], hull.material_slots[0].link
+    bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
+    after = hull.display_type, hull.color[3], hull.material_slots[0].link
+    assert after == before
+
+
+@pytest.mark.parametrize("look", ["SOLID", "TRANSPARENT"])
+def test_a_hull_follows_the_color_and_name_of_its_part(built, look):
+    bpy.ops.wcd.show_hulls(look=look)
+    opacity = hulls_of(built)[0].color[3]
+    built.wcd_parts[0].color = (1, 0, 0)
+    built.wcd_parts[0].name = "Head"
+    hull = next(h for h in hulls_of(built) if h.color[:3] == (1, 0, 0))
+    seen = hull.material_slots[0].material
+    assert tuple(seen.diffuse_color) == pytest.approx((1, 0, 0, opacity))
+    assert seen.name.startswith("Head")
+    assert hull.color[3] == pytest.approx(opacity)
+    assert not any(material.users == 0 for material in bpy.data.materials)
+
+
+def test_a_material_that_the_user_gave_a_hull_stays(built):
+    mine, hull = bpy.data.materials.new("Mine"), hulls_of(built)[0]
+    hull.material_slots[0].material = mine
+    for look in ("SOLID", "TRANSPARENT"):
+        bpy.ops.wcd.show_hulls(look=look)
+        assert hull.material_slots[0].material == mine
