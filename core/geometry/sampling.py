@@ -233,6 +233,8 @@ def single(points: NDArray[np.float64]) -> NDArray[np.float64]:
     -------
     (M, 3) float
     """
+    if len(points) == 0:
+        return points
     # The same points have the same key; to sort by all coordinates takes longer.
     x, y, z = points.T
     points = points[np.argsort(x + np.sqrt(2) * y + np.sqrt(3) * z)]

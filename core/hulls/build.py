@@ -199,12 +199,15 @@ def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, .
     """Return notes on errors above the largest, and on hulls that did not shrink."""
     notes, parameters, largest = [], fit.parameters, fit.parameters.max_error
     if parameters.pieces != "PARTS" and errors.max() > largest:
-        advice = (
-            f"after as many cuts as Most Hulls = {parameters.max_hulls} allows; raise"
-            " Most Hulls for more."
-            if fit.has_room
-            else f"for Margin = {parameters.margin:g} alone is; reduce it."
-        )
+        if not fit.has_room:
+            advice = f"for Margin = {parameters.margin:g} alone is; reduce it."
+        elif len(found.shapes) < parameters.max_hulls:
+            advice = "and no cut was found that makes it smaller."
+        else:
+            advice = (
+                f"after as many cuts as Most Hulls = {parameters.max_hulls} allows;"
+                " raise Most Hulls for more."
+            )
         digits = (f"{errors.max():.{n}g}" for n in range(3, 18))  # that show it
         error = next(each for each in digits if float(each) > float(f"{largest:g}"))
         notes.append(

@@ -10,8 +10,14 @@ from numpy.typing import NDArray
 
 from ..geometry.frames import cross_2d
 
-# Number of lines along the longest side of the bounding box.
-_LINES = 40
+# Distance between two lines, and longest chord, as a share of the longest side of the
+# bounding box.
+_STEP = 1 / 40
+# Lines and places on chords are spread by multiples of these, modulo 1. Unlike those of
+# a grid, no rows of them run along the sides of a box.
+_GOLDEN, _SILVER = (5**0.5 - 1) / 2, 2**0.5 - 1
+# Pairs of triangles and lines looked at at once.
+_MOST_PAIRS = 2_000_000
 
 
 def chords_along(
@@ -19,8 +25,8 @@ def chords_along(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the chords along an axis, split into short ones.
 
-    Lines form a square grid. A line is inside where it has entered more triangles
-    than it has left. No chord is longer than the distance between two lines.
+    Lines form a Fibonacci lattice. A line is inside where it has entered more triangles
+    than it has left.
 
     Parameters
     ----------
@@ -31,16 +37,16 @@ def chords_along(
 
     Returns
     -------
-    centers : (C, 3) float
-        Middle of each chord.
+    places : (C, 3) float
+        A point of each chord.
     volumes : (C,) float
         Volume of the prism around each chord. Their sum estimates the volume inside.
     """
     sides = [(axis + 1) % 3, (axis + 2) % 3]
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    step = float((high - low).max()) / _LINES
-    lines = [np.arange(low[side] + 0.457 * step, high[side], step) for side in sides]
-    line, heights, turns = _crossings(corners, axis, lines)
+    step = float((high - low).max()) * _STEP
+    spots, area = _lattice(low[sides], high[sides], step)
+    line, heights, turns = _crossings(corners, axis, spots)
     order = np.lexsort((heights, line))
     line, heights, turns = line[order], heights[order], turns[order]
     first = np.r_[True, line[1:] != line[:-1]][: len(line)]
@@ -52,48 +58,64 @@ def chords_along(
     n_pieces = np.ceil(lengths / step).astype(np.int64)
     chord = np.repeat(np.arange(len(inside)), n_pieces)
     rank = np.arange(len(chord)) - np.repeat(np.cumsum(n_pieces) - n_pieces, n_pieces)
-    shares = (rank + 0.5) / n_pieces[chord]
-    centers = np.empty((len(chord), 3))
-    centers[:, axis] = heights[inside][chord] + shares * lengths[chord]
-    column, row = np.divmod(line[inside][chord], len(lines[1]))
-    centers[:, sides[0]], centers[:, sides[1]] = lines[0][column], lines[1][row]
-    return centers, (lengths / np.maximum(n_pieces, 1))[chord] * step**2
+    line = line[inside][chord]
+    shares = (rank + line * _SILVER % 1) / n_pieces[chord]
+    places = np.empty((len(chord), 3))
+    places[:, axis] = heights[inside][chord] + shares * lengths[chord]
+    places[:, sides] = spots[line]
+    return places, (lengths / np.maximum(n_pieces, 1))[chord] * area
+
+
+def _lattice(
+    low: NDArray[np.float64], high: NDArray[np.float64], step: float
+) -> tuple[NDArray[np.float64], float]:
+    """Return points of a rectangle, (L, 2) by their first coordinate, and their area.
+
+    About as many as in a square grid with a distance of `step`.
+    """
+    widths = np.maximum(high - low, step)
+    number = np.arange(max(int(np.prod(widths) / step**2), 1))
+    shares = np.stack([(number + 0.5) / len(number), (number * _GOLDEN) % 1], axis=1)
+    return low + shares * widths, float(np.prod(widths)) / len(number)
 
 
 def _crossings(
-    corners: NDArray[np.float64], axis: int, lines: list[NDArray[np.float64]]
+    corners: NDArray[np.float64], axis: int, spots: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-    """Return the crossings of a grid of lines along an axis with triangles.
+    """Return the crossings of lines along an axis with triangles.
 
     Returns
     -------
     line : (M,) int
-        Number of the line, in row-major order of the grid.
+        Row of the line.
     heights : (M,) float
         Coordinate of the crossing along the axis.
     turns : (M,) int
         1 where a line in the direction of the axis enters the inside, −1 where it
         leaves it.
     """
-    sides = [(axis + 1) % 3, (axis + 2) % 3]
-    flat = corners[:, :, sides]
-    spans = [
-        (
-            np.searchsorted(steps, flat[:, :, side].min(axis=1)),
-            np.searchsorted(steps, flat[:, :, side].max(axis=1)),
-        )
-        for side, steps in enumerate(lines)
-    ]
-    (left, right), (bottom, top) = spans
-    counts = (right - left) * (top - bottom)
-    triangle = np.repeat(np.arange(len(corners)), counts)
-    rank = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
-    column, row = np.divmod(rank, (top - bottom)[triangle])
-    column, row = column + left[triangle], row + bottom[triangle]
-    spots = np.stack([lines[0][column], lines[1][row]], axis=1)
-    hit, heights, turns = _crossings_of(corners[triangle], axis, spots)
-    line = column * len(lines[1]) + row
-    return line[hit], heights, turns
+    flat = corners[:, :, [(axis + 1) % 3, (axis + 2) % 3]]
+    low, high = flat.min(axis=1), flat.max(axis=1)
+    left, right = (np.searchsorted(spots[:, 0], ends[:, 0]) for ends in (low, high))
+    counts = right - left
+    found = []
+    for rows in _blocks(counts):
+        triangle = np.repeat(rows, counts[rows])
+        offsets = left[rows] - np.cumsum(counts[rows]) + counts[rows]
+        line = np.repeat(offsets, counts[rows]) + np.arange(len(triangle))
+        up = spots[line, 1]
+        near = (low[triangle, 1] <= up) & (up <= high[triangle, 1])
+        triangle, line = triangle[near], line[near]
+        hit, heights, turns = _crossings_of(corners[triangle], axis, spots[line])
+        found.append((line[hit], heights, turns))
+    line, heights, turns = (np.concatenate(each) for each in zip(*found, strict=True))
+    return line, heights, turns
+
+
+def _blocks(counts: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Divide triangles into blocks with not too many pairs; `counts` has theirs."""
+    block = np.cumsum(counts) // _MOST_PAIRS
+    return np.split(np.arange(len(counts)), np.flatnonzero(np.diff(block)) + 1)
 
 
 def _crossings_of(

@@ -176,6 +176,8 @@ def _distances(
     beyond = np.clip(beyond, 0.0, high[hard])
     asked = beyond <= level
     inside, whole = solid.inside.holds_patches(centers[hard], radii[hard], asked)
-    low[hard[~inside]] = nearest[hard[~inside]]
     high[hard[whole]] = beyond[whole]
+    outside = hard[~inside]
+    low[outside] = targets.nearest(centers[outside])
+    high[outside] = np.minimum(high[outside], low[outside] + radii[outside])
     return low, high

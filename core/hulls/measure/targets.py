@@ -12,6 +12,8 @@ from .fragments import distances_to, fragments_of, reach_of
 _GRAIN = 0.08
 # Fragments near a patch that its distance is measured to.
 _NEIGHBORS = 3
+# Fragments that the nearest is looked for among, at first.
+_FIRST = 12
 
 
 class Targets:
@@ -47,7 +49,7 @@ class Targets:
         at_least : (M,) float
             No triangle is nearer to the center.
         nearest : (M,) float
-            About how near one is; surely no nearer than that.
+            One is that near to the center; another may be nearer.
         at_most : (M,) float
             From no place of the patch is the nearest triangle farther away.
         """
@@ -59,6 +61,24 @@ class Targets:
         at_least = np.clip(apart[:, -1] - self._reach, 0.0, nearest)
         # The distance from a triangle is convex: largest at a corner of the patch.
         return at_least, nearest, away.max(axis=1).min(axis=1)
+
+
+    def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
+        found = np.empty(len(points))
+        left, n_near = np.arange(len(points)), 0
+        while len(left):
+            n_near = min(max(4 * n_near, _FIRST), len(self._origins))
+            apart, rows = self._tree.query(points[left], np.arange(1, n_near + 1))
+            away = _from_each(
+                points[left, None], self._corners[self._origins[rows]]
+            ).min(axis=(1, 2))
+            found[left] = away
+            if n_near == len(self._origins):
+                break
+            # Fragments whose centers are farther away hold nothing nearer.
+            left = left[away > apart[:, -1] - self._reach]
+        return found
 
 
 def _from_each(

@@ -161,7 +161,8 @@ def _materials(
 def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
     """Raise if an object that is no hull of `obj` has a name that a hull needs."""
     # All names at once: Blender looks through all objects for each that is asked for.
-    taken = set(bpy.data.objects.keys()).intersection(names)
+    local = {each.name for each in bpy.data.objects if each.library is None}
+    taken = local.intersection(names)
     taken -= {hull.name for hull in hulls_of(obj)} if taken else set()
     if taken:
         raise DecompositionError(

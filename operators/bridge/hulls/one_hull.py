@@ -148,7 +148,7 @@ def _name(obj: bpy.types.Object, former: str, kinds: tuple[str, str]) -> str:
     parameters = _noted_parameters(obj)
     naming = parameters.naming, parameters.template
     name = name_of_kind(*naming, obj.name, former, kinds)
-    return former if name in bpy.data.objects else name
+    return former if bpy.data.objects.get((name, None)) else name
 
 
 def _noted_parameters(obj: bpy.types.Object) -> HullParameters:

@@ -42,6 +42,15 @@ def test_the_volume_along_lines(make, volume):
     assert solid.volumes.sum() == pytest.approx(volume, rel=0.04, abs=1e-9)
 
 
+@pytest.mark.parametrize("arm", [3.0, 3.1, 4.0, 5.2])
+def test_sides_of_boxes_do_not_mislead_the_volume(arm):
+    # A row of lines that all just miss a side of an arm would be a volume of 3 %.
+    solid = solid_of(shapes.l_prism(arm), 0)
+    assert solid.volume == pytest.approx(2 * arm - 1, rel=0.004)
+    leg = solid.volumes[solid.chords[:, 1] > 1].sum()
+    assert leg == pytest.approx(arm - 1, rel=0.01)
+
+
 def test_chords_are_inside():
     solid = solid_of(shapes.hollow_sphere(), 0)
     radii = np.linalg.norm(solid.chords, axis=1)

@@ -25,6 +25,14 @@ def test_bounds_of_distances_hold(seed):
         assert (nearest_of(shares @ patches, corners) <= at_most + 1e-9).all()
 
 
+def test_the_nearest_triangle_is_found():
+    mesh = shapes.l_prism()  # points may be nearer to fragments of the next triangle
+    corners = mesh.vertices[mesh.triangles] / 2
+    points = np.random.default_rng(0).uniform(-0.5, 2.5, (500, 3))
+    found = Targets(corners).nearest(points)
+    assert found == pytest.approx(nearest_of(points, corners), abs=1e-7)
+
+
 def nearest_of(points, corners):
     """Return the distance of each point from the nearest of all triangles."""
     away = [distances_to(points, np.tile(t, (len(points), 1, 1))) for t in corners]

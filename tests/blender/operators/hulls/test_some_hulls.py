@@ -225,3 +225,13 @@ def test_a_material_that_the_user_gave_a_hull_stays(built):
     for look in ("SOLID", "TRANSPARENT"):
         bpy.ops.wcd.show_hulls(look=look)
         assert hull.material_slots[0].material == mine
+
+
+def test_a_hull_of_a_library_takes_no_name(suzanne, tmp_path):
+    build(max_hulls=1)
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    bpy.ops.wcd.clear()
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Suzanne hull 01"]
+    assert [hull.name for hull in build(max_hulls=1)] == ["Suzanne hull 01"]

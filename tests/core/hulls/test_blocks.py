@@ -1,0 +1,38 @@
+"""Solids of a few blocks, whose best hulls are known."""
+
+import pytest
+import shapes
+from computed import build_hulls
+from weak_convex_decomposition.core.parameters.hulls import HullParameters
+
+
+@pytest.mark.parametrize(
+    ("make", "fewest"),
+    [
+        (shapes.l_shape, 2),
+        (lambda: shapes.l_prism(3.0), 2),
+        (shapes.u_shape, 3),
+        (shapes.plus, 3),
+        (shapes.dumbbell, 3),
+        (shapes.table, 5),
+    ],
+    ids=["L", "L prism", "U", "plus", "dumbbell", "table"],
+)
+def test_blocks_get_no_more_hulls_than_they_need(make, fewest):
+    assert build_hulls(make(), HullParameters()).n_hulls == fewest
+
+
+def test_where_no_cut_helps_the_note_says_so():
+    found = build_hulls(shapes.l_prism(3.0), HullParameters(max_error=0.001))
+    assert found.n_hulls < HullParameters().max_hulls
+    assert found.errors.max() > 0.001
+    (note,) = found.notes
+    assert note.endswith(
+        "Largest Error = 0.001, and no cut was found that makes it smaller."
+    )
+
+
+def test_a_face_without_area_in_the_air_is_no_obstacle():
+    far = [[9.0, 0, 0], [10, 0, 0], [11, 0, 0]]
+    mesh = shapes.joined(shapes.l_prism(3.0), shapes.mesh_of(far, [(0, 1, 2)]))
+    assert build_hulls(mesh, HullParameters()).n_hulls >= 2
