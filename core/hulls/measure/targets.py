@@ -62,7 +62,6 @@ class Targets:
         # The distance from a triangle is convex: largest at a corner of the patch.
         return at_least, nearest, away.max(axis=1).min(axis=1)
 
-
     def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
         found = np.empty(len(points))
