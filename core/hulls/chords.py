@@ -16,8 +16,8 @@ _STEP = 1 / 40
 # Lines and places on chords are spread by multiples of these, modulo 1. Unlike those of
 # a grid, no rows of them run along the sides of a box.
 _GOLDEN, _SILVER = (5**0.5 - 1) / 2, 2**0.5 - 1
-# Pairs of triangles and lines looked at at once.
-_MOST_PAIRS = 2_000_000
+# Pairs of triangles and lines in a band, if all triangles were in it.
+_PAIRS_IN_BAND = 200_000
 
 
 def chords_along(
@@ -96,26 +96,36 @@ def _crossings(
     """
     flat = corners[:, :, [(axis + 1) % 3, (axis + 2) % 3]]
     low, high = flat.min(axis=1), flat.max(axis=1)
-    left, right = (np.searchsorted(spots[:, 0], ends[:, 0]) for ends in (low, high))
-    counts = right - left
     found = []
-    for rows in _blocks(counts):
-        triangle = np.repeat(rows, counts[rows])
-        offsets = left[rows] - np.cumsum(counts[rows]) + counts[rows]
-        line = np.repeat(offsets, counts[rows]) + np.arange(len(triangle))
-        up = spots[line, 1]
-        near = (low[triangle, 1] <= up) & (up <= high[triangle, 1])
-        triangle, line = triangle[near], line[near]
+    for lines in _bands(spots, low, high):
+        x, y = spots[lines].T
+        rows = np.flatnonzero((low[:, 1] <= y.max()) & (high[:, 1] >= y.min()))
+        left, right = (np.searchsorted(x, ends[rows, 0]) for ends in (low, high))
+        counts = right - left
+        triangle = np.repeat(rows, counts)
+        offsets = np.repeat(left - np.cumsum(counts) + counts, counts)
+        place = offsets + np.arange(len(triangle))
+        near = (low[triangle, 1] <= y[place]) & (y[place] <= high[triangle, 1])
+        triangle, line = triangle[near], lines[place[near]]
         hit, heights, turns = _crossings_of(corners[triangle], axis, spots[line])
         found.append((line[hit], heights, turns))
     line, heights, turns = (np.concatenate(each) for each in zip(*found, strict=True))
     return line, heights, turns
 
 
-def _blocks(counts: NDArray[np.int64]) -> list[NDArray[np.int64]]:
-    """Divide triangles into blocks with not too many pairs; `counts` has theirs."""
-    block = np.cumsum(counts) // _MOST_PAIRS
-    return np.split(np.arange(len(counts)), np.flatnonzero(np.diff(block)) + 1)
+def _bands(
+    spots: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> list[NDArray[np.int64]]:
+    """Divide lines into bands by their second coordinate; return the rows of each.
+
+    `low` and `high` (T, 2) are the ends of triangles. The more pairs of a triangle and
+    a line there are that meet by the first coordinate, the narrower are the bands: most
+    of the pairs are far from each other by the second one.
+    """
+    left, right = (np.searchsorted(spots[:, 0], ends[:, 0]) for ends in (low, high))
+    n_bands = min(1 + int((right - left).sum()) // _PAIRS_IN_BAND, len(spots))
+    order = np.argsort(spots[:, 1], kind="stable")
+    return [np.sort(rows) for rows in np.array_split(order, n_bands)]
 
 
 def _crossings_of(

@@ -87,7 +87,7 @@ def hull_names(
     DecompositionError
         If the template cannot be filled in, or names are too long or not different.
     """
-    chosen = _template_of(naming) or template
+    chosen = _template_of(naming, template)
     try:
         wide = _widest_field(chosen) > _LONGEST
         names = [
@@ -130,16 +130,16 @@ def name_of_kind(
     str
         The former name if `hull_names` does not give it.
     """
-    chosen = _template_of(naming) or template
+    chosen = _template_of(naming, template)
     for n in range(1, _MOST_NUMBERS):
         if _filled(chosen, name, n, kinds[0]) == former:
             return _filled(chosen, name, n, kinds[1])
     return former
 
 
-def _template_of(naming: str) -> str:
-    """Return the pattern of a naming, empty if the user gives it."""
-    return next(each.template for each in NAMINGS if each.identifier == naming)
+def _template_of(naming: str, template: str) -> str:
+    """Return the pattern of a naming, which may be the user's template."""
+    return next(n.template for n in NAMINGS if n.identifier == naming) or template
 
 
 def _filled(template: str, name: str, n: int, kind: str) -> str:

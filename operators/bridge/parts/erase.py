@@ -66,7 +66,9 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     restore = read_restore(mesh)
     if restore is None:
         return []
-    labels = part_labels(obj)
+    # On large meshes it takes long to read the parts, and few have face sets of them.
+    has_face_sets = FACE_SET_LAYER in mesh.attributes
+    labels = part_labels(obj) if has_face_sets else None
     _erase_groups(obj, restore)
     layers = layers_of(obj)
     materials = [*take_out_of_slots(obj, restore), *drop_kept(mesh)]
