@@ -1,6 +1,7 @@
 """Costs by which cuts and joints are compared: errors of hulls and added volume.
 
-Errors alone cannot tell a tight hull from one that fills a thin gap.
+Errors alone cannot tell a tight hull from one that fills a thin gap. Of cuts that are
+equally good otherwise, the smallest costs least.
 """
 
 from __future__ import annotations
@@ -10,23 +11,29 @@ from typing import Any
 import numpy as np
 
 from .convex_hull import hull_volume
+from .cutting.cell import Cell
 from .measure.estimate import volume_error
 from .piece import Piece
 
 # Cost of hulls that add as much volume as the whole solid has, in units of error.
 _PRICE = 1.0
+# Cost of a cut as large as the surface of the solid.
+_PRICE_OF_CUT = 0.2
 # The error of a joint costs (error / _LARGE) ** _POWER. The largest error of all hulls
 # is the one that counts, so small errors cost almost nothing.
 _LARGE = 0.07
 _POWER = 4
+# Norm of the errors of both sides of a cut. By a higher one, cuts through the middle of
+# a gap seem better than those beside it, which leave one side convex.
+_NORM = 1.75
 
 
-def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
+def cost_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
     """Return the cost of the hulls of both sides of a cut.
 
     Parameters
     ----------
-    one, other : Piece
+    one, other : Cell
         The two sides.
     solid_volume : float
         Volume of the whole solid.
@@ -34,13 +41,13 @@ def cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
     Returns
     -------
     float
-        Root of the sum of both squared errors, plus the price of the added volume.
+        A norm of both errors, plus the price of the added volume and of the cut.
     """
-    errors = np.hypot(one.error, other.error)
+    errors = np.linalg.norm((one.error, other.error), _NORM)
     return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 
-def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
+def least_cost_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
     """Return a lower bound of `cost_of_sides`, found from volumes and depths.
 
     The other term of the errors, how far points on the hulls are from the surface,
@@ -48,7 +55,7 @@ def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
 
     Parameters
     ----------
-    one, other : Piece
+    one, other : Cell
         The two sides.
     solid_volume : float
         Volume of the whole solid.
@@ -57,7 +64,7 @@ def least_cost_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
     -------
     float
     """
-    errors = np.hypot(one.least_error, other.least_error)
+    errors = np.linalg.norm((one.least_error, other.least_error), _NORM)
     return _rounded(errors + _price_of_sides(one, other, solid_volume))
 
 
@@ -123,10 +130,11 @@ def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
     return _rounded((error / _LARGE) ** _POWER + _price(added, solid_volume))
 
 
-def _price_of_sides(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return the price of the volume that the hulls of both sides of a cut add."""
+def _price_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
+    """Return the price of the volume that both hulls add, and of the faces of cuts."""
     added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
-    return _price(added, solid_volume)
+    cuts = one.cut_share + other.cut_share
+    return _price(added, solid_volume) + _PRICE_OF_CUT * cuts / 2
 
 
 def _price(added: float, solid_volume: float) -> float:

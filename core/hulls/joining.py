@@ -27,9 +27,9 @@ Joints = dict[tuple[Piece, Piece], Piece]
 
 
 def join_pieces(
-    pieces: Sequence[Piece], max_error: float, max_pieces: int, known: Joints
+    pieces: Sequence[Piece], max_pieces: int, known: Joints, close: bool
 ) -> Steps[list[Piece]]:
-    """Join neighbors whose common error is small, and more if there are too many.
+    """Join neighbors, if there are too many pieces or if they are close as one.
 
     The pair of lowest cost is joined first. Pieces that are no neighbors are joined
     only if there are still more than `max_pieces`.
@@ -37,28 +37,28 @@ def join_pieces(
     Parameters
     ----------
     pieces : sequence of Piece
-    max_error : float
-        Largest error of a joined piece; exceeded while there are too many pieces.
     max_pieces : int
         Largest number of pieces to return.
     known : dict
         Joined pieces of pairs that were tried before, and from now on.
+    close : bool
+        Whether neighbors are joined, too, whose common error is allowed.
 
     Returns
     -------
     Steps of list of Piece
     """
-    joined = yield from _join(pieces, max_error, max_pieces, known, _touch)
+    joined = yield from _join(pieces, max_pieces, known, close, _touch)
     if len(joined) > max_pieces:
-        joined = yield from _join(joined, 0.0, max_pieces, known, lambda *_: True)
+        joined = yield from _join(joined, max_pieces, known, False, lambda *_: True)
     return joined
 
 
 def _join(
     pieces: Sequence[Piece],
-    max_error: float,
     max_pieces: int,
     known: Joints,
+    close: bool,
     may: Callable[[Piece, Piece], bool],
 ) -> Steps[list[Piece]]:
     """Join the pairs of pieces that `may` allows, the cheapest first."""
@@ -69,7 +69,7 @@ def _join(
         _add(piece, len(alive), alive, queue, may, solid_volume)
         yield Progress("Joining", 0.0)
     for number in count(len(pieces)):
-        steps = _next_joint(alive, queue, max_error, max_pieces, known, solid_volume)
+        steps = _next_joint(alive, queue, max_pieces, known, close, solid_volume)
         found = yield from within(steps, 1 - len(alive) / (len(pieces) + 1), 1.0)
         if found is None:
             break
@@ -98,9 +98,9 @@ def _add(
 def _next_joint(
     alive: dict[int, Piece],
     queue: list[_Joint],
-    max_error: float,
     max_pieces: int,
     known: Joints,
+    close: bool,
     solid_volume: float,
 ) -> Steps[tuple[int, int, Piece] | None]:
     """Return the numbers of the two pieces to join next, and the joined piece.
@@ -118,9 +118,9 @@ def _next_joint(
             yield Progress("Joining", 0.0)
             pair = alive[one], alive[other]
             joint = known[pair] = known.get(pair) or join(*pair)
-            seems_close = _seems_within(joint, max_error)
-            error = joint.error if seems_close else joint.least_error
-        elif _seems_within(joint, max_error) and joint.is_close:
+            may_be_close = close and joint.may_be_close
+            error = joint.error if may_be_close else joint.least_error
+        elif close and joint.is_close:
             return one, other, joint
         elif len(alive) <= max_pieces:
             continue
@@ -130,17 +130,12 @@ def _next_joint(
             yield Progress("Joining", 0.0)
             next_cost = queue[0][0] if queue else np.inf
             limit = error_of_joint(joint, next_cost, solid_volume) * _BEYOND
-            limit = max(limit, max_error)
+            limit = max(limit, joint.fit.max_error if close else 0.0)
             error = joint.bound_up_to(limit)
             sure = error <= limit
         cost = cost_of_joint(joint, error, solid_volume)
         heapq.heappush(queue, (cost, one, other, joint, sure))
     return None
-
-
-def _seems_within(joint: Piece, max_error: float) -> bool:
-    """Return whether the estimated error of a piece is at most `max_error`."""
-    return joint.least_error <= max_error and joint.error <= max_error
 
 
 def _touch(one: Piece, other: Piece) -> bool:

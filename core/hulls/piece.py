@@ -86,10 +86,19 @@ class Piece:
         """An upper bound of the error, found when it is asked for."""
         return ErrorBound(self.solid, self.shape, self.hull, self.fit.max_error)
 
+    @property
+    def may_be_close(self) -> bool:
+        """Whether the error may be within the largest one allowed, by its estimate.
+
+        The estimate may be too large by the distance between samples.
+        """
+        most = self.fit.max_error + self.solid.spacing
+        return self.least_error <= most and self.error <= most
+
     @cached_property
     def is_close(self) -> bool:
         """Whether the error of the shape is surely within the largest one allowed."""
-        return self.error <= self.fit.max_error and self._bound.is_allowed
+        return self.may_be_close and self._bound.is_allowed
 
     @property
     def known_error(self) -> float:

@@ -89,7 +89,7 @@ def _run(
     out = sys.stderr if report_is_printed else sys.stdout
     screen = Screen(out, sys.stderr, request.quiet)
     results: list[InputResult] = []
-    interrupted = False
+    attempts, interrupted = Attempts(screen), False
     try:
         run(load_libraries())
         for result in _decompose_files(request, screen):
@@ -101,12 +101,11 @@ def _run(
     except KeyboardInterrupt:
         screen.error("Interrupted.")
         interrupted = True
-    left = request.inputs[len(results) :]
-    attempts = Attempts(screen)
-    attempts.written(
-        request.report,
-        lambda file: save_report(file, results, request, left),
-    )
+    finally:  # an unforeseen error, too, leaves a report of what was done
+        left = request.inputs[len(results) :]
+        attempts.written(
+            request.report, lambda file: save_report(file, results, request, left)
+        )
     failed = attempts.errors or any(result.failed for result in results)
     return _INTERRUPTED if interrupted else _FAILED if failed else 0
 

@@ -36,6 +36,11 @@ class Cell(Piece):
     volumes: NDArray[np.float64]
     planes: NDArray[np.float64]
 
+    @property
+    def cut_share(self) -> float:
+        """About the area of the faces that cuts made, over that of the solid."""
+        return float(np.count_nonzero(~self.on_surface)) / len(self.solid.samples)
+
     @cached_property
     def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The lines in which two of the planes meet, see `lines_of`."""

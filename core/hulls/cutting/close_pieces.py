@@ -57,7 +57,7 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
         room, rest = most_cells - len(pieces), 1 - share
         cutting, joining = share + 0.7 * rest, share + 0.8 * rest
         pieces += yield from within(_cut_until_close(far, room), share, cutting)
-        joined = join_pieces(pieces, fit.max_error, most, joints)
+        joined = join_pieces(pieces, most, joints, True)
         pieces = yield from within(joined, cutting, joining)
         share = joining
         cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
@@ -88,9 +88,10 @@ def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     while left and (count := len(left) + len(done)) < most:
         share = count / most
         far: list[Cell] = []
-        for one in left:  # by estimates: bounds take far longer
+        for one in left:  # by estimates, where they tell: bounds take far longer
             yield Progress("Cutting", share)
-            far += [one] if one.known_error > largest else []
+            is_far = one.known_error > largest and not one.is_close
+            far += [one] if is_far else []
         if not far:
             return done + left
         worst = max(far, key=lambda one: round(one.error, 6))
@@ -113,8 +114,8 @@ def _worthwhile(
     pieces: dict[Cell, list[Cell]] = {}
     for cell, sides in reversed(sides_of.items()):
         small = [one for side in sides for one in pieces.get(side, [side])]
-        error = max(one.known_error for one in small)
-        in_vain = _is_convex(cell) and error > _LOWER * cell.known_error
+        error = max(one.error for one in small)  # bounds would be no fair comparison
+        in_vain = _is_convex(cell) and error > _LOWER * cell.error
         pieces[cell] = [cell] if in_vain else small
     return [one for cell in cells for one in pieces.get(cell, [cell])]
 

@@ -26,6 +26,10 @@ _POINTS_IN_LEVEL = 4
 _LEVEL_DIGITS = 5
 # Largest number of levels tried around one plane.
 _MOST_LEVELS = 6
+# Flat faces have at least this share of a piece's points. Planes beside one rank as if
+# both hulls added less by a share of the solid's volume: estimates are no sharper, and
+# such planes may divide blocks exactly.
+_FLAT_FACE, _BONUS = 0.01, 3e-3
 # Distance of planes above and below a level, so that its faces are all on one side.
 _SKIM = 1e-5
 # Largest number of boundary points that planes are compared by.
@@ -72,7 +76,9 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         others = np.sort(np.concatenate(steps))
         offsets = np.concatenate([offsets, others])
         planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
-        added += [first, ordered.added_volumes(heights, chords, others)]
+        second = ordered.added_volumes(heights, chords, others)
+        second[_are_flush(others, near, heights)] -= _BONUS * cell.solid.volume
+        added += [first, second]
         # By how much planes shorten the longer side, as a square: ties end so.
         gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
@@ -171,12 +177,26 @@ def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
     return levels[counts >= _POINTS_IN_LEVEL]
 
 
+def _are_flush(
+    offsets: NDArray[np.float64],
+    levels: NDArray[np.float64],
+    heights: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """Return which planes are beside a level with a flat face.
+
+    `heights` are those of points spread over the surface, ascending.
+    """
+    ends = np.searchsorted(heights, [levels - 2 * _SKIM, levels + 2 * _SKIM])
+    flat = levels[np.diff(ends, axis=0)[0] >= _FLAT_FACE * len(heights)]
+    return np.isin(offsets, np.concatenate([flat - _SKIM, flat + _SKIM]))
+
+
 def _directions(cell: Cell) -> NDArray[np.float64]:
     """Return the normals of planes to try: coordinate and principal axes, (D, 3).
 
     Planes along the seams of weakly convex parts measured worse as first cuts.
     """
-    own = principal_axes(cell.boundary)
+    own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
     found: list[NDArray[np.float64]] = []
     for direction in (*np.eye(3), *own):
         if all(abs(direction @ other) < _SAME for other in found):

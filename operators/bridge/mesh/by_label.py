@@ -20,6 +20,7 @@ from .known import (
     corner_vertices,
     face_areas,
     face_centers,
+    finite,
     latest_of,
 )
 from .points import is_cloud, vertices_now
@@ -120,8 +121,8 @@ def sums_by_label(
     if is_cloud(obj) or not obj.data.is_editmode:
         return run(_sums(labels, n_labels, *_areas_and_centers(obj)))
     faces = bmesh.from_edit_mesh(obj.data).faces
-    areas = np.array([face.calc_area() for face in faces])
-    centers = np.array([face.calc_center_median() for face in faces])
+    areas = finite(np.array([face.calc_area() for face in faces]))
+    centers = finite(np.array([face.calc_center_median() for face in faces]))
     return run(_sums(labels, n_labels, areas, centers))
 
 

@@ -189,9 +189,19 @@ def vertex_positions(mesh: bpy.types.Mesh) -> FloatArray:
     return read_floats(places.data, "vector", 3)  # a hundred times faster
 
 
+def finite(figures: FloatArray) -> FloatArray:
+    """Return figures with 0 for what single precision cannot hold.
+
+    The areas of faces longer than some 1e10 cannot be held.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        known = np.isfinite(figures.sum())  # quicker than to ask each
+    return figures if known else np.nan_to_num(figures, posinf=0.0, neginf=0.0)
+
+
 # What takes a while for a large mesh, by the names under which it is kept.
 SLOW: dict[str, Callable[[bpy.types.Mesh], NDArray[Any]]] = {
-    "areas": lambda mesh: read_floats(mesh.polygons, "area"),
-    "centers": lambda mesh: read_floats(mesh.polygons, "center", 3),
+    "areas": lambda mesh: finite(read_floats(mesh.polygons, "area")),
+    "centers": lambda mesh: finite(read_floats(mesh.polygons, "center", 3)),
     "corner_faces": _corner_faces,
 }

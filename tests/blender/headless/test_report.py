@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from checkout import ROOT
 from mathutils import Euler, Matrix, Quaternion, Vector
+from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
+from weak_convex_decomposition.operators.headless import command_line
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.run.memory import peak_memory
 from weak_convex_decomposition.operators.headless.run.stages import (
@@ -133,6 +135,38 @@ def test_what_fails_is_told_and_the_rest_is_done(tmp_path, capfd):
     assert len(by_name["Box"]["hulls"]["hulls"]) == 1
     errors = re.findall("^error: .*$", capfd.readouterr().err, re.M)
     assert len(errors) == 2
+
+
+def test_an_unforeseen_error_leaves_a_report_of_what_was_done(tmp_path, monkeypatch):
+    path = save(tmp_path, block("Box"))
+    other = path.with_name("other.blend")
+    other.write_bytes(path.read_bytes())
+    decompose_file = command_line.decompose_file
+
+    def fail_for_other(path, *more):
+        return 1 / 0 if path == other else decompose_file(path, *more)
+
+    monkeypatch.setattr(command_line, "decompose_file", fail_for_other)
+    report = tmp_path / "report.json"
+    words = [str(path), str(other), "--hulls", str(tmp_path / "{name}.glb"), *QUICK]
+    with pytest.raises(ZeroDivisionError):
+        main([*words, "--report", str(report)])
+    told = json.loads(report.read_text(encoding="utf-8"))
+    jsonschema.validate(told, SCHEMA)
+    assert told["interrupted"]
+    assert len(told["inputs"][0]["objects"][0]["hulls"]["hulls"]) == 1
+
+
+@pytest.mark.parametrize("size", [1e10, 1e20, 1e38])
+def test_shapes_too_large_for_areas_in_single_precision(tmp_path, size):
+    path = save(tmp_path, block("L", (size, size, size), l_shaped=True))
+    words = [path, "--output", tmp_path / "o.blend", "--hulls", tmp_path / "h.glb"]
+    (entry,) = reported(tmp_path, *words, *QUICK)["inputs"]
+    (found,) = entry["objects"]
+    assert len(found["parts"]) == 2
+    assert all(hull["error"] <= 0.05 for hull in found["hulls"]["hulls"])
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "o.blend"))
+    assert figures_of(bpy.data.objects["L"]).problem is None
 
 
 PLACES = {

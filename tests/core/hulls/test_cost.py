@@ -54,8 +54,22 @@ def test_what_hulls_add_costs_its_share_of_the_solid(sides):
         assert dearer == pytest.approx(added / volume, abs=1e-5)
 
 
-def test_nothing_is_dear_where_the_solid_has_no_volume(sides):
+def test_volumes_cost_nothing_where_the_solid_has_none(sides):
     (one, other), *_ = sides[0]
-    assert cost_of_sides(one, other, 0.0) == pytest.approx(
-        np.hypot(one.error, other.error), abs=1e-6
-    )
+    cost = cost_of_sides(one, other, 0.0)
+    assert max(one.error, other.error) < cost
+    assert cost < one.error + other.error + one.cut_share + other.cut_share
+
+
+def test_a_smaller_cut_costs_less():
+    """Legs come off a top below it, where they are thin, not along their sides."""
+    solid = run(solid_of(changes.moved(shapes.l_prism(3.0), scale=0.25), 0))
+    low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
+    piece, middle = whole(solid, Fit(HullParameters(), 1.0, 0.05)), (low + high) / 2
+    shares = [
+        sum(side.cut_share for side in cut(piece, np.append(normal, -normal @ middle)))
+        for normal in np.eye(3)
+    ]
+    across = int((high - low).argmax())
+    assert min(shares) > 0
+    assert shares[across] == min(shares)

@@ -15,15 +15,20 @@ from weak_convex_decomposition.core.parameters.hulls import HullParameters
         (shapes.plus, 3),
         (shapes.dumbbell, 3),
         (shapes.table, 5),
+        (shapes.comb, 5),
     ],
-    ids=["L", "L prism", "U", "plus", "dumbbell", "table"],
+    ids=["L", "L prism", "U", "plus", "dumbbell", "table", "comb"],
 )
-def test_blocks_get_no_more_hulls_than_they_need(make, fewest):
-    assert build_hulls(make(), HullParameters()).n_hulls == fewest
+@pytest.mark.parametrize("max_error", [0.05, 0.02, 0.01])
+def test_blocks_get_no_more_hulls_than_they_need(make, fewest, max_error):
+    found = build_hulls(make(), HullParameters(max_error=max_error))
+    assert found.n_hulls == fewest
+    assert found.errors.max() <= max_error
+    assert found.volume_ratio == pytest.approx(1, abs=0.005)
 
 
 def test_where_no_cut_helps_the_note_says_so():
-    found = build_hulls(shapes.l_prism(3.0), HullParameters(max_error=0.001))
+    found = build_hulls(shapes.u_shape(), HullParameters(max_error=0.001))
     assert found.n_hulls < HullParameters().max_hulls
     assert found.errors.max() > 0.001
     (note,) = found.notes
