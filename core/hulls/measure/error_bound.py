@@ -172,6 +172,9 @@ def _distances(
     low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
     # A way from inside to a point outside crosses the surface, if through no hole, and
     # all of the way from the center to there is inside.
+    if complete:
+        unsure = hard[radii[hard] - at_least[hard] > level]
+        at_least[unsure] = targets.nearest(centers[unsure])
     beyond = radii[hard] - (at_least[hard] if complete else 0.0)
     beyond = np.clip(beyond, 0.0, high[hard])
     asked = beyond <= level

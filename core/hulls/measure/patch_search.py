@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 
 from .fragments import edge_lengths, halved
 
-# Patches left over in one round; with more, their bounds stand as they are.
+# Patches looked at in one round; with more to halve, the highest ones go first.
 _MOST_PATCHES = 60_000
+# With so many patches in all, bounds stand as they are.
+_MOST_IN_ALL = 240_000
 # Fewer patches are halved again before they are looked at, so many times more: a round
 # takes as long for one as for some hundreds.
 _FEW_PATCHES, _HALVINGS = 400, 2
@@ -72,17 +74,38 @@ class PatchSearch:
         """
         while True:
             level = max(min(self._reached * (1 + tolerance), limit), enough)
-            far = self._high > level
-            unsure = far.any() and self._reached <= limit
-            if not unsure or far.sum() > _MOST_PATCHES:
-                return max(self._reached, float(self._high.max(initial=0.0)))
-            corners = _smaller(self._corners[far], self._high[far])
+            rows = self._next_rows(level)
+            if len(rows) == 0 or self._reached > limit:
+                return self._bound
+            corners = _smaller(self._corners[rows], self._high[rows])
             low, high = bounds_of(corners, level)
             if low.max() > max(self._reached, enough):
                 self.place = corners[[low.argmax()]].mean(axis=1)
             self._reached = max(self._reached, float(low.max()))
-            self._corners = np.concatenate([self._corners[~far], corners])
-            self._high = np.concatenate([self._high[~far], high])
+            rest = np.delete(np.arange(len(self._high)), rows)
+            self._corners = np.concatenate([self._corners[rest], corners])
+            self._high = np.concatenate([self._high[rest], high])
+
+    @property
+    def _bound(self) -> float:
+        """No value is surely larger, if all patches were looked at once."""
+        known = self._high[np.isfinite(self._high)]
+        return max(self._reached, float(known.max(initial=0.0)))
+
+    def _next_rows(self, level: float) -> NDArray[np.int64]:
+        """Return the rows of patches to look at next, so that none is above a level.
+
+        First those that nothing is known of. Then all that are above the level, or the
+        highest ones if these are too many. None if there are too many patches in all.
+        """
+        new = np.flatnonzero(np.isinf(self._high))[:_MOST_PATCHES]
+        if len(new):
+            return new
+        far = self._high > level
+        if far.sum() > _MOST_PATCHES:
+            far = self._high > self._high.max() / 2
+        rows = np.flatnonzero(far)
+        return rows if len(rows) + len(self._high) <= _MOST_IN_ALL else rows[:0]
 
 
 def _smaller(

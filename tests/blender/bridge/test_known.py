@@ -67,6 +67,20 @@ def test_figures_are_of_the_mesh_that_is_written_to(suzanne, mesh):
     assert figures_of(suzanne).problem is None
 
 
+@pytest.mark.parametrize("size", [1e10, 1e20, 1e38])
+def test_parts_of_what_is_too_large_for_areas(size):
+    """Single precision does not hold them."""
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    corners = read_floats(obj.data.vertices, "co", 3) * np.float32(size)
+    obj.data.vertices.foreach_set("co", corners.ravel())
+    obj.data.update()
+    assert np.isfinite(known.face_areas(obj.data)).all()
+    assert np.isfinite(known.face_centers(obj.data)).all()
+    write_parts(obj, decomposition_of(np.arange(6) % 2), Parameters())
+    assert figures_of(obj).problem is None
+
+
 def quads_mesh(seed, offset=0.0, scale=1.0, wild=False):
     """Make quads, dented ones among them, a triangle and a pentagon; or any quads."""
     rng = np.random.default_rng(seed)

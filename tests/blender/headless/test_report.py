@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from checkout import ROOT
 from mathutils import Euler, Matrix, Quaternion, Vector
-from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.headless import command_line
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.run.memory import peak_memory
@@ -155,18 +154,6 @@ def test_an_unforeseen_error_leaves_a_report_of_what_was_done(tmp_path, monkeypa
     jsonschema.validate(told, SCHEMA)
     assert told["interrupted"]
     assert len(told["inputs"][0]["objects"][0]["hulls"]["hulls"]) == 1
-
-
-@pytest.mark.parametrize("size", [1e10, 1e20, 1e38])
-def test_shapes_too_large_for_areas_in_single_precision(tmp_path, size):
-    path = save(tmp_path, block("L", (size, size, size), l_shaped=True))
-    words = [path, "--output", tmp_path / "o.blend", "--hulls", tmp_path / "h.glb"]
-    (entry,) = reported(tmp_path, *words, *QUICK)["inputs"]
-    (found,) = entry["objects"]
-    assert len(found["parts"]) == 2
-    assert all(hull["error"] <= 0.05 for hull in found["hulls"]["hulls"])
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "o.blend"))
-    assert figures_of(bpy.data.objects["L"]).problem is None
 
 
 PLACES = {

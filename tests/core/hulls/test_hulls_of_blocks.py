@@ -28,7 +28,7 @@ def test_blocks_get_no_more_hulls_than_they_need(make, fewest, max_error):
 
 
 def test_where_no_cut_helps_the_note_says_so():
-    found = build_hulls(shapes.u_shape(), HullParameters(max_error=0.001))
+    found = build_hulls(shapes.chair(), HullParameters(max_error=0.001))
     assert found.n_hulls < HullParameters().max_hulls
     assert found.errors.max() > 0.001
     (note,) = found.notes

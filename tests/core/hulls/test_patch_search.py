@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from weak_convex_decomposition.core.hulls.measure import patch_search
 from weak_convex_decomposition.core.hulls.measure.fragments import reach_of
 from weak_convex_decomposition.core.hulls.measure.patch_search import PatchSearch
 
@@ -64,3 +65,19 @@ def test_a_search_goes_on_where_it_ended():
 
 def test_nothing_has_no_value():
     assert PatchSearch(np.zeros((0, 3, 3))).largest(Hill(), 0.1, np.inf, 0.03) == 0
+
+
+def test_more_patches_than_a_round_looks_at_still_have_a_bound(monkeypatch):
+    """Those that nothing is known of come first, then the highest ones."""
+    monkeypatch.setattr(patch_search, "_MOST_PATCHES", 3)
+    search, hill = PatchSearch(np.repeat(SQUARE.astype(np.float64), 5, axis=0)), Hill()
+    bound = search.largest(hill, 0.1, np.inf, 0.01)
+    assert hill.looked_at > 10
+    assert 1 <= bound <= 1.01
+
+
+def test_with_too_many_patches_in_all_bounds_stand_as_they_are(monkeypatch):
+    monkeypatch.setattr(patch_search, "_MOST_IN_ALL", 40)
+    hill = Hill()
+    assert 1.01 < searched().largest(hill, 0.1, np.inf, 0.01) < 2
+    assert hill.looked_at < 2000
