@@ -177,7 +177,7 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
         start = [
             piece_of_part(solid, fit.of_part(k), parts == k) for k in np.unique(parts)
         ]
-        return (yield from join_pieces(start, most, {}, False))
+        return (yield from join_pieces(start, most, {}, close=False))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
     return (yield from close_pieces(whole(solid, fit), most))

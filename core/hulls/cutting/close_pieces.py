@@ -57,7 +57,7 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
         room, rest = most_cells - len(pieces), 1 - share
         cutting, joining = share + 0.7 * rest, share + 0.8 * rest
         pieces += yield from within(_cut_until_close(far, room), share, cutting)
-        joined = join_pieces(pieces, most, joints, True)
+        joined = join_pieces(pieces, most, joints, close=True)
         pieces = yield from within(joined, cutting, joining)
         share = joining
         cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]

@@ -170,17 +170,20 @@ def _distances(
     at_least, nearest, at_most = targets.distances(corners, centers)
     high = np.minimum(at_most, nearest + radii)
     low, hard = np.zeros(len(centers)), np.flatnonzero(high > level)
-    # A way from inside to a point outside crosses the surface, if through no hole, and
-    # all of the way from the center to there is inside.
+    is_exact = np.zeros(len(centers), dtype=bool)
     if complete:
         unsure = hard[radii[hard] - at_least[hard] > level]
-        at_least[unsure] = targets.nearest(centers[unsure])
+        at_least[unsure], is_exact[unsure] = targets.nearest(centers[unsure]), True
+    # A way from inside to a point outside crosses the surface, if through no hole, and
+    # all of the way from the center to there is inside.
     beyond = radii[hard] - (at_least[hard] if complete else 0.0)
     beyond = np.clip(beyond, 0.0, high[hard])
     asked = beyond <= level
     inside, whole = solid.inside.holds_patches(centers[hard], radii[hard], asked)
     high[hard[whole]] = beyond[whole]
     outside = hard[~inside]
-    low[outside] = targets.nearest(centers[outside])
+    rest = outside[~is_exact[outside]]
+    at_least[rest] = targets.nearest(centers[rest])
+    low[outside] = at_least[outside]
     high[outside] = np.minimum(high[outside], low[outside] + radii[outside])
     return low, high

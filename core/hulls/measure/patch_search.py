@@ -82,9 +82,9 @@ class PatchSearch:
             if low.max() > max(self._reached, enough):
                 self.place = corners[[low.argmax()]].mean(axis=1)
             self._reached = max(self._reached, float(low.max()))
-            rest = np.delete(np.arange(len(self._high)), rows)
-            self._corners = np.concatenate([self._corners[rest], corners])
-            self._high = np.concatenate([self._high[rest], high])
+            others = np.delete(self._corners, rows, axis=0)
+            self._corners = np.concatenate([others, corners])
+            self._high = np.concatenate([np.delete(self._high, rows), high])
 
     @property
     def _bound(self) -> float:
