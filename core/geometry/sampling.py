@@ -222,8 +222,8 @@ def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
     return codes
 
 
-def single(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the points that occur once only, in an order of their own.
+def single(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the rows of the points that occur once only, in an order of their own.
 
     Parameters
     ----------
@@ -231,12 +231,10 @@ def single(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
     Returns
     -------
-    (M, 3) float
+    (M,) int
     """
-    if len(points) == 0:
-        return points
     # The same points have the same key; to sort by all coordinates takes longer.
     x, y, z = points.T
-    points = points[np.argsort(x + np.sqrt(2) * y + np.sqrt(3) * z)]
-    same = (points[1:] == points[:-1]).all(axis=1)
-    return points[~(np.r_[False, same] | np.r_[same, False])]
+    order = np.argsort(x + np.sqrt(2) * y + np.sqrt(3) * z)
+    same = (points[order[1:]] == points[order[:-1]]).all(axis=1)
+    return order[~(np.r_[False, same] | np.r_[same, False])[: len(points)]]

@@ -90,6 +90,11 @@ class Fit:
             return _as_shape(offset(hull, self.margin))
         return _grown(roughly_around(hull, kind), self.margin)
 
+    def is_sharp(self, hull: Hull) -> bool:
+        """Return whether `rough_shape` is `shape`, but for what simplifying removes."""
+        kind, most = self.parameters.shape, self.parameters.max_vertices
+        return kind == "HULL" and len(hull.vertices) <= most
+
 
 def fit_for(
     mesh: TriangleMesh,

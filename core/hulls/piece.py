@@ -30,6 +30,8 @@ class Piece:
         Points with the same convex hull as the piece.
     boundary : (N, 3) float
         Samples of the surface in the piece, and of the faces that cuts made.
+    on_surface : (N,) bool
+        Which of these samples are on the surface.
     volume : float
         Volume of the solid in the piece.
     solid : Solid
@@ -42,6 +44,7 @@ class Piece:
 
     points: NDArray[np.float64]
     boundary: NDArray[np.float64]
+    on_surface: NDArray[np.bool_]
     volume: float
     solid: Solid
     fit: Fit
@@ -90,10 +93,19 @@ class Piece:
     def may_be_close(self) -> bool:
         """Whether the error may be within the largest one allowed, by its estimate.
 
-        The estimate may be too large by the distance between samples.
+        The estimate may be too large by the distance between samples. Samples of the
+        surface itself that are too deep leave no doubt.
         """
         most = self.fit.max_error + self.solid.spacing
-        return self.least_error <= most and self.error <= most
+        return self.least_error <= most and not self._is_deep and self.error <= most
+
+    @cached_property
+    def _is_deep(self) -> bool:
+        """Whether samples of the surface are surely deeper than what is allowed."""
+        if not self.fit.is_sharp(self.hull):
+            return False
+        depth = estimated_depth(self.rough_shape, self.boundary[self.on_surface])
+        return depth > self.fit.max_error + THIN
 
     @cached_property
     def is_close(self) -> bool:
@@ -141,6 +153,7 @@ def piece_of_part(solid: Solid, fit: Fit, chosen: NDArray[np.bool_]) -> Piece:
     return Piece(
         solid.corners[chosen].reshape(-1, 3),
         solid.samples[samples],
+        np.ones(np.count_nonzero(samples), dtype=bool),
         float(solid.volumes[samples[nearest]].sum()) if len(solid.chords) else 0.0,
         solid,
         fit,
@@ -155,9 +168,12 @@ def join(one: Piece, other: Piece) -> Piece:
     ----------
     one, other : Piece
     """
+    boundary = np.concatenate([one.boundary, other.boundary])
+    once = single(boundary)
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
-        single(np.concatenate([one.boundary, other.boundary])),
+        boundary[once],
+        np.concatenate([one.on_surface, other.on_surface])[once],
         one.volume + other.volume,
         one.solid,
         one.fit,

@@ -21,8 +21,6 @@ class Cell(Piece):
 
     Attributes
     ----------
-    on_surface : (N,) bool
-        Which samples of `boundary` are on the surface, not on the face of a cut.
     chords : (C, 3) float
         Centers of the chords in the piece.
     volumes : (C,) float
@@ -31,7 +29,6 @@ class Cell(Piece):
         Unit normal n and offset d of each plane: n · x + d ≤ 0 in the piece.
     """
 
-    on_surface: NDArray[np.bool_]
     chords: NDArray[np.float64]
     volumes: NDArray[np.float64]
     planes: NDArray[np.float64]
@@ -58,11 +55,11 @@ def whole(solid: Solid, fit: Fit) -> Cell:
     return Cell(
         solid.vertices,
         solid.samples,
+        np.ones(len(solid.samples), dtype=bool),
         solid.volume,
         solid,
         fit,
         np.zeros((0, 3)),
-        np.ones(len(solid.samples), dtype=bool),
         solid.chords,
         solid.volumes,
         np.zeros((0, 4)),
@@ -111,11 +108,11 @@ def _side(
     return Cell(
         np.concatenate([cell.points[points], rim]),
         np.concatenate([cell.boundary[boundary], face]),
+        np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
         float(cell.volumes[chords].sum()),
         cell.solid,
         cell.fit,
         cell.all_witnesses,
-        np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
         cell.chords[chords],
         cell.volumes[chords],
         np.concatenate([cell.planes, plane[None]]),

@@ -18,8 +18,8 @@ CUBE = solid_of(shapes.box((-1, -1, -1), (1, 1, 1)), 0)
 PLANES = [np.array([*normal, 0.1]) for normal in np.eye(3)]
 
 
-def cell_of(solid):
-    return whole(solid, Fit(HullParameters(), 1.0, 0.05))
+def cell_of(solid, max_error=0.05, **parameters):
+    return whole(solid, Fit(HullParameters(**parameters), 1.0, max_error))
 
 
 def test_a_corner_inside_the_solid_is_kept():
@@ -49,6 +49,20 @@ def test_both_sides_make_up_the_whole():
 def test_the_error_of_a_convex_piece_is_small():
     assert cell_of(CUBE).error < 0.05
     assert cell_of(solid_of(shapes.sphere(3), 0)).error < 0.05
+
+
+def test_what_is_too_deep_needs_no_bound():
+    blocks = ((0, 20), (0, 20), (0, 17)), ((0, 8), (0, 20), (17, 20))
+    groove = shapes.blocks((20, 20, 20), *blocks, ((12, 20), (0, 20), (17, 20)))
+    solid = solid_of(changes.moved(groove, scale=0.1), 0)
+    assert solid.spacing > 0.02  # so that by estimates the error may be allowed
+    deep = cell_of(solid, max_error=0.28)
+    assert deep.error < 0.28 + solid.spacing
+    assert not deep.may_be_close
+    assert cell_of(solid, max_error=0.31).may_be_close
+    # The shape that is written may be smaller than the one that depths are told from.
+    for smaller in ({"shape": "BOX"}, {"max_vertices": 7}):
+        assert cell_of(solid, max_error=0.28, **smaller).may_be_close
 
 
 @pytest.mark.parametrize("depth", [0.2, 0.5, 0.8])
