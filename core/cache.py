@@ -1,14 +1,14 @@
-"""A cache of the latest shape: with other parameters, its parts are found quickly."""
+"""A cache of the latest shape, for other parameters, and of results of small shapes."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import fields
 from hashlib import blake2b
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from .geometry.mesh import TriangleMesh
-from .geometry.shape import Shape, are_equal
+from .geometry.shape import Shape, are_equal, digest_of, size_of
 from .parameters.parameter import info_of
 from .parameters.parts import Parameters
 from .parts.find import find_parts
@@ -18,11 +18,13 @@ from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_caster import MakeCaster
 from .sight.visibility import see_in_steps
 from .steps.memo import Memo
-from .steps.progress import Steps
+from .steps.progress import Steps, T
 
 # The visibility of so many parts is kept, if they took at most so many samples.
 _DETAILS = 24
 _FEW_SAMPLES = 500
+# Results are kept of shapes that are made of so many numbers at most.
+_SMALL = 500_000
 
 
 def no_rays(_: TriangleMesh) -> NoReturn:
@@ -45,6 +47,9 @@ class ShapeCache:
     ----------
     make_caster : callable
         Takes a `TriangleMesh` and returns a `RayCaster` for it.
+    n_results : int, optional
+        Most results of small shapes that are kept. Files have many objects of one
+        shape, each with a mesh of its own.
 
     Examples
     --------
@@ -59,15 +64,43 @@ class ShapeCache:
     (1, 2)
     """
 
-    def __init__(self, make_caster: MakeCaster) -> None:
-        self._make_caster = make_caster
+    def __init__(self, make_caster: MakeCaster, n_results: int = 0) -> None:
+        self._make_caster, self._n_results = make_caster, n_results
         self.forget()
 
     def forget(self) -> None:
         """Empty the cache, and so free its memory."""
+        self._results: Memo[Hashable, Any] = Memo(self._n_results)
+        self._forget_latest()
+
+    def _forget_latest(self) -> None:
+        """Forget the latest shape and all that was seen of it."""
         self._shape: tuple[Shape, PreparedShape] | None = None
         self._seen: tuple[Hashable, PartMemo] | None = None
         self._details: Memo[Hashable, PartMemo] = Memo(_DETAILS)
+
+    def recall(
+        self, shape: Shape, key: Hashable, make: Callable[[], Steps[T]]
+    ) -> Steps[T]:
+        """Return a result of a shape; that of an earlier, equal one if it is kept.
+
+        A result that was kept does not make its shape the latest.
+
+        Parameters
+        ----------
+        shape : TriangleMesh or PointCloud
+        key : hashable
+            What is asked for, and all else that it depends on.
+        make : callable
+            Returns the steps that compute the result.
+
+        Returns
+        -------
+        Steps of the result
+        """
+        if self._n_results == 0 or size_of(shape) > _SMALL:
+            return make()
+        return self._results.recall_steps((digest_of(shape), key), make)
 
     def prepare(self, shape: Shape) -> Steps[PreparedShape]:
         """Return the shape made ready for rays; the cached one if its content is equal.
@@ -89,7 +122,7 @@ class ShapeCache:
         """
         if self._shape is None or not are_equal(self._shape[0], shape):
             prepared = yield from prepare_in_steps(shape, self._make_caster)
-            self.forget()
+            self._forget_latest()
             self._shape = shape, prepared
         return self._shape[1]
 

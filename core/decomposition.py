@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from .parts.find import find_parts
 from .parts.pairs import mirror_pairs
 from .parts.part_memo import PartMemo
 from .results.parts import Decomposition
+from .steps.memo import digest
 from .steps.progress import Steps, within
 
 # Progress at the end of the stages surface, lines of sight and parts. With further
@@ -60,6 +62,21 @@ def decompose_in_steps(
     ----------
     Asafi, Goren and Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight".
     """
+    steps = partial(_decompose, shape, parameters, cache, members, rough)
+    if rough:  # it is as good as what is known
+        return (yield from steps())
+    key = "parts", parameters, None if members is None else digest(members)
+    return (yield from cache.recall(shape, key, steps))
+
+
+def _decompose(
+    shape: Shape,
+    parameters: Parameters,
+    cache: ShapeCache,
+    members: NDArray[np.bool_] | None,
+    rough: bool,
+) -> Steps[Decomposition]:
+    """Split a shape that is not known yet."""
     ready, seen, done = _ends_of_stages(parameters)
     # Section 5: replace points by splats, turn faces outwards, find shells.
     prepared = yield from within(cache.prepare(shape), 0.0, ready)

@@ -21,7 +21,7 @@ from .bridge.hulls.one_hull import (
 from .bridge.hulls.rigid_bodies import make_rigid
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, rigid_refusal
-from .bridge.work.computing import build_hulls_of, hull_summary
+from .bridge.work.computing_hulls import build_hulls_of, hull_summary
 from .running.computation import Computation
 from .running.on_objects import OnActive, OnEach
 from .settings import (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from ..geometry.shape import Shape
 from ..parameters.hulls import HullParameters
 from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
+from ..steps.memo import digest
 from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull, offset
 from .cutting.cell import whole
@@ -66,6 +68,23 @@ def build_hulls_in_steps(
     """
     if not isinstance(shape, TriangleMesh):
         raise DecompositionError("A cloud has no faces; give it a surface for hulls.")
+    rows = None if labels is None else digest(labels)
+    own = tuple(sorted((kinds or {}).items()))
+    key = "hulls", parameters, rows, seed, scene_unit, own
+    steps = partial(_build, shape, parameters, cache, labels, seed, scene_unit, kinds)
+    return (yield from cache.recall(shape, key, steps))
+
+
+def _build(
+    shape: TriangleMesh,
+    parameters: HullParameters,
+    cache: ShapeCache,
+    labels: NDArray[np.int64] | None,
+    seed: int,
+    scene_unit: float,
+    kinds: Mapping[int, str] | None,
+) -> Steps[HullDecomposition]:
+    """Put shapes around a mesh that is not known yet."""
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
     numbers, parts = _parts_of_triangles(shape, labels)
     fit, factor = fit_for(shape, parameters, scene_unit, numbers.tolist(), kinds)

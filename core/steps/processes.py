@@ -15,16 +15,20 @@ import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
 from ..errors import DecompositionError
+from .memo import Memo
 from .progress import Progress, Steps, T, run
 
 # More processes hardly help: one process writes what the others compute.
 _MOST = 8
 # Time between two reports of progress.
 _SECONDS = 0.05
+# So many answers are kept for equal calls.
+_ANSWERS = 256
 _PACKAGE = __name__.rpartition(".core.")[0]
 _ROOT = str(Path(__file__).resolve().parents[2])
 # What a process does. Inside Blender, the package is below others that Blender makes.
@@ -87,10 +91,13 @@ class Processes:
         self._starting = threading.Lock()
         self._started: list[subprocess.Popen[bytes]] = []
         self._left = count  # how many may still be started
+        self._answers: Memo[bytes, Future[Any]] = Memo(_ANSWERS)
         self._idle: queue.SimpleQueue[subprocess.Popen[bytes]] = queue.SimpleQueue()
 
     def steps(self, compute: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
         """Start a computation at once; return steps that wait for its value.
+
+        A call that equals one of the latest gets the same answer.
 
         Parameters
         ----------
@@ -108,7 +115,10 @@ class Processes:
         DecompositionError
             By the steps, if the computation raises it.
         """
-        answer = self._threads.submit(self._answer, compute, arguments)
+        call = pickle.dumps((compute, arguments), pickle.HIGHEST_PROTOCOL)
+        answer = self._answers.recall(
+            blake2b(call).digest(), lambda: self._threads.submit(self._answer, call)
+        )
         return _waiting(answer, compute, arguments)
 
     def close(self) -> None:
@@ -121,13 +131,13 @@ class Processes:
         for process in self._started:
             process.communicate()
 
-    def _answer(self, compute: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+    def _answer(self, call: bytes) -> Any:
         """Return the value and the error of a computation, None without an answer."""
         try:
             process = self._free()
             assert process.stdin is not None
             assert process.stdout is not None
-            pickle.dump((compute, arguments), process.stdin, pickle.HIGHEST_PROTOCOL)
+            process.stdin.write(call)
             process.stdin.flush()
             answer = pickle.load(process.stdout)
         except (OSError, EOFError, queue.Empty, pickle.UnpicklingError):

@@ -12,6 +12,7 @@ import bpy
 from ...core.errors import DecompositionError
 from ...core.steps.progress import run
 from ..bridge.work.libraries import load_libraries
+from ..bridge.work.session_cache import results_kept
 from .interrupts import Interrupts, interruptible
 from .report import save_report
 from .request.options import Request, parse
@@ -112,7 +113,7 @@ def _run(
 
 def _decompose_files(request: Request, screen: Screen) -> Iterator[InputResult]:
     """Decompose all inputs, one after the other; yield what became of each."""
-    with closing(EngineTrial()) as trial:
+    with closing(EngineTrial()) as trial, results_kept():
         if any(targets.picture for targets in request.targets):
             trial.start()  # it runs while the first input is decomposed
         for path, targets in zip(request.inputs, request.targets, strict=True):

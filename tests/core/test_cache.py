@@ -11,7 +11,7 @@ from computed import decompose
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
-from weak_convex_decomposition.core.geometry.shape import are_equal
+from weak_convex_decomposition.core.geometry.shape import are_equal, digest_of
 from weak_convex_decomposition.core.parameters.parameter import info_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
@@ -136,7 +136,35 @@ def test_clouds_with_other_normals_are_others():
     ]
     for one, other in combinations(clouds, 2):
         assert not are_equal(one, other)
-    assert all(are_equal(each, replace(each)) for each in clouds)
+        assert digest_of(one) != digest_of(other)
+    for each in clouds:
+        assert are_equal(each, replace(each))
+        assert digest_of(each) == digest_of(replace(each))
+
+
+def test_results_of_equal_shapes_are_kept_where_that_is_asked_for():
+    cache = ShapeCache(WatchedCaster, n_results=2)
+    first = run(decompose_in_steps(shapes.comb(), BEFORE, cache))
+    run(decompose_in_steps(shapes.l_shape(), BEFORE, cache))
+    assert run(decompose_in_steps(shapes.comb(), BEFORE, cache)) is first
+    assert not sees_anew(cache, shapes.comb())
+    assert sees_anew(cache, shapes.comb(), replace(BEFORE, seed=1))
+    run(decompose_in_steps(shapes.plus(), BEFORE, cache))
+    assert sees_anew(cache, shapes.comb())  # it was the third latest
+    chosen = np.arange(shapes.comb().n_polygons) % 2 == 0
+    some = run(decompose_in_steps(shapes.comb(), BEFORE, cache, chosen))
+    others = run(decompose_in_steps(shapes.comb(), BEFORE, cache, ~chosen))
+    assert some is not others
+    cache.forget()
+    assert sees_anew(cache, shapes.comb())
+
+
+def test_results_of_large_shapes_are_not_kept(monkeypatch):
+    monkeypatch.setattr("weak_convex_decomposition.core.cache._SMALL", 100)
+    cache = ShapeCache(WatchedCaster, n_results=2)
+    run(decompose_in_steps(shapes.comb(), BEFORE, cache))
+    run(decompose_in_steps(shapes.l_shape(), BEFORE, cache))
+    assert sees_anew(cache, shapes.comb())
 
 
 def test_forgotten_is_forgotten():

@@ -1,4 +1,4 @@
-"""Compute results for an object: decompose it, measure it, build hulls around it.
+"""Compute results for an object: decompose it, measure it, draw pictures of it.
 
 Each function checks and reads the object at once, and raises then if it cannot. It
 returns the computation as `Steps`, which give the result when they are run.
@@ -14,22 +14,17 @@ import numpy as np
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.shape import Shape
-from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
-from ....core.results.hulls import HullDecomposition
 from ....core.results.parts import Decomposition, Measurement
 from ....core.results.views import Picture
-from ....core.steps.processes import Processes
-from ....core.steps.progress import Progress, Steps, run, within
+from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
 from ..parts.read import part_identities, part_labels
-from ..parts.rows import hull_shapes
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
-from ..read.shape import as_steps, scene_unit, shape_in_steps
-from ..refusals import hull_refusal
+from ..read.shape import as_steps, shape_in_steps
 from ..stored.record import check_records, noted_parameters
 from .libraries import with_libraries
 from .session_cache import session_cache
@@ -53,7 +48,7 @@ def decompose_object(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    notes, reading = _read(obj, seen)
+    notes, reading = read_seen(obj, seen)
 
     def work() -> Steps[Decomposition]:
         shape, cache = (yield from reading), session_cache()
@@ -63,7 +58,9 @@ def decompose_object(
     return with_libraries(notes, work())
 
 
-def _read(obj: bpy.types.Object, seen: SeenMesh | None) -> tuple[Notes, Steps[Shape]]:
+def read_seen(
+    obj: bpy.types.Object, seen: SeenMesh | None
+) -> tuple[Notes, Steps[Shape]]:
     """Return what to say of an object's shape, and the steps that end in it.
 
     It is the one that is `seen`, if that is given.
@@ -82,7 +79,7 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
         At once, if the object cannot be read.
     """
     check_records(obj)
-    notes, reading = _read(obj, None)
+    notes, reading = read_seen(obj, None)
 
     def work() -> Steps[Measurement]:
         shape = yield from reading
@@ -102,7 +99,7 @@ def measure_selection_of(
         At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
-    (notes, reading), faces = _read(obj, None), selected_faces(obj)
+    (notes, reading), faces = read_seen(obj, None), selected_faces(obj)
     if not faces.any():
         raise DecompositionError(
             "No faces are selected; select the faces to measure in Edit Mode."
@@ -125,7 +122,7 @@ def point_viewer_of(
     DecompositionError
         At once, if the object cannot be read.
     """
-    notes, reading = _read(obj, None)
+    notes, reading = read_seen(obj, None)
 
     def work() -> Steps[core.PointViewer]:
         shape = yield from reading
@@ -160,68 +157,6 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
         return core.draw_picture(kind, memo, labels, parameters, colors)
 
     return with_libraries((), work())
-
-
-def build_hulls_of(
-    obj: bpy.types.Object,
-    parameters: Parameters,
-    hull_parameters: HullParameters,
-    seen: SeenMesh | None = None,
-    processes: Processes | None = None,
-) -> Steps[HullDecomposition]:
-    """Return the steps that build hulls around an object or its parts.
-
-    An object without parts is first decomposed if each part is to get one shape.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    parameters : Parameters
-        Used to decompose the object.
-    hull_parameters : HullParameters
-    seen : SeenMesh, optional
-        The mesh as it is seen, to be used in place of the object's own.
-    processes : Processes, optional
-        Where hulls are built at once, if no parts have to be found for them.
-
-    Raises
-    ------
-    DecompositionError
-        At once, if the object cannot be read or can have no hulls.
-    """
-    reason = hull_refusal(obj)
-    if reason:
-        raise DecompositionError(f"{reason}.")
-    check_records(obj)
-    (notes, read), labels = _read(obj, seen), part_labels(obj)
-    if seen is not None and labels is not None:
-        labels = labels[seen.origins] if seen.corresponds else None
-    kinds = hull_shapes(obj) if labels is not None else {}
-    rest = parameters.seed, scene_unit(obj), kinds
-    if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
-        job = run(read), hull_parameters, core.ShapeCache(core.no_rays), labels, *rest
-        return with_libraries(notes, processes.steps(core.build_hulls_in_steps, *job))
-
-    def work() -> Steps[HullDecomposition]:
-        shape, cache, known, start = (yield from read), session_cache(), labels, 0.0
-        if known is None and hull_parameters.pieces == "PARTS":
-            start = 0.4
-            parts = core.decompose_in_steps(shape, parameters, cache)
-            known = (yield from within(parts, 0.0, start)).labels
-        steps = core.build_hulls_in_steps(shape, hull_parameters, cache, known, *rest)
-        return (yield from within(steps, start, 1.0))
-
-    return with_libraries(notes, work())
-
-
-def hull_summary(found: HullDecomposition) -> str:
-    """Return one line with the number of hulls, their largest error and volume."""
-    unit = " in the scene" if found.error_unit == "SCENE" else ""
-    return (
-        f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
-        f" largest error {found.errors.max():.3g}{unit},"
-        f" volume of hulls / volume {found.volume_ratio:.2f}"
-    )
 
 
 def summary(decomposition: Decomposition) -> str:

@@ -30,12 +30,10 @@ from ..parts.present_parts import (
 from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
-from ..read.reading_notes import reading_notes
-from ..read.shape import as_steps, shape_in_steps
 from ..refusals import edit_refusal
 from ..stored.noted_parts import psi_by_k_of
 from ..stored.record import record_of
-from .computing import decompose_object
+from .computing import decompose_object, read_seen
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
 from .run_edit import Edited, ready_to_write, written
@@ -136,11 +134,11 @@ def _decompose_rest(
     """Return the steps that decompose the other faces, from their own samples."""
     rest = _parameters_of_rest(parameters, parts, held)
     before, by_hand = parts.labels, parts.by_hand
+    notes, reading = read_seen(obj, seen)
     if seen is None:
-        notes, reading = reading_notes(obj), shape_in_steps(obj)
         areas = face_areas(obj, len(before))
     else:
-        notes, reading, areas = seen.notes, as_steps(seen.shape), seen.areas
+        areas = seen.areas
         before, by_hand = before[seen.origins], by_hand[seen.origins]
     if parameters.seams == "CUT":
         notes = (*notes, _NOT_CUT)

@@ -9,6 +9,8 @@ goes unnoticed.
 from __future__ import annotations
 
 import atexit
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import bpy
 
@@ -16,6 +18,9 @@ from .... import core
 from ..mesh import known
 from ..rays.bvh import BvhRayCaster
 
+# Most results that are kept while files are worked through.
+_RESULTS = 64
+_n_results = 0
 _cache: core.ShapeCache | None = None
 
 
@@ -23,8 +28,25 @@ def session_cache() -> core.ShapeCache:
     """Return the cache of the session. The first call makes it, and loads SciPy."""
     global _cache
     if _cache is None:
-        _cache = core.ShapeCache(BvhRayCaster)
+        _cache = core.ShapeCache(BvhRayCaster, _n_results)
     return _cache
+
+
+@contextmanager
+def results_kept() -> Iterator[None]:
+    """Keep the latest results of small shapes: files have many equal objects.
+
+    In a window, what is asked for next is another cut of the latest shape. More is kept
+    for that than its result.
+    """
+    global _n_results
+    _n_results = _RESULTS
+    forget()
+    try:
+        yield
+    finally:
+        _n_results = 0
+        forget()
 
 
 @bpy.app.handlers.persistent

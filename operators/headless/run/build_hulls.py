@@ -17,7 +17,7 @@ from ...bridge.hulls.hull_objects import figures_of_hull, write_hulls
 from ...bridge.hulls.placed import placed
 from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
-from ...bridge.work.computing import hull_summary
+from ...bridge.work.computing_hulls import hull_summary
 from ..request.options import Request
 from ..screen import Screen, progress_title
 from .hulls_ahead import HullsAhead

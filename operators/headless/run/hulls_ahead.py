@@ -13,7 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.processes import Processes
 from ....core.steps.progress import Steps
-from ...bridge.work.computing import build_hulls_of
+from ...bridge.work.computing_hulls import build_hulls_of
 from ..request.options import Request
 
 # Seconds of work before other processes start: they need a second to load.

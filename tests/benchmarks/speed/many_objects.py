@@ -2,9 +2,11 @@
 
     make bench-objects OBJECTS=1000
 
-The file has cubes, or cubes, cones, tori, coarse monkeys, L-shapes, cylinders and
-ico-spheres in turn. Each has a mesh and proportions of its own. Both are written to
-build/many_objects/, where the outputs can be looked at.
+The files have cubes, or cubes, cones, tori, coarse monkeys, L-shapes, cylinders and
+ico-spheres in turn. Each has a mesh and proportions of its own. In the file of props,
+each has a mesh of its own, too, but those of one kind are equal but for the objects'
+sizes and rotations, as in scenes. They are written to build/many_objects/, where the
+outputs can be looked at.
 """
 
 import math
@@ -24,7 +26,7 @@ from checkout import ROOT
 from mathutils import Matrix
 
 FOLDER = ROOT / "build/many_objects"
-LIMITS = {"cubes": 60, "mixed": 120}
+LIMITS = {"cubes": 60, "mixed": 120, "props": 120}
 COARSE = 0.2  # share of the monkey's faces that stays
 ROW = 40
 
@@ -87,6 +89,7 @@ KINDS = {
     "cubes": (cube,),
     "mixed": (cube, cone, torus, monkey, l_shape, cylinder, ico_sphere),
 }
+KINDS["props"] = KINDS["mixed"]
 
 
 def make_scene(kind, count, path):
@@ -99,10 +102,14 @@ def make_scene(kind, count, path):
         mesh = bpy.data.meshes.new(name)
         bm = bmesh.new()
         make(bm)
-        bm.transform(Matrix.Diagonal((*rng.uniform(0.7, 1.3, 3), 1)))
+        factors = rng.uniform(0.7, 1.3, 3)
+        if kind != "props":
+            bm.transform(Matrix.Diagonal((*factors, 1)))
         bm.to_mesh(mesh)
         bm.free()
         obj = bpy.data.objects.new(name, mesh)
+        if kind == "props":
+            obj.scale, obj.rotation_euler = [factors[0]] * 3, 2 * math.pi * factors
         bpy.context.collection.objects.link(obj)
         if make is monkey:
             coarsen(obj)

@@ -54,6 +54,14 @@ def test_the_hulls_are_the_same(processes):
     assert len(processes._started) == 2
 
 
+def test_equal_calls_get_one_answer(processes):
+    steps = [processes.steps(*task(shapes.l_prism(arm))) for arm in (2.0, 2.0, 3.0)]
+    one, two, other = [run(each) for each in steps]
+    assert one is two
+    assert one.volume_ratio == here(shapes.l_prism(2.0)).volume_ratio
+    assert other.shapes[0].volume != one.shapes[0].volume
+
+
 def test_errors_come_back(processes):
     cloud = PointCloud(np.random.default_rng(0).random((50, 3)))
     with pytest.raises(DecompositionError, match="A cloud has no faces"):

@@ -1,11 +1,14 @@
 """Hulls of many objects are built in several processes: same files, no leftovers."""
 
+import json
 import os
 import signal
 
 import bpy
 import pytest
 from headless.command import QUICK
+from weak_convex_decomposition.core import decomposition
+from weak_convex_decomposition.core.hulls import build as hulls_of_shapes
 from weak_convex_decomposition.core.steps import processes
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.run import hulls_ahead
@@ -41,6 +44,17 @@ def started(monkeypatch):
     return found
 
 
+@pytest.fixture
+def copies(tmp_path):
+    """Return a file of three equal tori, each with a mesh and a size of its own."""
+    for place in range(3):
+        bpy.ops.mesh.primitive_torus_add(major_segments=8, minor_segments=4)
+        bpy.context.object.location.x = 5 * place
+        bpy.context.object.scale = [1 + place] * 3
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"), copy=True)
+    return tmp_path / "in.blend"
+
+
 def build(model, name, *options):
     """Build hulls; return the status and the file."""
     file = model.with_name(name)
@@ -63,6 +77,30 @@ def test_the_files_are_the_same(model, started, capsys, options):
     after = capsys.readouterr().out.splitlines()
     assert [line.rpartition(",")[0] for line in after] == lines
     assert all(process.poll() is not None for process in started)
+
+
+def test_equal_meshes_are_worked_on_once(copies, monkeypatch):
+    calls = []
+
+    def count(module, name):
+        compute = getattr(module, name)
+        counted = lambda *args: calls.append(name) or compute(*args)  # noqa: E731
+        monkeypatch.setattr(module, name, counted)
+
+    count(decomposition, "_decompose")
+    count(hulls_of_shapes, "_build")
+    report, parts = copies.with_name("r.json"), copies.with_name("parts.blend")
+    words = f"--report={report}", f"--output={parts}", "--processes=1"
+    assert build(copies, "one.obj", *words)[0] == 0
+    assert calls == ["_decompose", "_build"]
+    objects = json.loads(report.read_text())["inputs"][0]["objects"]
+    assert [each["name"] for each in objects] == ["Torus", "Torus.001", "Torus.002"]
+    assert len({each["psi"] for each in objects}) == 1
+    hulls = [[hull["error"] for hull in each["hulls"]["hulls"]] for each in objects]
+    assert hulls[0] == hulls[1] == hulls[2]
+    # Where sizes matter, they are not equal.
+    build(copies, "two.obj", "--processes=1", "--error-unit=scene")
+    assert calls == ["_decompose", "_build"] + 3 * ["_build"]
 
 
 def test_an_interrupt_leaves_no_process(model, started, monkeypatch, capfd):

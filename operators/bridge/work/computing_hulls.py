@@ -1,0 +1,111 @@
+"""Build hulls around an object, here or in another process."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .... import core
+from ....core.errors import DecompositionError
+from ....core.geometry.shape import Shape
+from ....core.parameters.hulls import HullParameters
+from ....core.parameters.parts import Parameters
+from ....core.results.hulls import HullDecomposition
+from ....core.steps.processes import Processes
+from ....core.steps.progress import Steps, run, within
+from ..parts.read import part_labels
+from ..parts.rows import hull_shapes
+from ..read.evaluated import SeenMesh
+from ..read.shape import scene_unit
+from ..refusals import hull_refusal
+from ..stored.record import check_records
+from .computing import read_seen
+from .libraries import with_libraries
+from .session_cache import session_cache
+
+
+def build_hulls_of(
+    obj: bpy.types.Object,
+    parameters: Parameters,
+    hull_parameters: HullParameters,
+    seen: SeenMesh | None = None,
+    processes: Processes | None = None,
+) -> Steps[HullDecomposition]:
+    """Return the steps that build hulls around an object or its parts.
+
+    An object without parts is first decomposed if each part is to get one shape.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    parameters : Parameters
+        Used to decompose the object.
+    hull_parameters : HullParameters
+    seen : SeenMesh, optional
+        The mesh as it is seen, to be used in place of the object's own.
+    processes : Processes, optional
+        Where hulls are built at once, if no parts have to be found for them.
+
+    Raises
+    ------
+    DecompositionError
+        At once, if the object cannot be read or can have no hulls.
+    """
+    reason = hull_refusal(obj)
+    if reason:
+        raise DecompositionError(f"{reason}.")
+    check_records(obj)
+    (notes, read), labels = read_seen(obj, seen), part_labels(obj)
+    if seen is not None and labels is not None:
+        labels = labels[seen.origins] if seen.corresponds else None
+    kinds = hull_shapes(obj) if labels is not None else {}
+    # Relative errors do not depend on an object's size: so, equal meshes stay equal.
+    size, unit = scene_unit(obj), 1.0
+    if hull_parameters.error_unit == "SCENE":
+        size, unit = unit, size
+    rest = labels, parameters.seed, unit, kinds
+    if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
+        job = run(read), hull_parameters, core.ShapeCache(core.no_rays), *rest
+        steps = processes.steps(core.build_hulls_in_steps, *job)
+    else:
+        steps = _hulls_here(read, parameters, hull_parameters, *rest)
+    return with_libraries(notes, _enlarged(steps, size))
+
+
+def _hulls_here(
+    read: Steps[Shape],
+    parameters: Parameters,
+    hull_parameters: HullParameters,
+    labels: NDArray[np.int64] | None,
+    *rest: Any,
+) -> Steps[HullDecomposition]:
+    """Build hulls in this process; find parts for them first if there are none."""
+    shape, cache, start = (yield from read), session_cache(), 0.0
+    if labels is None and hull_parameters.pieces == "PARTS":
+        start = 0.4
+        parts = core.decompose_in_steps(shape, parameters, cache)
+        labels = (yield from within(parts, 0.0, start)).labels
+    steps = core.build_hulls_in_steps(shape, hull_parameters, cache, labels, *rest)
+    return (yield from within(steps, start, 1.0))
+
+
+def _enlarged(
+    steps: Steps[HullDecomposition], factor: float
+) -> Steps[HullDecomposition]:
+    """Return the steps that end in hulls of an object that is larger by a factor."""
+    found = yield from steps
+    return replace(found, half_side=found.half_side * factor)
+
+
+def hull_summary(found: HullDecomposition) -> str:
+    """Return one line with the number of hulls, their largest error and volume."""
+    unit = " in the scene" if found.error_unit == "SCENE" else ""
+    return (
+        f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
+        f" largest error {found.errors.max():.3g}{unit},"
+        f" volume of hulls / volume {found.volume_ratio:.2f}"
+    )
