@@ -25,6 +25,7 @@ from ..stored.record import write_hull_record
 from .listed import hulls_of
 from .looks import keep_piece
 from .lost_hulls import (
+    has_more,
     leave_to_user,
     lost_hulls,
     noted_by,
@@ -120,7 +121,7 @@ def erase_hulls(
     if obj.mode == "OBJECT":
         if chosen is None:
             leave_to_user(obj)
-        _remove(hulls)
+        _remove([hull for hull in hulls if HULL_TAG in hull])
 
 
 def erase_lost_hulls() -> int:
@@ -163,7 +164,8 @@ def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
     # All names at once: Blender looks through all objects for each that is asked for.
     local = {each.name for each in bpy.data.objects if each.library is None}
     taken = local.intersection(names)
-    taken -= {hull.name for hull in hulls_of(obj)} if taken else set()
+    if taken:
+        taken -= {hull.name for hull in hulls_of(obj) if not has_more(hull)}
     if taken:
         raise DecompositionError(
             f"There is an object {min(taken)} already; rename it or choose another"

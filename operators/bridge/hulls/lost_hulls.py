@@ -10,6 +10,7 @@ from ..homes import homes_of
 from ..stored.names import HULL_TAG, RESULT
 from ..stored.notes import parse_json
 from ..stored.record import parse_record
+from .listed import hulls_of
 
 
 def lost_hulls() -> list[bpy.types.Object]:
@@ -43,7 +44,10 @@ def has_hulls_to_clear(obj: bpy.types.Object) -> bool:
 
 
 def leave_to_user(obj: bpy.types.Object) -> None:
-    """Let hulls that the user took from an object be the user's from now on."""
+    """Let hulls be the user's from now on that the user took or joined something to."""
+    for hull in hulls_of(obj):
+        if has_more(hull):
+            del hull[HULL_TAG]
     noted = noted_by(obj)
     for collection in _hull_collections():
         if collection[HULL_TAG] == obj.name:
@@ -80,16 +84,21 @@ def _without_object(collection: bpy.types.Collection) -> Iterator[bpy.types.Obje
     for hull in collection.objects:
         if HULL_TAG not in hull or RESULT in hull or not hull.is_editable:
             continue
-        if _has_other_faces(hull):
+        if _n_more(hull) != 0:
             continue
         if hull.parent is None and all(HULL_TAG in each for each in homes_of(hull)):
             yield hull
 
 
-def _has_other_faces(hull: bpy.types.Object) -> bool:
-    """Return whether a hull is not as we made it, as after a join of other objects."""
+def has_more(hull: bpy.types.Object) -> bool:
+    """Return whether a hull has more than we made, as after a join of other objects."""
+    return _n_more(hull) > 0
+
+
+def _n_more(hull: bpy.types.Object) -> int:
+    """Return how many more vertices a hull has than we made."""
     n_vertices = len(hull.data.vertices)
-    return (parse_json(hull[HULL_TAG]) or {}).get("vertices", n_vertices) != n_vertices
+    return n_vertices - (parse_json(hull[HULL_TAG]) or {}).get("vertices", n_vertices)
 
 
 def noted_by(obj: bpy.types.Object) -> set[str]:

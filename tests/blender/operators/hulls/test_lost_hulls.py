@@ -145,14 +145,38 @@ def test_hulls_that_the_user_keeps_stay(joined, how):
     assert ("Other hulls" in left()) == (how != "moved")
 
 
+def join_mine_to(hull):
+    mine = mesh_object("mine", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    join(hull, mine)
+
+
 def test_what_was_joined_into_a_hull_stays(joined):
     obj, hull = joined
-    mine = mesh_object("mine", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    activate(hull)
-    mine.select_set(True)
-    bpy.ops.object.join()
+    join_mine_to(hull)
     clear(obj)
     assert hull.name in left()
+
+
+def test_what_was_joined_into_the_hull_of_an_object_that_is_there_stays():
+    obj, hull = box("One", 0)
+    join_mine_to(hull)
+    with pytest.raises(RuntimeError, match="There is an object One hull 01 already"):
+        build_hulls([obj], **QUICK)
+    assert hulls_of(obj) == [hull]  # nothing has changed
+    hull.name = "Mine"
+    (new,) = build_hulls([obj], **QUICK)
+    assert hulls_of(obj) == [new]
+    clear(obj)
+    assert [each.name for each in obj.children] == ["Mine"]
+
+
+def test_a_hull_with_fewer_vertices_is_a_hull_still():
+    obj, hull = box("One", 0)
+    hull.data = hull.data.copy()
+    hull.data.clear_geometry()
+    hull.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    clear(obj)
+    assert left() == []
 
 
 def test_the_users_objects_stay(joined):
