@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.frames import cross_2d
+from ..steps.rows import ranges
 
 # Distance between two lines, and longest chord, as a share of the longest side of the
 # bounding box.
@@ -46,24 +47,55 @@ def chords_along(
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     step = float((high - low).max()) * _STEP
     spots, area = _lattice(low[sides], high[sides], step)
-    line, heights, turns = _crossings(corners, axis, spots)
-    order = np.lexsort((heights, line))
-    line, heights, turns = line[order], heights[order], turns[order]
-    first = np.r_[True, line[1:] != line[:-1]][: len(line)]
-    starts = np.maximum.accumulate(np.where(first, np.arange(len(line)), 0))
-    total = np.cumsum(turns)
-    depths = total - (total - turns)[starts]
+    crossings = _crossings(corners, axis, spots)
+    line, heights, _, first, depths = in_order(*crossings)
     inside = np.flatnonzero((depths[:-1] > 0) & ~first[1:])
     lengths = heights[inside + 1] - heights[inside]
     n_pieces = np.ceil(lengths / step).astype(np.int64)
-    chord = np.repeat(np.arange(len(inside)), n_pieces)
-    rank = np.arange(len(chord)) - np.repeat(np.cumsum(n_pieces) - n_pieces, n_pieces)
+    chord, rank = ranges(n_pieces)
     line = line[inside][chord]
     shares = (rank + line * _SILVER % 1) / n_pieces[chord]
     places = np.empty((len(chord), 3))
     places[:, axis] = heights[inside][chord] + shares * lengths[chord]
     places[:, sides] = spots[line]
     return places, (lengths / np.maximum(n_pieces, 1))[chord] * area
+
+
+def in_order(
+    line: NDArray[np.int64], heights: NDArray[np.float64], turns: NDArray[np.int64]
+) -> tuple[
+    NDArray[np.int64],
+    NDArray[np.float64],
+    NDArray[np.int64],
+    NDArray[np.bool_],
+    NDArray[np.int64],
+]:
+    """Sort crossings of lines and a surface by line and height, and count them.
+
+    Parameters
+    ----------
+    line : (C,) int
+        Row of the line.
+    heights : (C,) float
+        Coordinate along the line.
+    turns : (C,) int
+        1 where the line enters the inside, −1 where it leaves it.
+
+    Returns
+    -------
+    line, heights, turns : (C,) int, float and int
+        Sorted.
+    first : (C,) bool
+        Which are the first on their line.
+    depths : (C,) int
+        How many more times the line has entered than left from there on.
+    """
+    order = np.lexsort((heights, line))
+    line, heights, turns = line[order], heights[order], turns[order]
+    first = np.r_[True, line[1:] != line[:-1]][: len(line)]
+    starts = np.maximum.accumulate(np.where(first, np.arange(len(line)), 0))
+    total = np.cumsum(turns)
+    return line, heights, turns, first, total - (total - turns)[starts]
 
 
 def _lattice(
@@ -101,10 +133,8 @@ def _crossings(
         x, y = spots[lines].T
         rows = np.flatnonzero((low[:, 1] <= y.max()) & (high[:, 1] >= y.min()))
         left, right = (np.searchsorted(x, ends[rows, 0]) for ends in (low, high))
-        counts = right - left
-        triangle = np.repeat(rows, counts)
-        offsets = np.repeat(left - np.cumsum(counts) + counts, counts)
-        place = offsets + np.arange(len(triangle))
+        owner, rank = ranges(right - left)
+        triangle, place = rows[owner], left[owner] + rank
         near = (low[triangle, 1] <= y[place]) & (y[place] <= high[triangle, 1])
         triangle, line = triangle[near], lines[place[near]]
         hit, heights, turns = _crossings_of(corners[triangle], axis, spots[line])

@@ -50,8 +50,8 @@ class Parameters:
             "Rays",
             "Most rays (r) that each sample casts: fewer are quicker and less exact. It"
             " matters for large meshes and for shapes of many shells, which take"
-            " longest. 0 casts as many as Lines of Sight needs: about 50, at most 200,"
-            " in blocks, 30 in a cone, or all between all pairs",
+            " longest. 0 casts as many as Lines of Sight needs: about 50 in blocks, 30"
+            " in a cone, or all between all pairs",
             low=0,
             high=1000,
             advanced=False,

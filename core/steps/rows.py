@@ -41,3 +41,32 @@ def used_rows(numbers: NDArray[np.int64], n_rows: int) -> Steps[NDArray[np.bool_
         yield Progress("Surface", rows.start / len(numbers))
         used[numbers[rows].ravel()] = True
     return used
+
+
+def ranges(
+    counts: NDArray[np.int64],
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return ranges of numbers from 0 on, one behind the other.
+
+    Parameters
+    ----------
+    counts : (N,) int
+        Length of each range.
+
+    Returns
+    -------
+    owners : (M,) int
+        Range of each number, in 0…N − 1.
+    ranks : (M,) int
+        The numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from weak_convex_decomposition.core.steps.rows import ranges
+    >>> owners, ranks = ranges(np.array([2, 0, 3]))
+    >>> owners.tolist(), ranks.tolist()
+    ([0, 0, 2, 2, 2], [0, 1, 0, 1, 2])
+    """
+    owners = np.repeat(np.arange(len(counts)), counts)
+    return owners, np.arange(len(owners)) - (np.cumsum(counts) - counts)[owners]

@@ -76,11 +76,8 @@ def decompose_refusal(obj: Candidate) -> str | None:
     """Return why an object, or a mesh made of it, cannot be decomposed."""
     if obj is None or obj.type not in CONVERTIBLE:
         return refusal(obj)
-    if not obj.is_editable:
-        return (
-            f"{obj.name} is linked from a library; make it local first (Object >"
-            " Relations > Make Local)"
-        )
+    if reason := library_refusal(obj, writes_mesh=False):
+        return reason
     if obj.mode != "OBJECT":
         return f"{obj.name} is decomposed in Object Mode; leave Edit Mode"
     return None

@@ -106,8 +106,8 @@ class WCD_OT_split_parts(_Edit, bpy.types.Operator):
 WCD_OT_split_parts.__annotations__ = {
     "parts": bpy.props.IntProperty(
         name="Parts",
-        description="Number of parts that each is split into; 0 searches for the number"
-        " with the largest psi",
+        description="Number of parts that each is split into; 0 lets psi choose the"
+        " number",
         default=2,
         min=0,
         max=256,

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.frames import cross_2d
+from ...steps.rows import ranges
 from .line_crossings import as_seen
 
 # Longest of the short segments that edges of holes are divided into.
@@ -32,8 +33,7 @@ class HoleEdges:
         edges = _open_edges(corners)
         starts, ways = edges[:, 0], edges[:, 1] - edges[:, 0]
         counts = np.ceil(np.linalg.norm(ways, axis=1) / _GRAIN).astype(np.int64)
-        edge = np.repeat(np.arange(len(counts)), counts)
-        rank = np.arange(len(edge)) - np.repeat(np.cumsum(counts) - counts, counts)
+        edge, rank = ranges(counts)
         shares = np.stack([rank, rank + 1], axis=1) / counts[edge, None]
         ends = starts[edge, None] + shares[..., None] * ways[edge, None]
         # The segments three times, as rays along each axis see them.

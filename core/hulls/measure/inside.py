@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
+from ..chords import in_order
 from .holes import HoleEdges
 from .line_crossings import TURNS, LineCrossings, as_seen
 from .shape_chords import chord_in
@@ -156,13 +157,8 @@ class InsideTest:
     ) -> float:
         """Return the length of segments of lines along an axis that is inside."""
         axes = np.full(len(spots), axis)
-        line, heights, turns = self._crossings.of(axes, spots)
-        order = np.lexsort((heights, line))
-        line, heights, turns = line[order], heights[order], turns[order]
-        first = np.r_[True, line[1:] != line[:-1]][: len(line)]
-        starts = np.maximum.accumulate(np.where(first, np.arange(len(line)), 0))
-        total = np.cumsum(turns)
-        depths = total - (total - turns)[starts]
+        crossings = self._crossings.of(axes, spots)
+        line, heights, turns, first, depths = in_order(*crossings)
         # Counted from the end of the line, too: in an open mesh the two may differ.
         leftover = np.bincount(line, turns, len(spots))[line]
         within = (depths > 0) & (depths > leftover)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...steps.rows import ranges
 from .fragments import fragments_of
 
 # For lines along each axis: the two coordinates across them, then the one along them.
@@ -54,8 +55,7 @@ class LineCrossings:
         widths = high - low + 1
         faces_lines = self._slopes[-1] != 0
         counts = np.where(faces_lines, widths.prod(axis=1), 0)
-        triangle = np.repeat(np.arange(len(flat)), counts)
-        rank = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
+        triangle, rank = ranges(counts)
         column, row = np.divmod(rank, widths[triangle, 1])
         column, row = column + low[triangle, 0], row + low[triangle, 1]
         cell = _number_of(axes[triangle], column, row)
@@ -88,8 +88,7 @@ class LineCrossings:
         known = ((cells >= 0) & (cells < _CELLS)).all(axis=1)
         cell = np.where(known, _number_of(axes, cells[:, 0], cells[:, 1]), 0)
         counts = np.where(known, self._starts[cell + 1] - self._starts[cell], 0)
-        line = np.repeat(np.arange(len(spots)), counts)
-        rank = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
+        line, rank = ranges(counts)
         triangle = self._triangles[self._starts[cell[line]] + rank]
         x0, y0, z0, bx, by, bz, cx, cy, cz, turns = self._slopes
         x, y = spots[line, 0] - x0[triangle], spots[line, 1] - y0[triangle]

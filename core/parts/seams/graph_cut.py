@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
 from ...geometry.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps
+from ...steps.rows import ranges
 
 # Cost of a seam as long as the square root of the area, at lambda = 1.
 _SEAM_UNIT = 0.02
@@ -163,10 +164,8 @@ class _Expansion:
         self, nodes: NDArray[np.int64]
     ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the arcs that leave the nodes, by node, and the row of each node."""
-        sizes = self.n_arcs[nodes]
-        rows = np.repeat(np.arange(len(nodes)), sizes)
-        firsts = self.starts[nodes] - np.cumsum(sizes) + sizes
-        return firsts[rows] + np.arange(len(rows)), rows
+        rows, ranks = ranges(self.n_arcs[nodes])
+        return self.starts[nodes][rows] + ranks, rows
 
 
 def _minimum_cut(

@@ -1,9 +1,7 @@
 """Keep one cache per session, so that decomposing the same shape again is quick.
 
-It is the only state of the extension that outlives an operator, but for the figures
-of the latest mesh, which are forgotten with it. It holds arrays and a
-ray tree, and no data of the file. Shapes are compared by content, so that no change
-goes unnoticed.
+It holds arrays and a ray tree, and no data of the file. Shapes are compared by content,
+so that no change goes unnoticed. The figures of the latest mesh are forgotten with it.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Matrix
 
+from ...bridge.homes import homes_of
 from ...bridge.stored.record import forget_result
 from .numbering import plain_name
 
@@ -63,7 +64,7 @@ def add_objects(found: Sequence[Instance]) -> None:
         title = each.title.encode()[: _LONGEST_NAME - len(ending)]
         name = title.decode(errors="ignore").rstrip() + ending
         obj = _object(each, name)
-        homes = each.instancer.users_collection or [bpy.context.scene.collection]
+        homes = homes_of(each.instancer) or [bpy.context.scene.collection]
         for collection in homes:
             collection.objects.link(obj)
 

@@ -197,9 +197,7 @@ def _add_outputs(files: argparse._ArgumentGroup) -> None:
         metavar="PICTURE.png",
         help="write a picture of the parts, seen from the front and the back",
     )
-    files.add_argument(
-        "--hulls", metavar="HULLS", help="write collision hulls of the parts"
-    )
+    files.add_argument("--hulls", metavar="HULLS", help="write collision hulls")
     files.add_argument(
         "--hulls-format",
         type=str.lower,
