@@ -11,16 +11,11 @@ from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import erase_hulls, write_hulls
 from .bridge.hulls.listed import hulls_of
 from .bridge.hulls.looks import look_like
-from .bridge.hulls.one_hull import (
-    forget_hulls,
-    note_mesh_of_hulls,
-    refit,
-    remove_hull,
-    write_refit,
-)
+from .bridge.hulls.one_hull import refit, remove_hull, write_refit
 from .bridge.hulls.rigid_bodies import make_rigid
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, rigid_refusal
+from .bridge.stored.noted_hulls import forget_hulls, note_mesh_of_hulls
 from .bridge.work.computing_hulls import build_hulls_of, hull_summary
 from .running.computation import Computation
 from .running.on_objects import OnActive, OnEach

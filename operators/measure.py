@@ -13,8 +13,7 @@ from ..core.results.parts import Measurement
 from ..core.steps.progress import Steps
 from .bridge.mesh.selection import selected_faces
 from .bridge.refusals import measure_refusal, selection_refusal
-from .bridge.stored.names import RESULT
-from .bridge.stored.record import parse_record, write_measurement
+from .bridge.stored.record import record_if_ours, write_measurement
 from .bridge.work.computing import measure_object, measure_selection_of
 from .running.computation import Computation
 from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
@@ -98,14 +97,14 @@ class WCD_OT_tell_quality(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether the active object has parts that were found."""
-        return _noted(context).get("psi") is not None
+        return record_if_ours(context.active_object).get("psi") is not None
 
     @classmethod
     def description(
         cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties
     ) -> str:
         """Return the tooltip of the word."""
-        noted = _noted(context)
+        noted = record_if_ours(context.active_object)
         return (
             f"ψ = {noted['psi']:.3f}, and {noted['psi_before']:.3f} as one part. It"
             " rises when points of one part see each other, and when points of"
@@ -117,12 +116,6 @@ class WCD_OT_tell_quality(bpy.types.Operator):
         """Say in the status bar what the tooltip says."""
         self.report({"INFO"}, self.description(context, self.properties))
         return {"FINISHED"}
-
-
-def _noted(context: bpy.types.Context) -> dict[str, Any]:
-    """Return what is noted on the active object, empty if nothing of ours is."""
-    obj = context.active_object
-    return (parse_record(obj.get(RESULT)) if obj else None) or {}
 
 
 def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:

@@ -8,6 +8,8 @@ from typing import Any
 import bpy
 
 from ..operators.bridge.hulls.listed import listed_hulls
+from ..operators.bridge.stored.names import RESULT
+from ..operators.bridge.stored.noted_hulls import noted_hulls
 from ..operators.bridge.stored.record import parse_record
 from .shown_figures import is_of_now, shown_figures
 
@@ -31,7 +33,7 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
     figures = shown_figures(obj)
     if figures is not None and figures.record:
         return figures.record
-    noted = obj and obj.get("wcd")
+    noted = obj and obj.get(RESULT)
     record = _parsed(noted) if isinstance(noted, str) else {}
     return {key: value for key, value in record.items() if key != "parts"}
 
@@ -41,7 +43,7 @@ def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
 
     Hulls that the user renamed have their new names.
     """
-    noted = result_of(obj).get("hulls", {}).get("hulls", ())
+    noted = noted_hulls(result_of(obj))
     return [
         {**noted[row], "name": hull.name}
         for row, hull in listed_hulls(obj, noted).items()

@@ -21,7 +21,7 @@ from ..parts.materials import discard_unused, hull_material, is_ours, none_missi
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
-from ..stored.record import write_hull_record
+from ..stored.noted_hulls import write_hull_record
 from .listed import hulls_of
 from .looks import keep_piece
 from .lost_hulls import (

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from ..stored.names import HULL_TAG
-from ..stored.notes import parse_json
+from ..stored.noted_hulls import figures_on
 
 # Figures by which a hull is known that the user renamed.
 _FIGURES = ("kind", "error", "volume", "vertices")
@@ -58,5 +58,5 @@ def listed_hulls(
 
 def _is_noted_as(hull: bpy.types.Object, noted: dict[str, Any]) -> bool:
     """Return whether a hull has the figures that are noted of one."""
-    own = parse_json(hull[HULL_TAG]) or {}
+    own = figures_on(hull)
     return all(own.get(figure) == noted.get(figure) for figure in _FIGURES)

@@ -8,8 +8,8 @@ import bpy
 
 from ..homes import homes_of
 from ..stored.names import HULL_TAG, RESULT
-from ..stored.notes import parse_json
-from ..stored.record import parse_record
+from ..stored.noted_hulls import figures_on, noted_hulls
+from ..stored.record import record_if_ours
 from .listed import hulls_of
 
 
@@ -97,11 +97,10 @@ def has_more(hull: bpy.types.Object) -> bool:
 
 def _n_more(hull: bpy.types.Object) -> int:
     """Return how many more vertices a hull has than we made."""
-    n_vertices = len(hull.data.vertices)
-    return n_vertices - (parse_json(hull[HULL_TAG]) or {}).get("vertices", n_vertices)
+    n_vertices: int = len(hull.data.vertices)
+    return n_vertices - int(figures_on(hull).get("vertices", n_vertices))
 
 
 def noted_by(obj: bpy.types.Object) -> set[str]:
     """Return the names of the hulls that an object notes."""
-    record = parse_record(obj.get(RESULT)) or {}
-    return {hull["name"] for hull in record.get("hulls", {}).get("hulls", ())}
+    return {hull["name"] for hull in noted_hulls(record_if_ours(obj))}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -11,12 +11,17 @@ from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.hull_names import name_of_kind
-from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
-from ..stored.record import ORIGINAL, record_of, write_record
+from ..stored.noted_hulls import (
+    forget_hulls,
+    noted_hull_parameters,
+    noted_hulls,
+    noted_mesh_of_hulls,
+)
+from ..stored.record import HULLS, record_of, write_record
 from ..work.libraries import with_libraries
 from ..work.session_cache import session_cache
 from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, tag_hull
@@ -42,12 +47,12 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
     """
     hull = hull_called(obj, name)
     _noted_row(obj, name)
-    parameters = replace(_noted_parameters(obj), shape=shape)
+    parameters = replace(noted_hull_parameters(obj), shape=shape)
     points, has_margin = piece_of(hull)
     if has_margin:
         parameters = replace(parameters, margin=0.0)
     points = points * stretch(obj)
-    seen = read_as(record_of(obj)["hulls"].get("mesh", ORIGINAL), obj)
+    seen = read_as(noted_mesh_of_hulls(obj), obj)
     mesh, unit = seen.shape if seen else read_shape(obj), scene_unit(obj)
     assert isinstance(mesh, TriangleMesh)  # clouds have no hulls
 
@@ -72,7 +77,7 @@ def write_refit(
         bpy.data.meshes.remove(former)
     keep_piece(hull, points)
     record = record_of(obj)
-    hulls = record["hulls"]["hulls"]
+    hulls = record[HULLS][HULLS]
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
     before = sum(each["volume"] for each in hulls)
     hull.name = hull.data.name = _name(obj, name, (hulls[row]["kind"], shape.kind))
@@ -87,7 +92,7 @@ def write_refit(
 def remove_hull(obj: bpy.types.Object, name: str) -> None:
     """Remove one hull of an object."""
     hull, record = hull_called(obj, name), record_of(obj)
-    hulls = record.get("hulls", {}).get("hulls", [])
+    hulls = noted_hulls(record)
     before = sum(each["volume"] for each in hulls)
     listed = listed_hulls(obj, hulls)
     kept = [each for row, each in enumerate(hulls) if listed.get(row) != hull]
@@ -95,21 +100,8 @@ def remove_hull(obj: bpy.types.Object, name: str) -> None:
     if not kept:
         forget_hulls(obj)
         return
-    record["hulls"]["hulls"] = kept
+    record[HULLS][HULLS] = kept
     _note(obj, record, sum(each["volume"] for each in kept) / before)
-
-
-def forget_hulls(obj: bpy.types.Object) -> None:
-    """Remove what is noted of an object's hulls; all else stays noted."""
-    record = {key: kept for key, kept in record_of(obj).items() if key != "hulls"}
-    write_record(obj, record if record.keys() - {"version"} else {})
-
-
-def note_mesh_of_hulls(obj: bpy.types.Object, mesh: str) -> None:
-    """Note which mesh of an object its hulls are around."""
-    record = record_of(obj)
-    record["hulls"]["mesh"] = mesh
-    write_record(obj, record)
 
 
 def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:
@@ -124,8 +116,7 @@ def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:
 
 def _noted_row(obj: bpy.types.Object, name: str) -> int:
     """Return the row of a hull among those that are noted; raise if it is not there."""
-    noted = record_of(obj).get("hulls", {}).get("hulls", [])
-    for row, hull in listed_hulls(obj, noted).items():
+    for row, hull in listed_hulls(obj, noted_hulls(record_of(obj))).items():
         if hull.name == name:
             return row
     raise DecompositionError(
@@ -136,8 +127,8 @@ def _noted_row(obj: bpy.types.Object, name: str) -> int:
 
 def _note(obj: bpy.types.Object, record: dict[str, Any], growth: float) -> None:
     """Note changed hulls, whose volumes together have grown by a factor."""
-    noted = record["hulls"]
-    noted["largest_error"] = max(each["error"] for each in noted["hulls"])
+    noted = record[HULLS]
+    noted["largest_error"] = max(each["error"] for each in noted[HULLS])
     if noted["volume_ratio"] is not None:
         noted["volume_ratio"] *= growth
     write_record(obj, record)
@@ -145,14 +136,7 @@ def _note(obj: bpy.types.Object, record: dict[str, Any], growth: float) -> None:
 
 def _name(obj: bpy.types.Object, former: str, kinds: tuple[str, str]) -> str:
     """Return the name of a hull of a new kind: with Unreal's naming, that is in it."""
-    parameters = _noted_parameters(obj)
+    parameters = noted_hull_parameters(obj)
     naming = parameters.naming, parameters.template
     name = name_of_kind(*naming, obj.name, former, kinds)
     return former if bpy.data.objects.get((name, None)) else name
-
-
-def _noted_parameters(obj: bpy.types.Object) -> HullParameters:
-    """Return the parameters that an object's hulls were built with."""
-    noted = record_of(obj).get("hulls", {}).get("parameters", {})
-    known = {each.name for each in fields(HullParameters)}
-    return HullParameters(**{name: noted[name] for name in known & noted.keys()})

@@ -6,7 +6,6 @@ simulators and others bring it to the space that they need by a matrix.
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 
 from ....core.geometry.primitives import CollisionShape
 from ..read.shape import stretch
-from ..stored.names import HULL_TAG
+from ..stored.noted_hulls import figures_on
 
 # Axes that differ by less, in length or from a right angle, are those of a solid.
 _SAME = 1e-4
@@ -96,7 +95,7 @@ def solid_of(hull: bpy.types.Object, matrix: NDArray[np.float64]) -> Solid | Non
         None for a convex hull, and for a primitive that the matrix distorts: a scale
         that differs by axis turns spheres into ellipsoids. Its mesh has that shape.
     """
-    figures = json.loads(hull.get(HULL_TAG, "{}"))
+    figures = figures_on(hull)
     solid = _moved(figures, matrix) if "axes" in figures else None
     if solid and solid.kind == "CAPSULE" and solid.sizes[2] <= _SAME * solid.sizes[0]:
         return replace(solid, kind="SPHERE")  # MuJoCo refuses a capsule without length

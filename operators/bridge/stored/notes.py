@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import bpy
 
 from ....core.errors import DecompositionError
+from ....core.parameters.hulls import HullParameters
+from ....core.parameters.parts import Parameters
+
+T = TypeVar("T", Parameters, HullParameters)
 
 _MANIFEST = Path(__file__).parents[3] / "blender_manifest.toml"
 
@@ -52,6 +57,12 @@ def write_note(owner: bpy.types.ID, key: str, noted: dict[str, Any]) -> None:
         owner[key] = json.dumps(noted)
     elif key in owner:
         del owner[key]
+
+
+def parameters_in(noted: Mapping[str, Any], kind: type[T]) -> T:
+    """Return noted parameters; other versions of the extension have others."""
+    known = {each.name for each in fields(kind)}
+    return kind(**{name: noted[name] for name in known & noted.keys()})
 
 
 def not_ours(owner: bpy.types.ID, key: str) -> DecompositionError:

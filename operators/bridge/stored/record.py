@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from typing import Any
 
 import bpy
 
 from ....core.errors import DecompositionError
-from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
-from ....core.results.hulls import HullDecomposition
 from ....core.results.parts import Decomposition, Measurement
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of
 from .identity import Identity
 from .names import RESULT
 from .noted_parts import entry_of
-from .notes import parse_json, read_note, version, write_note
+from .notes import parameters_in, parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore, sharers
 
 # The meshes of an object that parts can be found on: its own, or as it is seen.
 ORIGINAL, EVALUATED = "ORIGINAL", "EVALUATED"
+# Key of what is noted of hulls, and in that of each one.
+HULLS = "hulls"
 
 _MEASURED = "measured"
 _SELECTION = "selection"
-_HULLS = "hulls"
 _ROUGH = "rough"
 
 
@@ -39,6 +38,11 @@ def parse_record(noted: object) -> dict[str, Any] | None:
     """Return the record that a custom property holds, None if it holds none of ours."""
     record = parse_json(noted)
     return record if record and "version" in record else None
+
+
+def record_if_ours(obj: bpy.types.Object | None) -> dict[str, Any]:
+    """Return what is noted on an object, empty if nothing of ours is."""
+    return (parse_record(obj.get(RESULT)) if obj else None) or {}
 
 
 def record_of(obj: bpy.types.Object) -> dict[str, Any]:
@@ -68,9 +72,7 @@ def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
         return None
     if noted is None:
         return None
-    # Other versions of the extension have other parameters.
-    known = {each.name for each in fields(Parameters)}
-    return Parameters(**{name: noted[name] for name in known & noted.keys()})
+    return parameters_in(noted, Parameters)
 
 
 def noted_mesh(obj: bpy.types.Object) -> str:
@@ -138,7 +140,7 @@ def write_result(
     if decomposition.rough:
         result[_ROUGH] = True
     beside = beside_parts(obj)
-    for hull in beside.get(_HULLS, {}).get("hulls", ()):
+    for hull in beside.get(HULLS, {}).get(HULLS, ()):
         hull["part"] = None  # it is around a former part
     write_note(obj, RESULT, {**result, **beside})
 
@@ -202,32 +204,10 @@ def write_measurement(
     write_note(obj, RESULT, result)
 
 
-def write_hull_record(
-    obj: bpy.types.Object,
-    found: HullDecomposition,
-    parameters: HullParameters,
-    hulls: list[dict[str, Any]],
-) -> None:
-    """Note the hulls of an object; all else stays noted."""
-    result = record_of(obj) or {"version": version()}
-    ratio = found.volume_ratio
-    result[_HULLS] = {
-        "parameters": asdict(parameters),
-        "largest_error": float(found.errors.max()),
-        "volume_ratio": ratio if math.isfinite(ratio) else None,
-        "hulls": hulls,
-        MEASURED_ON: fingerprint_of(obj),
-        "notes": list(found.notes),
-    }
-    write_note(obj, RESULT, result)
-
-
 def beside_parts(obj: bpy.types.Object) -> dict[str, Any]:
     """Return the measurements and hulls that are noted on an object."""
     result = record_of(obj)
-    return {
-        key: result[key] for key in (_MEASURED, _SELECTION, _HULLS) if key in result
-    }
+    return {key: result[key] for key in (_MEASURED, _SELECTION, HULLS) if key in result}
 
 
 def forget_parts(obj: bpy.types.Object) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import struct
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -13,7 +12,7 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
-from ...bridge.stored.names import HULL_TAG
+from ...bridge.stored.noted_hulls import figures_on
 
 # A binary .fbx file begins with words and its version. Then come nodes: end, number of
 # properties, their length, length of the name, name. A property begins with its type.
@@ -88,7 +87,7 @@ def _unreal_names(hulls: Sequence[bpy.types.Object]) -> list[str]:
         owned.setdefault(hull.parent, []).append(hull)
     names: dict[bpy.types.Object, str] = {}
     for obj, its_hulls in owned.items():
-        kinds = [json.loads(hull[HULL_TAG])["kind"] for hull in its_hulls]
+        kinds = [figures_on(hull).get("kind", "HULL") for hull in its_hulls]
         plain = hull_names("PLAIN", "", obj.name, kinds)
         unreal = hull_names("UNREAL", "", obj.name, kinds)
         for hull, usual, name in zip(its_hulls, plain, unreal, strict=True):
