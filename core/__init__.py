@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from .pictures import draw_picture as draw_picture
     from .sight.point_view import PointViewer as PointViewer
     from .sight.point_view import point_viewer_in_steps as point_viewer_in_steps
-    from .sight.prepared import PreparedShape as PreparedShape
     from .solids.mass import mass_of_mesh as mass_of_mesh
     from .solids.mass import mass_of_surface as mass_of_surface
 
@@ -73,7 +72,6 @@ _HOMES = {
     "draw_picture": "pictures",
     "PointViewer": "sight.point_view",
     "point_viewer_in_steps": "sight.point_view",
-    "PreparedShape": "sight.prepared",
 }
 
 # The modules that the names come from, to be imported one at a time.

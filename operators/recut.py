@@ -21,6 +21,7 @@ from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
 from .running.computation import Replacement
+from .running.watching import stop_timer
 from .settings import parameters_from, properties_for
 
 # Seconds that a slider waits for parts, most and least; after that a modal run finds
@@ -192,8 +193,7 @@ def stop() -> None:
     """Forget a modal run that waits to be started."""
     global _begun
     _begun = None
-    if bpy.app.timers.is_registered(_invoke):
-        bpy.app.timers.unregister(_invoke)
+    stop_timer(_invoke)
 
 
 class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):

@@ -10,7 +10,7 @@ from .bridge.parts.present_parts import present_parts
 from .bridge.parts.separating import replace, separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .bridge.views.colors import CHOICES, show_colors_as
-from .bridge.views.exploding import explode, exploding, implode
+from .bridge.views.exploding import DISTANCE_HELP, FARTHEST, explode, exploding, implode
 from .bridge.views.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.work.in_step import bring_in_step
 from .running.on_objects import OnEach
@@ -86,10 +86,10 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
 WCD_OT_explode.__annotations__ = {
     "distance": bpy.props.FloatProperty(
         name="Distance",
-        description="How much farther the parts are from the center of the shape",
+        description=DISTANCE_HELP,
         default=0.5,
         min=0.0,
-        soft_max=3.0,
+        soft_max=FARTHEST,
         subtype="FACTOR",
     )
 }

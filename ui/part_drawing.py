@@ -16,6 +16,7 @@ from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.parts.palette import srgb_of
 from ..operators.bridge.parts.rows import chosen_numbers, look_left
 from ..operators.bridge.refusals import faces_refusal
+from ..operators.running.watching import stop_timer
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_identities, shown_parts
 from ..operators.viewport.viewports import redraw
@@ -52,8 +53,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register`."""
-    if bpy.app.timers.is_registered(redraw):
-        bpy.app.timers.unregister(redraw)
+    stop_timer(redraw)
     while _handlers:
         bpy.types.SpaceView3D.draw_handler_remove(_handlers.pop(), "WINDOW")
     forget()

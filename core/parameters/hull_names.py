@@ -10,7 +10,7 @@ from string import Formatter
 from ..errors import DecompositionError
 
 # Prefixes by which Unreal recognizes collision shapes. It has none for cylinders.
-_UNREAL = {"HULL": "UCX", "BOX": "UBX", "SPHERE": "USP", "CAPSULE": "UCP"}
+UNREAL_PREFIXES = {"HULL": "UCX", "BOX": "UBX", "SPHERE": "USP", "CAPSULE": "UCP"}
 # Most characters that a template may add to the name of the object. Blender cuts names
 # off after 255 bytes.
 _LONGEST = 255
@@ -144,7 +144,7 @@ def _template_of(naming: str, template: str) -> str:
 
 def _filled(template: str, name: str, n: int, kind: str) -> str:
     """Return the name of a hull by a pattern; raise what `str.format` does."""
-    prefix = _UNREAL.get(kind, "UCX")
+    prefix = UNREAL_PREFIXES.get(kind, "UCX")
     return template.format(name=name, n=n, kind=kind.lower(), prefix=prefix)
 
 

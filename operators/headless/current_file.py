@@ -6,6 +6,7 @@ import bpy
 
 from ..bridge.hulls.listed import is_hull
 from ..bridge.mesh.points import count_points, is_cloud
+from ..bridge.refusals import WORKED_ON
 from .quiet import quiet_blender
 
 
@@ -29,7 +30,7 @@ def mesh_objects() -> list[bpy.types.Object]:
         for scene in bpy.data.scenes
         for layer in scene.view_layers
         for obj in layer.objects
-        if obj.type in {"MESH", "POINTCLOUD"} and not is_hull(obj)
+        if obj.type in WORKED_ON and not is_hull(obj)
     }
     return sorted(found, key=lambda obj: obj.name_full)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import TextIO, TypeVar
 
@@ -17,6 +17,8 @@ T = TypeVar("T")
 # Time between two lines of progress at least.
 _TERMINAL_SECONDS = 0.1
 _LOG_SECONDS = 2.0
+# Most names in a sentence.
+_MOST_NAMES = 3
 
 
 class StreamError(Exception):
@@ -166,3 +168,10 @@ def _discard(descriptor: int) -> None:
     if null != descriptor:  # the lowest that is free, so perhaps this one
         os.dup2(null, descriptor)
         os.close(null)
+
+
+def first_of(names: Sequence[str]) -> str:
+    """Return the first names of many, and how many more there are."""
+    more = len(names) - _MOST_NAMES
+    shown = ", ".join(names[:_MOST_NAMES])
+    return f"{shown} and {more} more" if more > 0 else shown

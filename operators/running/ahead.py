@@ -22,6 +22,7 @@ from ...core.steps.progress import Steps
 from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
+from .watching import stop_timer
 
 T = TypeVar("T")
 # Parameters, and whether a first look at the parts is enough.
@@ -133,5 +134,4 @@ def unregister() -> None:
     bpy.app.handlers.load_pre.remove(stop)
     atexit.unregister(stop)
     stop()
-    if bpy.app.timers.is_registered(go_on):
-        bpy.app.timers.unregister(go_on)
+    stop_timer(go_on)

@@ -12,7 +12,7 @@ import bpy
 from ...core.errors import DecompositionError
 from ..bridge.views.node_modifiers import is_view
 from ..bridge.work.in_step import bring_in_step
-from .watching import changed_objects, unwatch, watch
+from .watching import changed_objects, stop_timer, unwatch, watch
 
 # How many faces the objects with such modifiers have, by their `session_uid`.
 _n_faces: dict[int, int] = {}
@@ -74,6 +74,5 @@ def register() -> None:
 def unregister() -> None:
     """Undo `register`."""
     unwatch(_HANDLERS)
-    if bpy.app.timers.is_registered(bring_views_in_step):
-        bpy.app.timers.unregister(bring_views_in_step)
+    stop_timer(bring_views_in_step)
     _n_faces.clear()

@@ -27,7 +27,7 @@ from ..bridge.stored.record import (
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
 from . import modal
-from .watching import unwatch, watch
+from .watching import stop_timer, unwatch, watch
 
 # Seconds that settings rest before their parts are found.
 _REST = 0.3
@@ -52,8 +52,7 @@ def start() -> None:
 def stop() -> None:
     """Find nothing any more, until `start`."""
     _cancel()
-    if bpy.app.timers.is_registered(go_on):
-        bpy.app.timers.unregister(go_on)
+    stop_timer(go_on)
 
 
 def _cancel() -> None:

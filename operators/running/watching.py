@@ -1,4 +1,4 @@
-"""Watch for changes through Blender's handlers, and tell which objects changed."""
+"""Watch for changes through handlers and timers, and tell which objects changed."""
 
 from __future__ import annotations
 
@@ -21,6 +21,12 @@ def unwatch(handlers: Mapping[str, Callable[..., Any]]) -> None:
     """Undo `watch`."""
     for name, handler in handlers.items():
         getattr(bpy.app.handlers, name).remove(handler)
+
+
+def stop_timer(function: Callable[[], float | None]) -> None:
+    """Call a function no more that waits for its time."""
+    if bpy.app.timers.is_registered(function):
+        bpy.app.timers.unregister(function)
 
 
 def changed_objects(graph: bpy.types.Depsgraph) -> Iterator[bpy.types.Object]:

@@ -21,7 +21,6 @@ def refit_in_steps(
     points: NDArray[np.float64],
     parameters: HullParameters,
     cache: ShapeCache,
-    seed: int = 0,
     scene_unit: float = 1.0,
 ) -> Steps[HullDecomposition]:
     """Fit a shape around a piece, and state its error as for the shapes of all pieces.
@@ -34,8 +33,6 @@ def refit_in_steps(
         Points with the same convex hull as the piece.
     parameters : HullParameters
     cache : ShapeCache
-    seed : int
-        Seed of the random surface samples.
     scene_unit : float
         Length in the scene of 1 in the units of the mesh.
 
@@ -48,7 +45,7 @@ def refit_in_steps(
     assert prepared.solid is not None  # None for point clouds only
     fit, factor = fit_for(mesh, parameters, scene_unit)
     scale = mesh.diagonal / fit.unit
-    solid = yield from within(solid_of(prepared.solid, seed, scale), 0.1, 0.8)
+    solid = yield from within(solid_of(prepared.solid, 0, scale), 0.1, 0.8)
     yield Progress("Measuring", 0.8)
     hull = convex_hull((points - mesh.center) / fit.unit, THIN)
     shape = fit.shape(hull)

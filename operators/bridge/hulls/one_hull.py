@@ -58,7 +58,7 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
 
     def work() -> Steps[HullDecomposition]:
         cache = session_cache()
-        steps = core.refit_in_steps(mesh, points, parameters, cache, 0, unit)
+        steps = core.refit_in_steps(mesh, points, parameters, cache, unit)
         return (yield from steps)
 
     return with_libraries((), work())

@@ -182,9 +182,9 @@ def _is_blender_object(shape: object) -> bool:
 
 def _check_readable(obj: Any) -> None:
     """Raise if a Blender object has neither faces nor points."""
-    from ..refusals import CONVERTIBLE
+    from ..refusals import CONVERTIBLE, WORKED_ON
 
-    if obj.type not in CONVERTIBLE | {"MESH", "POINTCLOUD"}:
+    if obj.type not in CONVERTIBLE | WORKED_ON:
         raise DecompositionError(
             f"{obj.name} is not a mesh; pass a mesh or a point cloud."
         )

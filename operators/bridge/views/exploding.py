@@ -11,7 +11,8 @@ from .node_modifiers import Nodes, new_node_group, remove_modifier, tagged_modif
 
 _NAME = "Exploded View"
 # Largest distance of the slider; at 1, parts are twice as far from the center.
-_FARTHEST = 3.0
+FARTHEST = 3.0
+DISTANCE_HELP = "How much farther the parts are from the center of the shape"
 
 
 def exploding(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
@@ -60,9 +61,9 @@ def _node_group() -> bpy.types.GeometryNodeTree:
     distance = group.interface.new_socket(
         "Distance", in_out="INPUT", socket_type="NodeSocketFloat"
     )
-    distance.description = "How much farther the parts are from the center of the shape"
+    distance.description = DISTANCE_HELP
     distance.subtype = "FACTOR"
-    distance.min_value, distance.max_value = 0.0, _FARTHEST
+    distance.min_value, distance.max_value = 0.0, FARTHEST
     _wire(group)
     return group
 

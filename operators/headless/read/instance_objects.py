@@ -11,7 +11,7 @@ from mathutils import Matrix
 
 from ...bridge.homes import homes_of
 from ...bridge.stored.record import forget_result
-from .numbering import plain_name
+from .numbering import unnumbered
 
 # Bytes of a name: Blender 4.2 allows 63, and those of hulls get longer.
 _LONGEST_NAME = 48
@@ -50,7 +50,7 @@ class Instance:
     def title(self) -> str:
         """Name of the object to be made, without a number."""
         shown = self.source if self.is_copy or self.mesh is None else self.mesh
-        return f"{self.instancer.name} {plain_name(shown)}"
+        return f"{self.instancer.name} {unnumbered(shown)}"
 
 
 def add_objects(found: Sequence[Instance]) -> None:

@@ -7,13 +7,13 @@ import re
 
 import bpy
 
+from ....core.parameters.hull_names import UNREAL_PREFIXES
 from ...bridge.hulls.listed import is_hull
 from ...bridge.stored.names import HULL_TAG
+from ..screen import first_of
 
 # How Unreal knows hulls: UCX_Name_01, of the mesh called Name.
-_UNREAL = re.compile(r"(?:UCX|UBX|USP|UCP)_(.+?)(_\d+)?")
-# Most names in a note.
-_MOST_NAMES = 3
+_UNREAL = re.compile(rf"(?:{'|'.join(UNREAL_PREFIXES.values())})_(.+?)(_\d+)?")
 
 
 def adopt_hulls() -> None:
@@ -42,10 +42,9 @@ def hull_note() -> str | None:
     names = sorted(obj.name for obj in bpy.data.objects if is_hull(obj))
     if not names:
         return None
-    shown = ", ".join(names[:_MOST_NAMES])
-    more = len(names) - _MOST_NAMES
-    shown += f" and {more} more" if more > 0 else ""
-    return f"Hulls in the file are no models and were not decomposed: {shown}."
+    return (
+        f"Hulls in the file are no models and were not decomposed: {first_of(names)}."
+    )
 
 
 def _is_named_hull(obj: bpy.types.Object) -> bool:

@@ -22,7 +22,7 @@ def number_in_order(objects: Iterable[bpy.types.Object]) -> None:
     """
     groups = defaultdict(list)
     for obj in objects:
-        groups[plain_name(obj)].append(obj)
+        groups[unnumbered(obj)].append(obj)
     for name, group in sorted(groups.items()):
         if len(group) == 1:
             continue
@@ -40,7 +40,7 @@ def _data_of(obj: bpy.types.Object) -> list[bpy.types.ID]:
     return [obj.data] if obj.data and obj.data.users == 1 else []
 
 
-def plain_name(owner: bpy.types.ID) -> str:
+def unnumbered(owner: bpy.types.ID) -> str:
     """Return the name of an object or mesh without Blender's number."""
     return _NUMBER.sub("", owner.name)
 
@@ -49,7 +49,7 @@ def _place(obj: bpy.types.Object) -> tuple[Any, ...]:
     """Return what tells objects of one name apart."""
     above, parent = [], obj.parent
     while parent:
-        above.append(plain_name(parent))
+        above.append(unnumbered(parent))
         parent = parent.parent
     size = len(getattr(obj.data, "vertices", ()))
     numbers = [number for row in obj.matrix_world for number in row]

@@ -15,7 +15,7 @@ import numpy as np
 
 from .names import legal_names
 from .placed_meshes import (
-    FloatArray,
+    Float64Array,
     matrix_of,
     placed,
     turned_up,
@@ -28,7 +28,7 @@ _ROUNDING = 2e-6
 
 def write_obj(
     path: Path,
-    meshes: Sequence[tuple[str, FloatArray, Iterable[Sequence[int]]]],
+    meshes: Sequence[tuple[str, Float64Array, Iterable[Sequence[int]]]],
 ) -> None:
     """Write meshes, each an object of its own.
 
@@ -91,9 +91,9 @@ def restore_digits(path: Path, up: str) -> None:
     )
 
 
-def _exported_meshes() -> dict[str, list[FloatArray]]:
+def _exported_meshes() -> dict[str, list[Float64Array]]:
     """Return the vertices of all visible meshes in world space, by name in the file."""
-    found: dict[str, list[FloatArray]] = {}
+    found: dict[str, list[Float64Array]] = {}
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         obj = instance.object.original
         if obj.type == "MESH":
@@ -103,7 +103,7 @@ def _exported_meshes() -> dict[str, list[FloatArray]]:
     return found
 
 
-def _agree(lines: Sequence[str], vertices: FloatArray) -> bool:
+def _agree(lines: Sequence[str], vertices: Float64Array) -> bool:
     """Return whether lines of a file hold vertices, as far as their decimals go."""
     if len(lines) != len(vertices):
         return False

@@ -8,18 +8,18 @@ from numpy.typing import NDArray
 
 from ...bridge.mesh.known import triangles_of
 
-FloatArray = NDArray[np.float64]
+Float64Array = NDArray[np.float64]
 TriangleArray = NDArray[np.int64]
 
 
-def matrix_of(obj: bpy.types.Object) -> FloatArray:
+def matrix_of(obj: bpy.types.Object) -> Float64Array:
     """Return the matrix from an object's space to the world, (4, 4)."""
     return np.array(obj.matrix_world, dtype=np.float64)
 
 
 def placed(
-    obj: bpy.types.Object, matrix: FloatArray
-) -> tuple[FloatArray, TriangleArray, TriangleArray]:
+    obj: bpy.types.Object, matrix: Float64Array
+) -> tuple[Float64Array, TriangleArray, TriangleArray]:
     """Return the mesh of an object, moved by a matrix.
 
     Double precision: a small object far away keeps its digits.
@@ -45,7 +45,7 @@ def placed(
     return vertices @ matrix[:3, :3].T + matrix[:3, 3], triangles, faces
 
 
-def turned_up(vertices: FloatArray, up: str) -> FloatArray:
+def turned_up(vertices: Float64Array, up: str) -> Float64Array:
     """Return vertices (V, 3) for a file in which `up` ('Y' or 'Z') points up."""
     if up == "Z":
         return vertices
@@ -53,7 +53,7 @@ def turned_up(vertices: FloatArray, up: str) -> FloatArray:
     return np.stack([x, z, -y], axis=1)
 
 
-def written(numbers: FloatArray) -> str:
+def written(numbers: Float64Array) -> str:
     """Return numbers as text with nine digits: no single-precision digit is lost.
 
     Nine digits from the first one that is not zero, so models of any size keep theirs.

@@ -1,8 +1,12 @@
 """The public functions with Blender's objects, beside the operators."""
 
+import json
+import re
+
 import bpy
 import pytest
 import weak_convex_decomposition as wcd
+from conftest import ROOT
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 
 
@@ -12,6 +16,21 @@ def test_an_object_gets_the_parts_that_the_operator_gives_it(suzanne):
     bpy.ops.wcd.decompose(samples=300)
     pairs = set(zip(found.labels.tolist(), part_labels(suzanne).tolist(), strict=True))
     assert len(pairs) == found.n_parts == len(suzanne.wcd_parts)
+
+
+def test_the_manual_tells_of_all_that_is_recorded(suzanne):
+    bpy.ops.wcd.decompose(samples=100)
+    bpy.ops.wcd.measure(samples=100)
+    bpy.ops.wcd.build_hulls(max_hulls=1)
+    recorded = json.loads(suzanne["wcd"])
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.wcd.measure_selection(samples=100)
+    recorded |= json.loads(suzanne["wcd"])
+    manual = (ROOT / "docs" / "scripts.md").read_text(encoding="utf-8")
+    table = manual.partition("| key | holds |\n|---|---|\n")[2].partition("\n\n")[0]
+    first_cells = [row.split("|")[1] for row in table.splitlines()]
+    told = {key for cell in first_cells for key in re.findall(r"`(\w+)`", cell)}
+    assert told == recorded.keys() | {"rough"}
 
 
 def test_hulls_and_ranks_of_an_object(suzanne):

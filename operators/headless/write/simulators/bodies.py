@@ -17,7 +17,7 @@ from ....bridge.mesh.attributes import read_ints
 from ....bridge.parts.palette import UNPAINTED
 from ..names import legal_names
 from ..obj_files import write_obj
-from ..placed_meshes import FloatArray, TriangleArray, matrix_of, placed
+from ..placed_meshes import Float64Array, TriangleArray, matrix_of, placed
 from .masses import mass_notes, mass_of_objects
 
 # Names that simulators use themselves.
@@ -43,7 +43,7 @@ class Geometry:
 
     name: str
     file: str
-    vertices: FloatArray
+    vertices: Float64Array
     triangles: TriangleArray
     solid: Solid | None = None
     color: tuple[float, ...] | None = None
@@ -64,7 +64,7 @@ class Body:
     """
 
     name: str
-    frame: FloatArray
+    frame: Float64Array
     mass: MassProperties
     collisions: tuple[Geometry, ...]
     visuals: tuple[Geometry, ...]
@@ -119,7 +119,7 @@ def write_meshes(folder: Path, bodies: Sequence[Body]) -> None:
                 write_obj(folder / geometry.file, [mesh])
 
 
-def _frame_of(obj: bpy.types.Object) -> FloatArray:
+def _frame_of(obj: bpy.types.Object) -> Float64Array:
     """Return the place and rotation of an object, without its scale, (4, 4)."""
     place, turn, _ = obj.matrix_world.decompose()
     frame = np.eye(4)
@@ -128,14 +128,14 @@ def _frame_of(obj: bpy.types.Object) -> FloatArray:
     return frame
 
 
-def _collision(hull: bpy.types.Object, frame: FloatArray) -> Geometry:
+def _collision(hull: bpy.types.Object, frame: Float64Array) -> Geometry:
     """Return a hull in the frame of its body."""
     matrix = np.linalg.inv(frame) @ matrix_of(hull)
     vertices, triangles, _ = placed(hull, matrix)
     return Geometry(hull.name, "", vertices, triangles, solid_of(hull, matrix))
 
 
-def _visuals(obj: bpy.types.Object, frame: FloatArray) -> list[Geometry]:
+def _visuals(obj: bpy.types.Object, frame: Float64Array) -> list[Geometry]:
     """Return the mesh of an object in the frame of its body, a piece for each color.
 
     Simulators take one color for a mesh; MuJoCo reads no materials of .obj files.
@@ -158,8 +158,8 @@ def _visuals(obj: bpy.types.Object, frame: FloatArray) -> list[Geometry]:
 
 
 def _four_vertices(
-    vertices: FloatArray, triangles: TriangleArray
-) -> tuple[FloatArray, TriangleArray]:
+    vertices: Float64Array, triangles: TriangleArray
+) -> tuple[Float64Array, TriangleArray]:
     """Return a mesh with four vertices at least, which is what MuJoCo takes."""
     if len(vertices) > 3:
         return vertices, triangles

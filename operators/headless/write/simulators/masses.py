@@ -10,17 +10,16 @@ import numpy as np
 from ..... import core
 from .....core.geometry.mesh import TriangleMesh
 from .....core.solids.mass_properties import MassProperties, combined_mass
-from ..placed_meshes import FloatArray, matrix_of, placed
+from ...screen import first_of
+from ..placed_meshes import Float64Array, matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.
 _LEAST = 1e-15
-# Most names in a note.
-_MOST_NAMES = 3
 
 
 def mass_of_objects(
     owned: Mapping[bpy.types.Object, Sequence[bpy.types.Object]],
-    frame: FloatArray,
+    frame: Float64Array,
     density: float,
 ) -> tuple[MassProperties, list[str]]:
     """Return the mass properties of a body, and its objects that are no solids.
@@ -66,12 +65,9 @@ def mass_notes(
     """Return sentences to the user about the masses of bodies, by name."""
     notes = []
     if without_solid:
-        names = ", ".join(without_solid[:_MOST_NAMES])
-        more = len(without_solid) - _MOST_NAMES
-        names += f" and {more} more" if more > 0 else ""
         notes.append(
             f"Mass and inertia are those of the hulls where the surface is not closed:"
-            f" {names}."
+            f" {first_of(without_solid)}."
         )
     for name, mass in masses.items():
         if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ....bridge.hulls.placed import Solid, angles_of
-from ..placed_meshes import FloatArray, written
+from ..placed_meshes import Float64Array, written
 from .bodies import Body, Geometry
 
 # Simulators take a link of this name for the ground, which does not move.
@@ -130,7 +130,7 @@ def _add_mesh(element: ET.Element, shape: Geometry, folder: str) -> None:
 
 
 def _add_origin(
-    element: ET.Element, place: FloatArray, rotation: FloatArray | None = None
+    element: ET.Element, place: Float64Array, rotation: Float64Array | None = None
 ) -> None:
     """Add a place and a rotation matrix; without one, axes are those of the link."""
     angles = np.zeros(3) if rotation is None else angles_of(rotation)

@@ -107,7 +107,7 @@ def test_the_mesh_is_read_again_when_it_changes(window, suzanne, labels):
     assert np.ptp(labels) == 3
 
 
-def test_a_tree_is_made_of_what_is_seen_only(window, suzanne, labels):
+def test_no_tree_of_what_is_hidden_or_gone_raises_an_error(window, suzanne, labels):
     make_tree()
     in_mode(suzanne, "EDIT")
     make_tree()
