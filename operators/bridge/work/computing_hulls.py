@@ -104,8 +104,9 @@ def _enlarged(
 def hull_summary(found: HullDecomposition) -> str:
     """Return one line with the number of hulls, their largest error and volume."""
     unit = " in the scene" if found.error_unit == "SCENE" else ""
+    ratio = f" volume of hulls / volume {found.volume_ratio:.2f}"
     return (
         f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
         f" largest error {found.errors.max():.3g}{unit},"
-        f" volume of hulls / volume {found.volume_ratio:.2f}"
+        f"{ratio if np.isfinite(found.volume_ratio) else ' no volume inside'}"
     )

@@ -182,12 +182,13 @@ def test_a_mesh_without_faces_is_refused():
         build()
 
 
-def test_a_flat_mesh_has_a_thin_hull():
+def test_a_flat_mesh_has_a_thin_hull(capfd):
     obj = mesh_object("flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
     bpy.context.view_layer.objects.active = obj
     build()
     (hull,) = hulls_of(obj)
     assert_convex(polyhedron(hull), 1e-7)
+    assert "no volume inside" in capfd.readouterr().out
 
 
 def test_undo_takes_hulls_back(suzanne):
