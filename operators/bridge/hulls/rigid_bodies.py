@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import bpy
 
@@ -40,14 +41,15 @@ def make_rigid(
             f"{unseen[0]} is not in the view layer; rigid bodies have to be."
         )
     soften(obj, hulls)
-    ours = bpy.context.scene.rigidbody_world is None
+    scene = bpy.context.scene
+    ours = scene.rigidbody_world is None
     for each, shape in ((obj, "COMPOUND"), *((hull, "CONVEX_HULL") for hull in hulls)):
-        with _on(each):
+        with _on(each, scene):
             bpy.ops.rigidbody.object_add(type=kind)
         each.rigid_body.collision_shape = shape
     obj[RIGID_TAG] = True
     if ours:
-        bpy.context.scene.rigidbody_world.collection[RIGID_TAG] = True
+        scene.rigidbody_world.collection[RIGID_TAG] = True
 
 
 def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
@@ -57,7 +59,7 @@ def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
     del obj[RIGID_TAG]
     for each in (obj, *hulls):
         if each.rigid_body is not None:
-            with _on(each):
+            with _on(each, _scene_of(each)):
                 bpy.ops.rigidbody.object_remove()
     remove_simulation()
 
@@ -67,13 +69,35 @@ def remove_simulation() -> None:
     for scene in bpy.data.scenes:
         bodies = scene.rigidbody_world and scene.rigidbody_world.collection
         if bodies and RIGID_TAG in bodies and not bodies.objects:
-            with bpy.context.temp_override(scene=scene):
+            with bpy.context.temp_override(**_within(scene)):
                 bpy.ops.rigidbody.world_remove()
             bpy.data.collections.remove(bodies)
 
 
-def _on(obj: bpy.types.Object) -> bpy.types.ContextTempOverride:
-    """Return the context in which Blender's operators work on an object."""
+def _scene_of(body: bpy.types.Object) -> bpy.types.Scene:
+    """Return the scene in whose simulation a rigid body is, which may be another."""
+    for scene in bpy.data.scenes:
+        world = scene.rigidbody_world
+        if world and world.collection and body.name in world.collection.objects:
+            return scene
+    return bpy.context.scene
+
+
+def _within(scene: bpy.types.Scene) -> dict[str, Any]:
+    """Return what tells Blender's operators to work in a scene.
+
+    They crash where the scene is one and the view layer another's.
+    """
+    if scene == bpy.context.scene:
+        return {}
+    return {"scene": scene, "view_layer": scene.view_layers[0]}
+
+
+def _on(obj: bpy.types.Object, scene: bpy.types.Scene) -> bpy.types.ContextTempOverride:
+    """Return the context in which Blender's operators work on an object in a scene."""
     return bpy.context.temp_override(
-        object=obj, active_object=obj, selected_objects=[obj]
+        object=obj,
+        active_object=obj,
+        selected_objects=[obj],
+        **_within(scene),
     )

@@ -119,3 +119,16 @@ def test_pieces_of_an_object_whose_hulls_are_a_rigid_body_are_none(suzanne):
     pieces = bpy.data.collections["Suzanne parts"].objects
     assert not any(piece.rigid_body or "wcd_rigid" in piece for piece in pieces)
     assert suzanne.rigid_body is not None
+
+
+def test_another_scene_takes_the_bodies_back(table):
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    bpy.ops.wcd.make_rigid()
+    scene, other = bpy.context.scene, bpy.data.scenes.new("other")
+    other.collection.objects.link(table)
+    with bpy.context.temp_override(scene=other, view_layer=other.view_layers[0]):
+        activate(table)
+        bpy.ops.wcd.remove_hulls()
+    assert table.rigid_body is None
+    assert scene.rigidbody_world is None
+    assert list(bpy.data.objects) == [table]
