@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import bpy
@@ -66,21 +66,26 @@ def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
 
 def remove_simulation() -> None:
     """Remove the simulation that we made in a scene if nothing is left in it."""
-    for scene in bpy.data.scenes:
-        bodies = scene.rigidbody_world and scene.rigidbody_world.collection
-        if bodies and RIGID_TAG in bodies and not bodies.objects:
+    for scene, bodies in _simulations():
+        if RIGID_TAG in bodies and not bodies.objects:
             with bpy.context.temp_override(**_within(scene)):
                 bpy.ops.rigidbody.world_remove()
             bpy.data.collections.remove(bodies)
 
 
+def _simulations() -> Iterator[tuple[bpy.types.Scene, bpy.types.Collection]]:
+    """Yield the scenes with a simulation, and the rigid bodies in each."""
+    for scene in bpy.data.scenes:  # some may share what the caller removes
+        world = scene.rigidbody_world
+        if world and world.collection:
+            yield scene, world.collection
+
+
 def _scene_of(body: bpy.types.Object) -> bpy.types.Scene:
     """Return the scene in whose simulation a rigid body is, which may be another."""
-    for scene in bpy.data.scenes:
-        world = scene.rigidbody_world
-        if world and world.collection and body.name in world.collection.objects:
-            return scene
-    return bpy.context.scene
+    homes = body.users_collection
+    scenes = (scene for scene, bodies in _simulations() if bodies in homes)
+    return next(scenes, bpy.context.scene)
 
 
 def _within(scene: bpy.types.Scene) -> dict[str, Any]:

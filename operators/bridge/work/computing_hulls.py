@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -104,9 +105,10 @@ def _enlarged(
 def hull_summary(found: HullDecomposition) -> str:
     """Return one line with the number of hulls, their largest error and volume."""
     unit = " in the scene" if found.error_unit == "SCENE" else ""
-    ratio = f" volume of hulls / volume {found.volume_ratio:.2f}"
+    ratio, volume = found.volume_ratio, "no volume inside"
+    if math.isfinite(ratio):
+        volume = f"volume of hulls / volume {ratio:.2f}"
     return (
         f"{found.n_hulls} {'hull' if found.n_hulls == 1 else 'hulls'},"
-        f" largest error {found.errors.max():.3g}{unit},"
-        f"{ratio if np.isfinite(found.volume_ratio) else ' no volume inside'}"
+        f" largest error {found.errors.max():.3g}{unit}, {volume}"
     )
