@@ -15,9 +15,10 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
+from ..discarding import discard
 from ..homes import new_collection
 from ..parts.identities import usual_identities
-from ..parts.materials import discard_unused, hull_material, is_ours, none_missing
+from ..parts.materials import hull_material, none_missing
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
@@ -134,16 +135,7 @@ def erase_lost_hulls() -> int:
 
 def _remove(hulls: Sequence[bpy.types.Object]) -> None:
     """Remove hulls with their meshes and materials, and our empty collections."""
-    meshes = [hull.data for hull in hulls]
-    worn = {m for mesh in meshes for m in mesh.materials}
-    worn |= {slot.material for hull in hulls for slot in hull.material_slots}
-    materials = set(filter(is_ours, worn))
-    for hull in hulls:
-        bpy.data.objects.remove(hull)
-    for mesh in set(meshes):
-        if mesh.users == 0:
-            bpy.data.meshes.remove(mesh)
-    discard_unused(materials)
+    discard(hulls)
     remove_empty_collections()
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
+from ..discarding import discard
 from ..homes import new_collection
 from ..hulls.rigid_bodies import soften
 from ..views.node_modifiers import remove_views
@@ -45,7 +46,7 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
             piece.data.materials.append(materials[part])
         collection.objects.link(piece)
         pieces.append(piece)
-    _remove(bare)
+    discard([bare])
     return pieces
 
 
@@ -53,21 +54,13 @@ def replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
     """Remove an object whose parts were separated; `piece` gets its children."""
     for child in obj.children:
         child.parent = piece
-    _remove(obj)
+    discard([obj])
 
 
 def _copy(obj: bpy.types.Object) -> bpy.types.Object:
     copy = obj.copy()
     copy.data = obj.data.copy()
     return copy
-
-
-def _remove(obj: bpy.types.Object) -> None:
-    """Remove an object, and its mesh if nothing else uses it."""
-    mesh = obj.data
-    bpy.data.objects.remove(obj)
-    if mesh.users == 0:
-        bpy.data.meshes.remove(mesh)
 
 
 def _keep_faces(mesh: bpy.types.Mesh, kept: NDArray[np.bool_], loose: bool) -> None:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
+from ..discarding import discard
 from ..homes import homes_of
 from ..parts.erase import erase_parts
-from ..parts.materials import discard_unused, is_ours
 from ..refusals import CONVERTIBLE
 from ..stored.names import CARRIER_TAG, HIDDEN_TAG
 from .converting import converted
@@ -68,7 +68,7 @@ def placed_carrier(
     for child in obj.children:
         if CARRIER_TAG in child and child != carrier:
             _show_source(child)
-            _remove(child)
+            discard([child])
     carrier.name = carrier.data.name = f"{obj.name} parts"
     carrier.matrix_basis = Matrix()
     for collection in homes_of(obj):
@@ -116,7 +116,7 @@ def clear_carrier(carrier: bpy.types.Object) -> None:
         return
     _show_source(carrier)
     if not carrier.children:
-        _remove(carrier)
+        discard([carrier])
     if source.name in layer:
         source.select_set(True)
         layer.active = source
@@ -125,19 +125,9 @@ def clear_carrier(carrier: bpy.types.Object) -> None:
 def discard_waiting() -> None:
     """Remove the carriers that got no parts."""
     for obj in [obj for obj in bpy.data.objects if is_waiting(obj)]:
-        _remove(obj)
+        discard([obj])
 
 
 def is_waiting(obj: bpy.types.Object) -> bool:
     """Return whether an object is a carrier without parts so far."""
     return CARRIER_TAG in obj and obj.users == 0
-
-
-def _remove(carrier: bpy.types.Object) -> None:
-    """Remove a carrier, and its mesh if nothing else uses it."""
-    mesh = carrier.data
-    materials = {material for material in mesh.materials if is_ours(material)}
-    bpy.data.objects.remove(carrier)
-    if mesh.users == 0:
-        bpy.data.meshes.remove(mesh)
-    discard_unused(materials)
