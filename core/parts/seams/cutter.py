@@ -35,10 +35,10 @@ class Seams(NamedTuple):
     parts : (P,) int
         Part of each node.
     smoothness : float
-        The lambda that they were cut with, 0 if no seams were cut.
+        The lambda that seams are cut with, 0 if none are.
     ragged : (P,) bool or None
-        Nodes of parts that would have vanished in the cut, and have their ragged seams
-        still; None if there are none.
+        Nodes of parts that have their ragged seams still, as the cut would have removed
+        them or cost too much psi; None if there are none.
     """
 
     parts: NDArray[np.int64]
@@ -121,7 +121,8 @@ class SeamCutter:
             if count_parts(cut) == n_parts and partitioner.psi(cut) >= enough:
                 cut = yield from within(self._evened(cut, enough), 0.9, 1.0)
                 return Seams(cut, weight, lost[parts] if lost.any() else None)
-        return Seams(parts)
+        # All cuts cost too much psi: seams stay near where they are.
+        return Seams(parts, self._smoothness, np.ones(len(parts), dtype=bool))
 
     def smoothed(self, seams: Seams) -> Steps[Seams]:
         """Return parts whose ragged seams are smooth, too, near where they are."""

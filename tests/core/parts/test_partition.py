@@ -118,6 +118,18 @@ def test_parts_that_seams_would_swallow_get_short_ones_at_the_end(seen):
     assert run(cutter.smoothed(cut)) is smooth
 
 
+def test_seams_get_short_at_the_end_if_all_cuts_cost_too_much_psi(seen):
+    partitioner = Partitioner(seen(two_ls), PARAMETERS)
+    cutter, parts = SeamCutter(partitioner, Memo()), partitioner.partition(5)
+    cut = run(cutter.cut(parts, np.inf))
+    assert (cut.parts == parts).all()
+    smooth = run(cutter.smoothed(cut))
+    assert count_parts(smooth.parts) == 5
+    borders = partitioner.graph.borders
+    assert borders(smooth.parts, 5).sum() < borders(parts, 5).sum()
+    assert (smooth.parts == parts).mean() > 0.8
+
+
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 3, 5])
 def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
