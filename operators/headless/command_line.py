@@ -94,8 +94,8 @@ def _run(
     try:
         run(load_libraries())
         for result in _decompose_files(request, screen):
-            interrupts.check()
             results.append(result)
+            interrupts.check()
     except DecompositionError as error:  # a library is missing
         screen.error(str(error))
         return _NOTHING_DONE

@@ -43,6 +43,17 @@ SIMULATOR_ENDINGS = (".urdf", ".xml")
 USUAL_UP = {".obj": "Y", ".off": "Y", ".ply": "Z", ".stl": "Z"}
 
 
+def up_in(ending: str, chosen: str | None) -> str:
+    """Return the axis that points up in a file: the chosen one, or the usual one.
+
+    Parameters
+    ----------
+    ending : str
+    chosen : {'Y', 'Z'} or None
+    """
+    return chosen or USUAL_UP.get(ending, "Z")
+
+
 def axes(up: str) -> dict[str, str]:
     """Return the options of Blender's importers and exporters for an up axis.
 

@@ -45,6 +45,10 @@ _NOT_CUT = (
 )
 
 
+class AllPartsStay(DecompositionError):
+    """The user settled all parts of an object: there is nothing to decompose."""
+
+
 def decompose_unlocked(
     obj: bpy.types.Object,
     parameters: Parameters,
@@ -195,7 +199,7 @@ def _parameters_of_rest(
     kept = "locked" if (held == parts.locked).all() else "locked or edited by hand"
     way_out = "unlock some" if kept == "locked" else "unlock some, or clear Keep Edits"
     if held.all():
-        raise DecompositionError(
+        raise AllPartsStay(
             f"All parts are {kept}, so nothing is left to decompose; {way_out}."
         )
     if n_parts and n_parts <= n_held:

@@ -11,7 +11,7 @@ import bpy
 from ....core.errors import DecompositionError
 from ..atomic import explaining
 from ..current_file import has_shape, mesh_objects, open_empty_file
-from ..formats import USUAL_UP
+from ..formats import up_in
 from ..quiet import quiet_blender
 from .damage_checks import check_file
 from .evaluated import apply_modifiers
@@ -76,7 +76,7 @@ def load_file(
     open_empty_file()
     try:
         with quiet_blender():
-            result = IMPORTERS[ending](path, up or USUAL_UP.get(ending, "Z"))
+            result = IMPORTERS[ending](path, up_in(ending, up))
     except RuntimeError as error:  # every error of bpy.ops is one
         raise _unreadable(path, str(error)) from error
     if result != {"FINISHED"}:

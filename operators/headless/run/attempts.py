@@ -35,9 +35,13 @@ class Attempts:
         try:
             return make()
         except DecompositionError as error:
-            self._screen.error(str(error))
-            self.errors.append(str(error))
+            self.failed(str(error))
             return None
+
+    def failed(self, text: str) -> None:
+        """Show and note an error."""
+        self._screen.error(text)
+        self.errors.append(text)
 
     def written(self, path: Path | None, write: Callable[[Path], None]) -> Path | None:
         """Write to `path`; return it, or None if there is none or writing fails."""

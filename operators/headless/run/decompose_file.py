@@ -21,7 +21,7 @@ from ..write.render_engine import EngineTrial
 from .attempts import Attempts
 from .build_hulls import build_hulls
 from .decompose_objects import decompose_objects
-from .list_objects import list_objects, needs_parts
+from .list_objects import list_objects, shows_parts
 from .results import InputResult, ObjectResult
 from .stages import Stages
 
@@ -55,6 +55,10 @@ def decompose_file(
     if request.with_hulls and targets.output:
         hull_objects, results = build_hulls(objects, results, request, screen)
         if not hull_objects:  # a model without its hulls is not what was asked for
+            attempts.failed(
+                f"{targets.output.name} was not written, because no object got hulls;"
+                " leave out --with-hulls for the model alone."
+            )
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
         output = attempts.written(
@@ -68,7 +72,7 @@ def decompose_file(
     with stages.during("write"):
         hulls = attempts.written(
             targets.hulls if hull_objects else None,
-            lambda file: _write_hulls(file, hull_objects, up or "Z", request, screen),
+            lambda file: _write_hulls(file, hull_objects, up, request, screen),
         )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     return InputResult(
@@ -82,15 +86,16 @@ def _parts_of(
     """Return the result of each object; without parts if only hulls are asked for."""
     if loaded.hull_note:
         screen.warning(f"{path.name}: {loaded.hull_note}")
-    if needs_parts(targets, request):
-        return decompose_objects(path.name, loaded, request.parameters, screen)
+    if shows_parts(targets) or request.hull_parameters.pieces == "PARTS":
+        kept = not shows_parts(targets)  # hulls of parts take them as they are
+        return decompose_objects(path.name, loaded, request.parameters, screen, kept)
     return list_objects(loaded)
 
 
 def _write_hulls(
     file: Path,
     hulls: Sequence[bpy.types.Object],
-    up: str,
+    up: str | None,
     request: Request,
     screen: Screen,
 ) -> None:

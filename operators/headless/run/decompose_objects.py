@@ -9,10 +9,11 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
+from ...bridge.parts.read import part_labels
 from ...bridge.read.shape import has_proportions_of
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing import summary
-from ...bridge.work.locking import decompose_unlocked
+from ...bridge.work.locking import AllPartsStay, decompose_unlocked
 from ..current_file import has_shape
 from ..read.load import LoadedFile
 from ..screen import Screen, progress_title
@@ -20,9 +21,22 @@ from .results import ObjectResult
 
 
 def decompose_objects(
-    file_name: str, loaded: LoadedFile, parameters: Parameters, screen: Screen
+    file_name: str,
+    loaded: LoadedFile,
+    parameters: Parameters,
+    screen: Screen,
+    kept: bool = False,
 ) -> tuple[ObjectResult, ...]:
     """Decompose each object, write its parts to it and show its result.
+
+    Parameters
+    ----------
+    file_name : str
+    loaded : LoadedFile
+    parameters : Parameters
+    screen : Screen
+    kept : bool, optional
+        Whether objects that have parts keep them as they are.
 
     Returns
     -------
@@ -42,7 +56,11 @@ def decompose_objects(
             title = progress_title(
                 f"{file_name}, {obj.name_full}", place, len(loaded.objects)
             )
-            result = _decompose(title, obj, parameters, screen)
+            labels = part_labels(obj) if kept else None
+            if labels is None:
+                result = _decompose(title, obj, parameters, screen)
+            else:
+                result = ObjectResult(obj.name_full, record_of(obj))
             if not result.error:
                 done[obj.data] = obj, result
         result = replace(result, notes=(*loaded.notes_of(obj), *result.notes))
@@ -80,6 +98,8 @@ def _decompose(
         edited = screen.follow(title, decompose_unlocked(obj, parameters))
         edited.write(obj)
         found = edited.decomposition
+    except AllPartsStay as stay:
+        return ObjectResult(obj.name_full, record_of(obj), notes=(str(stay),))
     except DecompositionError as error:
         return ObjectResult(obj.name_full, error=str(error))
     return ObjectResult(

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from ..current_file import has_shape
 from ..read.load import LoadedFile
-from ..request.options import Request
 from ..request.outputs import Targets
 from .results import ObjectResult
 
 
-def needs_parts(targets: Targets, request: Request) -> bool:
-    """Return whether parts are to be found: not for hulls by error alone.
+def shows_parts(targets: Targets) -> bool:
+    """Return whether parts are what is asked for: not if hulls alone are.
 
     Parameters
     ----------
     targets : Targets
         The files to write.
-    request : Request
     """
-    shows_parts = bool(targets.output or targets.picture or not targets.hulls)
-    return shows_parts or request.hull_parameters.pieces == "PARTS"
+    return bool(targets.output or targets.picture or not targets.hulls)
 
 
 def list_objects(loaded: LoadedFile) -> tuple[ObjectResult, ...]:

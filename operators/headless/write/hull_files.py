@@ -10,7 +10,7 @@ import bpy
 from ....core.parameters.bodies import BodyParameters
 from ..atomic import explaining, replacing
 from ..files.output_folders import replacing_with_folder
-from ..formats import SIMULATOR_ENDINGS, axes
+from ..formats import SIMULATOR_ENDINGS, axes, up_in
 from ..quiet import quiet_blender
 from .collider_marks import mark_glb
 from .obj_files import write_hulls_obj
@@ -23,7 +23,7 @@ from .usd_files import write_usd
 def save_hulls(
     path: Path,
     hulls: Sequence[bpy.types.Object],
-    up: str,
+    up: str | None,
     parameters: BodyParameters,
 ) -> tuple[str, ...]:
     """Write hulls to `path` in the format of its ending.
@@ -37,8 +37,8 @@ def save_hulls(
         File with one of `HULL_ENDINGS`.
     hulls : sequence of Object
         Children of their objects.
-    up : {'Y', 'Z'}
-        Axis that points up in .obj and .stl.
+    up : {'Y', 'Z'} or None
+        Axis that points up in .obj and .stl; None for the usual one of the format.
     parameters : BodyParameters
         For simulators.
 
@@ -59,7 +59,7 @@ def save_hulls(
             with replacing_with_folder(path) as (unfinished, folder):
                 return _save_bodies(unfinished, folder, hulls, parameters)
         with replacing(path) as unfinished:
-            _EXPORTERS[ending](unfinished, hulls, up)
+            _EXPORTERS[ending](unfinished, hulls, up_in(ending, up))
     return ()
 
 

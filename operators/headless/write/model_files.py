@@ -13,7 +13,7 @@ from ..atomic import explaining, replacing
 from ..current_file import mesh_objects
 from ..files.claims import check_companion, companion_of
 from ..files.whole import check_obj
-from ..formats import USUAL_UP, axes
+from ..formats import axes, up_in
 from ..quiet import quiet_blender
 from .collider_marks import mark_glb
 from .fbx_files import write_fbx
@@ -52,7 +52,7 @@ def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> 
             if ending in _WITH_HULLS:
                 _WITH_HULLS[ending](unfinished, hulls)
             else:
-                _EXPORTERS[ending](unfinished, up or USUAL_UP.get(ending, "Z"))
+                _EXPORTERS[ending](unfinished, up_in(ending, up))
             if companion:
                 _name_materials(unfinished, companion.name)
 

@@ -1,5 +1,7 @@
 """Solids of a few blocks, whose best hulls are known."""
 
+from dataclasses import replace
+
 import pytest
 import shapes
 from computed import build_hulls
@@ -25,6 +27,15 @@ def test_blocks_get_no_more_hulls_than_they_need(make, fewest, max_error):
     assert found.n_hulls == fewest
     assert found.errors.max() <= max_error
     assert found.volume_ratio == pytest.approx(1, abs=0.005)
+
+
+@pytest.mark.parametrize("stretch", [1, 2, 4, 7])
+def test_boxes_are_exact_where_walls_are_flush_with_them(stretch):
+    mesh = shapes.l_shape()
+    mesh = replace(mesh, vertices=mesh.vertices * [1, stretch, 1])
+    found = build_hulls(mesh, HullParameters(shape="BOX"))
+    assert found.n_hulls == 2
+    assert found.errors.max() < 0.03
 
 
 def test_where_no_cut_helps_the_note_says_so():
