@@ -219,9 +219,15 @@ def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, .
     notes, parameters, largest = [], fit.parameters, fit.parameters.max_error
     if parameters.pieces != "PARTS" and errors.max() > largest:
         if not fit.has_room:
-            advice = f"for Margin = {parameters.margin:g} alone is; reduce it."
+            advice = (
+                f"because Margin = {parameters.margin:g} alone is that much; choose a"
+                " margin nearer to 0."
+            )
         elif len(found.shapes) < parameters.max_hulls:
-            advice = "and no cut was found that makes it smaller."
+            advice = (
+                "and no cuts into at most Most Hulls ="
+                f" {parameters.max_hulls} were found that make it smaller."
+            )
         else:
             advice = (
                 f"after as many cuts as Most Hulls = {parameters.max_hulls} allows;"

@@ -16,8 +16,8 @@ SHAPES = (
     Choice("CYLINDER", "Cylinder", "A cylinder of small volume"),
 )
 
-# Bounds of a relative error, with a little room for single precision.
-_RELATIVE = (0.001 * (1 - 1e-6), 1 + 1e-6)
+# Bounds of a relative error, and how far it may be beyond them in single precision.
+_RELATIVE, _ROUNDING = (0.001, 1.0), 1e-6
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,8 @@ class HullParameters:
         """Check every field, and that the template gives each hull another name."""
         settle(self)
         low, high = _RELATIVE
-        if self.error_unit == "RELATIVE" and not low <= self.max_error <= high:
+        within = low * (1 - _ROUNDING) <= self.max_error <= high * (1 + _ROUNDING)
+        if self.error_unit == "RELATIVE" and not within:
             raise DecompositionError(
                 f"Largest Error is {self.max_error:g}; choose a value from {low:g} to"
                 f" {high:g}, or Error Unit = Scene for lengths."

@@ -101,6 +101,11 @@ def info_of(parameter_field: Field[Any]) -> ParameterInfo:
     return info
 
 
+def field_of(kind: type, name: str) -> Field[Any]:
+    """Return the field of a dataclass that has a name."""
+    return next(each for each in fields(kind) if each.name == name)
+
+
 def settle(parameters: Any) -> None:
     """Check every field of a dataclass, and convert values to Python's plain types.
 

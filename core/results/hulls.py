@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.primitives import CollisionShape
+from ..parameters.hulls import HullParameters
+from ..parameters.parameter import check, field_of
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -69,7 +71,13 @@ class HullDecomposition:
         ----------
         unit : str
             'RELATIVE' or 'SCENE'.
+
+        Raises
+        ------
+        DecompositionError
+            If there is no such unit.
         """
+        check(field_of(HullParameters, "error_unit"), unit)
         if unit == self.error_unit:
             return self.errors
         factor = self.half_side if unit == "SCENE" else 1 / self.half_side

@@ -91,9 +91,13 @@ def _run(
     screen = Screen(out, sys.stderr, request.quiet)
     results: list[InputResult] = []
     attempts, interrupted = Attempts(screen), False
+    for note in request.notes:
+        screen.warning(note)
     try:
         run(load_libraries())
         for result in _decompose_files(request, screen):
+            if result.failed:  # by an interrupt that an operator lost, maybe
+                interrupts.check()
             results.append(result)
             interrupts.check()
     except DecompositionError as error:  # a library is missing

@@ -57,6 +57,7 @@ def save_report(
         "interrupted": bool(not_done),
         "parameters": asdict(request.parameters),
         "hull_parameters": asdict(request.hull_parameters),
+        "body_parameters": asdict(request.body_parameters),
         "seconds": round(sum(result.seconds for result in results), 3),
         "peak_memory": peak_memory(),
         "inputs": [_input_entry(result) for result in results],

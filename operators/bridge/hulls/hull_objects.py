@@ -15,10 +15,9 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
-from ..discarding import discard
 from ..homes import new_collection
 from ..parts.identities import usual_identities
-from ..parts.materials import hull_material, none_missing
+from ..parts.materials import discard, hull_material, none_missing
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG

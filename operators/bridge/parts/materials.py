@@ -183,6 +183,20 @@ def discard_unused(materials: Iterable[bpy.types.Material]) -> None:
             bpy.data.materials.remove(material)
 
 
+def discard(objects: Sequence[bpy.types.Object]) -> None:
+    """Remove mesh objects, then the meshes and materials of ours without users."""
+    meshes = {obj.data for obj in objects}
+    worn = {material for mesh in meshes for material in mesh.materials}
+    worn |= {slot.material for obj in objects for slot in obj.material_slots}
+    materials = set(filter(is_ours, worn))
+    for obj in objects:
+        bpy.data.objects.remove(obj)
+    for mesh in meshes:
+        if mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+    discard_unused(materials)
+
+
 def recolor(material: bpy.types.Material, color: Color) -> None:
     """Give a material a color, in Solid shading and in renders."""
     if np.allclose(material.diffuse_color[:3], color, atol=1e-6):

@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
-from ..discarding import discard
 from ..homes import new_collection
 from ..hulls.rigid_bodies import soften
 from ..views.node_modifiers import remove_views
 from .erase import clear
-from .materials import none_missing
+from .materials import discard, none_missing
 from .read import find_parts_on, part_materials
 
 

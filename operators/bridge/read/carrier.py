@@ -10,9 +10,9 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
-from ..discarding import discard
 from ..homes import homes_of
 from ..parts.erase import erase_parts
+from ..parts.materials import discard
 from ..refusals import CONVERTIBLE
 from ..stored.names import CARRIER_TAG, HIDDEN_TAG
 from .converting import converted

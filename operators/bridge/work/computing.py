@@ -59,15 +59,16 @@ def decompose_object(
 
 
 def read_seen(
-    obj: bpy.types.Object, seen: SeenMesh | None
+    obj: bpy.types.Object, seen: SeenMesh | None, for_parts: bool = True
 ) -> tuple[Notes, Steps[Shape]]:
     """Return what to say of an object's shape, and the steps that end in it.
 
-    It is the one that is `seen`, if that is given.
+    It is the one that is `seen`, if that is given. `for_parts` says whether parts of
+    the shape will be written to the object.
     """
     if seen is not None:
         return seen.notes, as_steps(seen.shape)
-    return reading_notes(obj), shape_in_steps(obj)
+    return reading_notes(obj, for_parts), shape_in_steps(obj)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -79,7 +80,7 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
         At once, if the object cannot be read.
     """
     check_records(obj)
-    notes, reading = read_seen(obj, None)
+    notes, reading = read_seen(obj, None, for_parts=False)
 
     def work() -> Steps[Measurement]:
         shape = yield from reading
@@ -99,7 +100,8 @@ def measure_selection_of(
         At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
-    (notes, reading), faces = read_seen(obj, None), selected_faces(obj)
+    notes, reading = read_seen(obj, None, for_parts=False)
+    faces = selected_faces(obj)
     if not faces.any():
         raise DecompositionError(
             "No faces are selected; select the faces to measure in Edit Mode."
@@ -122,7 +124,7 @@ def point_viewer_of(
     DecompositionError
         At once, if the object cannot be read.
     """
-    notes, reading = read_seen(obj, None)
+    notes, reading = read_seen(obj, None, for_parts=False)
 
     def work() -> Steps[core.PointViewer]:
         shape = yield from reading

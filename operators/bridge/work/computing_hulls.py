@@ -60,7 +60,8 @@ def build_hulls_of(
     if reason:
         raise DecompositionError(f"{reason}.")
     check_records(obj)
-    (notes, read), labels = read_seen(obj, seen), part_labels(obj)
+    notes, read = read_seen(obj, seen, for_parts=False)
+    labels = part_labels(obj)
     if seen is not None and labels is not None:
         labels = labels[seen.origins] if seen.corresponds else None
     kinds = hull_shapes(obj) if labels is not None else {}

@@ -87,6 +87,7 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     """
     read = {path.resolve() for path in inputs}
     same = {_identity(path) for path in inputs} - {None}
+    alike = {_key(path.resolve()): path for path in inputs}
     taken: dict[str, Path] = {}
     for output in outputs:
         place = _place(output)
@@ -94,7 +95,7 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
             raise DecompositionError(
                 f"{output} is an input, too; give the output another name."
             )
-        other = taken.setdefault(_key(place), output)
+        other = alike.get(_key(place)) or taken.setdefault(_key(place), output)
         if other is not output:
             raise DecompositionError(_twice(output, other))
     for path in (*outputs, *inputs):

@@ -16,6 +16,7 @@ from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ....core.steps.processes import available
 from ...bridge.stored.notes import version
 from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS
+from .asked_hulls import hull_file, useless_options
 from .help_text import DESCRIPTION, EPILOG
 from .input_list import all_inputs
 from .outputs import Targets, targets_for
@@ -55,6 +56,8 @@ class Request:
     parameters : Parameters
     hull_parameters : HullParameters
     body_parameters : BodyParameters
+    notes : tuple of str
+        Sentences to the user: which options change nothing.
     """
 
     inputs: tuple[Path, ...]
@@ -68,6 +71,7 @@ class Request:
     parameters: Parameters
     hull_parameters: HullParameters
     body_parameters: BodyParameters
+    notes: tuple[str, ...]
 
 
 def parse(arguments: list[str], program: str) -> Request:
@@ -90,6 +94,9 @@ def parse(arguments: list[str], program: str) -> Request:
     chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
     try:
         inputs = all_inputs(options.inputs)
+        hulls = hull_file(options.hulls, options.hulls_format)
+        of_hulls = _given(options, HullParameters)
+        of_bodies = _given(options, BodyParameters)
         return Request(
             inputs=inputs,
             targets=targets_for(
@@ -97,7 +104,7 @@ def parse(arguments: list[str], program: str) -> Request:
                 options.output,
                 options.picture,
                 options.report,
-                _hull_file(options.hulls, options.hulls_format),
+                hulls,
                 options.with_hulls,
             ),
             report=options.report,
@@ -107,8 +114,9 @@ def parse(arguments: list[str], program: str) -> Request:
             quiet=options.quiet,
             processes=max(options.processes, 1),
             parameters=chosen.parameters(**_given(options, Parameters)),
-            hull_parameters=HullParameters(**_given(options, HullParameters)),
-            body_parameters=BodyParameters(**_given(options, BodyParameters)),
+            hull_parameters=HullParameters(**of_hulls),
+            body_parameters=BodyParameters(**of_bodies),
+            notes=useless_options(of_hulls, of_bodies, hulls, options.with_hulls),
         )
     except DecompositionError as error:
         parser.error(str(error))
@@ -121,16 +129,6 @@ def _given(
     """Return the parameters of a kind that the user gives."""
     names = [field.name for field in fields(kind)]
     return {name: getattr(options, name) for name in names if hasattr(options, name)}
-
-
-def _hull_file(hulls: str | None, hulls_format: str | None) -> str | None:
-    """Return the file for hulls, with the ending of --hulls-format added."""
-    if hulls_format is None:
-        return hulls
-    if hulls is None:
-        raise DecompositionError("--hulls-format needs --hulls, which names the file.")
-    ending = HULL_FORMATS[hulls_format]
-    return hulls if hulls.lower().endswith(ending) else hulls + ending
 
 
 def _parser(program: str) -> _Parser:

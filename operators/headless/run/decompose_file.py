@@ -25,6 +25,11 @@ from .list_objects import list_objects, shows_parts
 from .results import InputResult, ObjectResult
 from .stages import Stages
 
+_NO_HULLS = (
+    "{} was not written, because no object got hulls; leave out --with-hulls for the"
+    " model alone."
+)
+
 
 def decompose_file(
     path: Path,
@@ -55,10 +60,7 @@ def decompose_file(
     if request.with_hulls and targets.output:
         hull_objects, results = build_hulls(objects, results, request, screen)
         if not hull_objects:  # a model without its hulls is not what was asked for
-            attempts.failed(
-                f"{targets.output.name} was not written, because no object got hulls;"
-                " leave out --with-hulls for the model alone."
-            )
+            attempts.failed(_NO_HULLS.format(targets.output.name))
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
         output = attempts.written(

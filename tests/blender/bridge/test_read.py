@@ -53,11 +53,13 @@ def test_an_unmodified_object_needs_no_notes(suzanne):
 
 def test_shared_meshes_and_shape_keys_are_noted(suzanne):
     bpy.context.collection.objects.link(bpy.data.objects.new("twin", suzanne.data))
+    bpy.data.objects.new("in no collection", suzanne.data)
     suzanne.shape_key_add(name="Basis")
     suzanne.shape_key_add(name="smile").value = 1.0
     shape, shared = reading_notes(suzanne)
     assert "Basis" in shape
     assert "2 objects share this mesh" in shared
+    assert reading_notes(suzanne, for_parts=False) == (shape,)
 
 
 def test_non_uniform_scale_stretches_the_copy_alone(suzanne):

@@ -155,7 +155,8 @@ def test_hulls_that_a_margin_would_make_vanish_are_told():
     assert notes[0.0] == ()
     (above,) = notes[-0.4]
     assert above.endswith(
-        "Largest Error = 0.05, for Margin = -0.4 alone is; reduce it."
+        "Largest Error = 0.05, because Margin = -0.4 alone is that much; choose a"
+        " margin nearer to 0."
     )
     assert notes[-0.6][1:] == (
         "Margin = -0.6 would make 1 of 2 hulls vanish, which keep their size; choose a"
@@ -234,9 +235,8 @@ def test_points_have_no_hull():
 
 
 def test_progress_rises():
-    steps = build_hulls_in_steps(
-        shapes.comb(), HullParameters(), ShapeCache(BruteCaster)
-    )
+    cache = ShapeCache(BruteCaster)
+    steps = build_hulls_in_steps(shapes.comb(), HullParameters(), cache)
     fractions = [p.fraction for p in steps if isinstance(p, Progress)]
     assert len(fractions) > 5
     assert fractions == sorted(fractions)

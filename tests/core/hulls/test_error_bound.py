@@ -111,6 +111,8 @@ def test_lengths_in_the_scene_are_the_same_errors(seed):
     assert absolute.errors == pytest.approx(relative.errors * half)
     assert absolute.errors_in("RELATIVE") == pytest.approx(relative.errors)
     assert relative.errors_in("SCENE") == pytest.approx(absolute.errors)
+    with pytest.raises(DecompositionError, match="Error Unit cannot be 'scene'"):
+        relative.errors_in("scene")
 
 
 def test_relative_errors_above_1_make_no_sense():

@@ -44,7 +44,8 @@ def test_where_no_cut_helps_the_note_says_so():
     assert found.errors.max() > 0.001
     (note,) = found.notes
     assert note.endswith(
-        "Largest Error = 0.001, and no cut was found that makes it smaller."
+        "Largest Error = 0.001, and no cuts into at most Most Hulls = 32 were found"
+        " that make it smaller."
     )
 
 

@@ -152,6 +152,7 @@ def test_outputs_that_collide_are_refused(tmp_path, model, capfd, run):
         (("--hulls={}/z.xml", "--report={}/z.xml/r.json"), "is in {}/z.xml, which"),
         (("--hulls={}/in/ring.ply/z.xml",), "ring.ply is a file, not a folder"),
         (("--output={}/in/../in/ring.ply",), "is an input, too"),
+        (("--output={}/in/RING.ply",), "differ in upper and lower case"),
     ]
     before = content(tmp_path)
     for options, sentence in cases:

@@ -169,7 +169,23 @@ def test_a_format_adds_its_ending(tmp_path):
         assert request.targets[0].hulls == tmp_path / file, word
 
 
+@pytest.mark.parametrize(
+    ("options", "note"),
+    [
+        ("--shape=box --max-error=.1", "--shape, --max-error change nothing without"),
+        ("--hulls=a.glb --density=5", "--density changes nothing without --hulls FILE"),
+        ("--hulls=a.glb --template={n}", "--template changes nothing without --naming"),
+        ("--hulls=a.xml --density=5 --margin=0", ""),
+    ],
+)
+def test_options_that_change_nothing_are_named(options, note):
+    notes = parse(["a.off", *options.split()], "wcd").notes
+    assert [note in each for each in notes] == ([True] if note else [])
+
+
 def test_wrong_usage(tmp_path, model, capsys):
+    assert run(model, "--hulls=-", "--hulls-format=stl") == 2
+    assert "standard output" in capsys.readouterr().err
     assert run(model, "--hulls", tmp_path / "a.ply") == 2
     assert "--hulls has to end in one of" in capsys.readouterr().err
     assert run(model, "--hulls", tmp_path / "a.glb", "--max-hulls=0") == 2
