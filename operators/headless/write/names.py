@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+import bpy
+
+from ...bridge.hulls.listed import is_hull
+
 # What a name may not have in it, by format.
 _CONTROL = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
 _ILLEGAL = {
@@ -48,6 +52,36 @@ def legal_names(names: Sequence[str], form: str) -> list[str]:
         taken.add(free)
         found.append(free)
     return found
+
+
+def names_of_objects(form: str) -> dict[str, str]:
+    """Return the legal name of each object that is no hull, by its name.
+
+    Parameters
+    ----------
+    form : {'obj', 'xml', 'usd'}
+        The format.
+    """
+    names = [obj.name for obj in bpy.data.objects if not is_hull(obj)]
+    return dict(zip(names, legal_names(names, form), strict=True))
+
+
+def names_of_hulls(hulls: Sequence[bpy.types.Object], form: str) -> list[str]:
+    """Return a legal name for each hull: the legal name of its object is in it.
+
+    Parameters
+    ----------
+    hulls : sequence of Object
+        Children of their objects.
+    form : {'obj', 'xml', 'usd'}
+        The format.
+    """
+    owners = names_of_objects(form)
+    own = [
+        hull.name.replace(hull.parent.name, owners[hull.parent.name], 1)
+        for hull in hulls
+    ]
+    return legal_names(own, form)
 
 
 def _legal(name: str, form: str) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from .names import legal_names
+from .names import legal_names, names_of_hulls, names_of_objects
 from .placed_meshes import (
     Float64Array,
     matrix_of,
@@ -52,12 +52,12 @@ def write_obj(
 def write_hulls_obj(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
     """Write hulls in world space, each an object, with `up` ('Y' or 'Z') up."""
     meshes = []
-    for hull in hulls:
+    for hull, name in zip(hulls, names_of_hulls(hulls, "obj"), strict=True):
         matrix = matrix_of(hull)
         vertices, _, _ = placed(hull, matrix)
         turn = -1 if np.linalg.det(matrix[:3, :3]) < 0 else 1
         faces = [list(face.vertices)[::turn] for face in hull.data.polygons]
-        meshes.append((hull.name, turned_up(vertices, up), faces))
+        meshes.append((name, turned_up(vertices, up), faces))
     write_obj(path, meshes)
 
 
@@ -70,36 +70,50 @@ def restore_digits(path: Path, up: str) -> None:
     text = path.read_text(encoding="utf-8", errors="surrogateescape")
     lines = text.split("\n")
     starts = [row for row, line in enumerate(lines) if line.startswith("o ")]
+    blocks = [slice(*ends) for ends in pairwise([*starts, len(lines)])]
     old = [lines[row][2:] for row in starts]
-    shapes = _exported_meshes()
-    for name, new, (start, end) in zip(
-        old, legal_names(old, "obj"), pairwise([*starts, len(lines)]), strict=True
-    ):
-        rows = [r for r in range(start, end) if lines[r].startswith("v ")]
-        if shapes.get(name) and rows:
-            vertices = turned_up(shapes[name][0], up)
-            if _agree([lines[row] for row in rows], vertices):
-                del shapes[name][0]
-                for row, vertex in zip(rows, vertices, strict=True):
-                    lines[row] = f"v {written(vertex)}"
-        for row in range(start, end):
-            for head in (f"o {name}", f"g {name}"):
-                if new != name and lines[row].startswith(head):
-                    lines[row] = head[:2] + new + lines[row][len(head) :]
+    known, shapes = names_of_objects("obj"), _exported_meshes()
+    own = []
+    for name, block in zip(old, blocks, strict=True):
+        rows = [
+            n for n, line in enumerate(lines[block], block.start) if line[:2] == "v "
+        ]
+        of_name = shapes.get(name)
+        vertices = turned_up(of_name[0][1], up) if of_name else np.zeros((0, 3))
+        if of_name and rows and _agree([lines[row] for row in rows], vertices):
+            own.append(known.get(of_name.pop(0)[0], name))  # hulls have their own
+            for row, vertex in zip(rows, vertices, strict=True):
+                lines[row] = f"v {written(vertex)}"
+        else:
+            own.append(name)
+    for name, new, block in zip(old, legal_names(own, "obj"), blocks, strict=True):
+        lines[block] = [_renamed(line, name, new) for line in lines[block]]
     path.write_text(
         "\n".join(lines), encoding="utf-8", errors="surrogateescape", newline="\n"
     )
 
 
-def _exported_meshes() -> dict[str, list[Float64Array]]:
-    """Return the vertices of all visible meshes in world space, by name in the file."""
-    found: dict[str, list[Float64Array]] = {}
+def _renamed(line: str, old: str, new: str) -> str:
+    """Return a line with another name, if it is that of an object or its group."""
+    for head in (f"o {old}", f"g {old}"):
+        if line.startswith(head):
+            return head[:2] + new + line[len(head) :]
+    return line
+
+
+def _exported_meshes() -> dict[str, list[tuple[str, Float64Array]]]:
+    """Return the names of visible meshes and their vertices in world space.
+
+    They are sorted by their name in the file, where some have one name.
+    """
+    found: dict[str, list[tuple[str, Float64Array]]] = {}
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         obj = instance.object.original
         if obj.type == "MESH":
             matrix = np.array(instance.matrix_world, dtype=np.float64)
             vertices, _, _ = placed(obj, matrix)
-            found.setdefault(obj.name.replace(" ", "_"), []).append(vertices)
+            in_file = obj.name.replace(" ", "_")
+            found.setdefault(in_file, []).append((obj.name, vertices))
     return found
 
 

@@ -18,7 +18,7 @@ from ...bridge.mesh.attributes import read_floats, read_ints
 from ...bridge.mesh.known import corner_vertices
 from ...bridge.mesh.points import is_cloud, positions_of
 from ...bridge.views.face_sets_and_colors import point_colors
-from .names import legal_names
+from .names import legal_names, names_of_hulls, names_of_objects
 from .placed_meshes import matrix_of, written
 
 _ROOT = "/root"
@@ -61,8 +61,9 @@ def write_usd(
     paths = {
         m: f"{_ROOT}/{_MATERIALS}/{n}" for m, n in zip(materials, labels, strict=True)
     }
-    every = [*objects, *hulls]
-    names = legal_names([_MATERIALS, *(obj.name for obj in every)], "usd")[1:]
+    own = names_of_objects("usd")
+    names = [*(own[obj.name] for obj in objects), *names_of_hulls(hulls, "usd")]
+    names = legal_names([_MATERIALS, *names], "usd")[1:]
     lines = [_HEAD]
     for obj, name in zip(objects, names, strict=False):
         if is_cloud(obj):

@@ -72,11 +72,16 @@ def test_objects_and_groups_of_a_model_have_names_of_their_own(tmp_path):
     assert not any(" " in name or "\t" in name for name in names)
 
 
-def test_hulls_have_names_of_their_own(tmp_path):
+def test_hulls_have_the_names_that_their_objects_have_in_the_file(tmp_path):
     rings = [add_ring(name) for name in ("A b", "A_b")]
+    rings[1].location.x += 9
+    save(tmp_path / "model.obj", "Z")
     hulls = build_hulls(rings, max_hulls=1, naming="UNREAL")
     save_hulls(tmp_path / "a.obj", hulls, "Z", BodyParameters())
-    assert vertices_in(tmp_path / "a.obj")[1] == ["UCX_A_b_01_2", "UCX_A_b_01"]
+    assert vertices_in(tmp_path / "a.obj")[1] == ["UCX_A_b_2_01", "UCX_A_b_01"]
+    model, names = vertices_in(tmp_path / "model.obj")
+    assert names == ["A_b_2", "A_b"]
+    assert model[-1, 0] > model[0, 0] + 5
 
 
 @pytest.mark.parametrize(
