@@ -185,7 +185,7 @@ def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_F
         np.array(errors)[order],
         [pieces[k].hull for k in order],
         np.array(rows)[order],
-        solid.volume,
+        solid.true_volume,
     )
 
 

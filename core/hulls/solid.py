@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
+from ..solids.mass import mass_of_surface
 from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
@@ -47,6 +48,8 @@ class Solid:
         Distance between neighboring samples.
     closed : bool
         Whether all shells are closed, so that any line tells what is inside.
+    single : bool
+        Whether there is one shell alone.
     """
 
     mesh: TriangleMesh
@@ -57,11 +60,20 @@ class Solid:
     volumes: NDArray[np.float64]
     spacing: float
     closed: bool
+    single: bool
 
     @property
     def volume(self) -> float:
-        """Volume of the solid."""
+        """Volume of the solid along the chords, which pieces of it add up to."""
         return float(self.volumes.sum())
+
+    @property
+    def true_volume(self) -> float:
+        """Volume of the solid: exact if it is one closed shell, however thin."""
+        mass = None
+        if self.closed and self.single and self.volume > 0:
+            mass = mass_of_surface(self.mesh.vertices, self.mesh.triangles, 1.0)
+        return mass.mass if mass else self.volume
 
     @cached_property
     def corners(self) -> NDArray[np.float64]:
@@ -164,4 +176,5 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         volumes,
         float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
         bool(shells.closed.all()),
+        len(shells.closed) == 1,
     )

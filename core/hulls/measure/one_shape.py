@@ -50,7 +50,8 @@ def refit_in_steps(
     hull = convex_hull((points - mesh.center) / fit.unit, THIN)
     shape = fit.shape(hull)
     error = ErrorBound(solid, shape, hull, fit.max_error).value
-    ratio = shape.volume / solid.volume if solid.volume > 0 else np.inf
+    volume = solid.true_volume
+    ratio = shape.volume / volume if volume > 0 else np.inf
     return HullDecomposition(
         (shape.moved(fit.unit, mesh.center),),
         np.array([error * factor]),

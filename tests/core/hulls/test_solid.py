@@ -51,6 +51,14 @@ def test_sides_of_boxes_do_not_mislead_the_volume(arm):
     assert leg == pytest.approx(arm - 1, rel=0.01)
 
 
+def test_the_true_volume_of_one_closed_shell_however_thin():
+    bracket = shapes.l_prism(100.0)
+    assert solid_of(bracket, 0).true_volume == pytest.approx(199, rel=1e-6)
+    twins = shapes.joined(shapes.box(), shapes.box((0.5, 0, 0), (1.5, 1, 1)))
+    solid = solid_of(twins, 0)  # what overlaps counts once
+    assert solid.true_volume == solid.volume == pytest.approx(1.5, rel=0.04)
+
+
 def test_chords_are_inside():
     solid = solid_of(shapes.hollow_sphere(), 0)
     radii = np.linalg.norm(solid.chords, axis=1)
