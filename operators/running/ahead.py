@@ -9,13 +9,13 @@ from __future__ import annotations
 import atexit
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import TypeAlias, TypeVar
 
 import bpy
 
 from ...core.errors import DecompositionError
-from ...core.parameters.parameter import info_of
+from ...core.parameters.parameter import field_of, info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
@@ -31,7 +31,7 @@ Wanted: TypeAlias = tuple[Parameters, bool]
 # What is added to the number of parts. One more or less comes first.
 _NEAR = (1, -1, 2, -2)
 # The highest number that sliders show.
-_USUAL = next(int(info_of(f).usual) for f in fields(Parameters) if f.name == "parts")
+_USUAL = int(info_of(field_of(Parameters, "parts")).usual)
 # With more faces the parts themselves are found for near numbers only: all take long.
 _MOST_FACES = 40_000
 # Seconds of work in a slice. Steps end some 20 ms late.

@@ -88,10 +88,12 @@ def _parts_of(
     """Return the result of each object; without parts if only hulls are asked for."""
     if loaded.hull_note:
         screen.warning(f"{path.name}: {loaded.hull_note}")
-    if shows_parts(targets) or request.hull_parameters.pieces == "PARTS":
-        kept = not shows_parts(targets)  # hulls of parts take them as they are
-        return decompose_objects(path.name, loaded, request.parameters, screen, kept)
-    return list_objects(loaded)
+    hulls_alone = not shows_parts(targets)
+    if hulls_alone and request.hull_parameters.pieces != "PARTS":
+        return list_objects(loaded)
+    return decompose_objects(
+        path.name, loaded, request.parameters, screen, kept=hulls_alone
+    )
 
 
 def _write_hulls(

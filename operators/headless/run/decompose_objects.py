@@ -52,15 +52,14 @@ def decompose_objects(
             result = ObjectResult(obj.name_full, notes=(note,))
         elif obj.data in done:
             result = _shared(obj, *done[obj.data])
+        elif kept and part_labels(obj) is not None:
+            result = ObjectResult(obj.name_full, record_of(obj))
+            done[obj.data] = obj, result
         else:
             title = progress_title(
                 f"{file_name}, {obj.name_full}", place, len(loaded.objects)
             )
-            labels = part_labels(obj) if kept else None
-            if labels is None:
-                result = _decompose(title, obj, parameters, screen)
-            else:
-                result = ObjectResult(obj.name_full, record_of(obj))
+            result = _decompose(title, obj, parameters, screen)
             if not result.error:
                 done[obj.data] = obj, result
         result = replace(result, notes=(*loaded.notes_of(obj), *result.notes))

@@ -73,21 +73,23 @@ def restore_digits(path: Path, up: str) -> None:
     blocks = [slice(*ends) for ends in pairwise([*starts, len(lines)])]
     old = [lines[row][2:] for row in starts]
     known, shapes = names_of_objects("obj"), _exported_meshes()
-    own = []
-    for name, block in zip(old, blocks, strict=True):
+    own = old.copy()
+    for place, (name, block) in enumerate(zip(old, blocks, strict=True)):
         rows = [
             n for n, line in enumerate(lines[block], block.start) if line[:2] == "v "
         ]
-        of_name = shapes.get(name)
-        vertices = turned_up(of_name[0][1], up) if of_name else np.zeros((0, 3))
-        if of_name and rows and _agree([lines[row] for row in rows], vertices):
-            own.append(known.get(of_name.pop(0)[0], name))  # hulls have their own
+        if not (rows and shapes.get(name)):
+            continue
+        exported, vertices = shapes[name][0]
+        vertices = turned_up(vertices, up)
+        if _agree([lines[row] for row in rows], vertices):
+            del shapes[name][0]
+            own[place] = known.get(exported, name)  # hulls have their own
             for row, vertex in zip(rows, vertices, strict=True):
                 lines[row] = f"v {written(vertex)}"
-        else:
-            own.append(name)
     for name, new, block in zip(old, legal_names(own, "obj"), blocks, strict=True):
-        lines[block] = [_renamed(line, name, new) for line in lines[block]]
+        if new != name:
+            lines[block] = [_renamed(line, name, new) for line in lines[block]]
     path.write_text(
         "\n".join(lines), encoding="utf-8", errors="surrogateescape", newline="\n"
     )
