@@ -10,6 +10,7 @@ from contextlib import suppress
 from typing import TextIO, TypeVar
 
 from ...core.steps.progress import Progress, Steps, mapped, run
+from .request.option_names import with_options
 from .run.stages import Stages
 
 T = TypeVar("T")
@@ -68,12 +69,12 @@ class Screen:
     def warning(self, text: str) -> None:
         """Show a warning."""
         self._wipe()
-        write(self._err, f"warning: {text}\n")
+        write(self._err, f"warning: {with_options(text)}\n")
 
     def error(self, text: str) -> None:
         """Show an error."""
         self._wipe()
-        write(self._err, f"error: {text}\n")
+        write(self._err, f"error: {with_options(text)}\n")
 
     def follow(self, title: str, steps: Steps[T]) -> T:
         """Finish a computation, show its progress and return its value."""

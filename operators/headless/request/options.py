@@ -19,6 +19,7 @@ from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS
 from .asked_hulls import hull_file, useless_options
 from .help_text import DESCRIPTION, EPILOG
 from .input_list import all_inputs
+from .option_names import SETTINGS, with_options
 from .outputs import Targets, targets_for
 from .parameter_options import HelpFormatter, add_option
 
@@ -30,7 +31,9 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Show an error and end with status 2."""
-        self.exit(2, f"error: {message}\nAll options: {self.prog} --help\n")
+        self.exit(
+            2, f"error: {with_options(message)}\nAll options: {self.prog} --help\n"
+        )
 
 
 @dataclass(frozen=True)
@@ -95,18 +98,17 @@ def parse(arguments: list[str], program: str) -> Request:
     try:
         inputs = all_inputs(options.inputs)
         hulls = hull_file(options.hulls, options.hulls_format)
-        of_hulls = _given(options, HullParameters)
-        of_bodies = _given(options, BodyParameters)
+        targets = targets_for(
+            inputs,
+            options.output,
+            options.picture,
+            options.report,
+            hulls,
+            options.with_hulls,
+        )
         return Request(
             inputs=inputs,
-            targets=targets_for(
-                inputs,
-                options.output,
-                options.picture,
-                options.report,
-                hulls,
-                options.with_hulls,
-            ),
+            targets=targets,
             report=options.report,
             up=options.up,
             apply_modifiers=options.apply_modifiers,
@@ -114,9 +116,9 @@ def parse(arguments: list[str], program: str) -> Request:
             quiet=options.quiet,
             processes=max(options.processes, 1),
             parameters=chosen.parameters(**_given(options, Parameters)),
-            hull_parameters=HullParameters(**of_hulls),
-            body_parameters=BodyParameters(**of_bodies),
-            notes=useless_options(of_hulls, of_bodies, hulls, options.with_hulls),
+            hull_parameters=HullParameters(**_given(options, HullParameters)),
+            body_parameters=BodyParameters(**_given(options, BodyParameters)),
+            notes=useless_options(vars(options), targets[0]),
         )
     except DecompositionError as error:
         parser.error(str(error))
@@ -147,11 +149,8 @@ def _parser(program: str) -> _Parser:
     add_option(method, "preset", PRESET_INFO, _DEFAULT_PRESET)
     for_hulls = parser.add_argument_group("how the hulls are built (with --hulls)")
     simulators = parser.add_argument_group("what simulators get (HULLS is .urdf, .xml)")
-    for group, kind in (
-        (method, Parameters),
-        (for_hulls, HullParameters),
-        (simulators, BodyParameters),
-    ):
+    groups = method, for_hulls, simulators
+    for group, kind in zip(groups, SETTINGS, strict=True):
         for each in fields(kind):
             add_option(group, each.name, info_of(each), each.default)
     _add_general(parser)

@@ -31,6 +31,11 @@ class Targets:
     picture: Path | None = None
     hulls: Path | None = None
 
+    @property
+    def show_parts(self) -> bool:
+        """Whether parts are what is asked for: not if hulls alone are."""
+        return bool(self.output or self.picture or not self.hulls)
+
 
 def targets_for(
     inputs: Sequence[Path],

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ....core.parameters.parameter import ParameterInfo
+from .option_names import option
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
@@ -56,7 +57,7 @@ def add_option(
         metavar = "N" if isinstance(default, int) else "X"
         shown = f"{default:g}"
     group.add_argument(
-        "--" + name.replace("_", "-"),
+        option(name),
         type=convert,
         default=argparse.SUPPRESS,
         metavar=metavar,

@@ -21,7 +21,7 @@ from ..write.render_engine import EngineTrial
 from .attempts import Attempts
 from .build_hulls import build_hulls
 from .decompose_objects import decompose_objects
-from .list_objects import list_objects, shows_parts
+from .list_objects import list_objects
 from .results import InputResult, ObjectResult
 from .stages import Stages
 
@@ -88,7 +88,7 @@ def _parts_of(
     """Return the result of each object; without parts if only hulls are asked for."""
     if loaded.hull_note:
         screen.warning(f"{path.name}: {loaded.hull_note}")
-    hulls_alone = not shows_parts(targets)
+    hulls_alone = not targets.show_parts
     if hulls_alone and request.hull_parameters.pieces != "PARTS":
         return list_objects(loaded)
     return decompose_objects(

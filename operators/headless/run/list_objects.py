@@ -4,19 +4,7 @@ from __future__ import annotations
 
 from ..current_file import has_shape
 from ..read.load import LoadedFile
-from ..request.outputs import Targets
 from .results import ObjectResult
-
-
-def shows_parts(targets: Targets) -> bool:
-    """Return whether parts are what is asked for: not if hulls alone are.
-
-    Parameters
-    ----------
-    targets : Targets
-        The files to write.
-    """
-    return bool(targets.output or targets.picture or not targets.hulls)
 
 
 def list_objects(loaded: LoadedFile) -> tuple[ObjectResult, ...]:

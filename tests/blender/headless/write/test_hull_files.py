@@ -175,7 +175,10 @@ def test_a_format_adds_its_ending(tmp_path):
         ("--shape=box --max-error=.1", "--shape, --max-error change nothing without"),
         ("--hulls=a.glb --density=5", "--density changes nothing without --hulls FILE"),
         ("--hulls=a.glb --template={n}", "--template changes nothing without --naming"),
-        ("--hulls=a.xml --density=5 --margin=0", ""),
+        ("--hulls=a.xml --density=5 --margin=0 --seed=2", ""),
+        ("--hulls=a.xml --parts=5", "--parts changes nothing for hulls without"),
+        ("--hulls=a.xml --parts=5 --pieces=parts", ""),
+        ("--hulls=a.xml --parts=5 --picture=a.png", ""),
     ],
 )
 def test_options_that_change_nothing_are_named(options, note):
@@ -189,7 +192,9 @@ def test_wrong_usage(tmp_path, model, capsys):
     assert run(model, "--hulls", tmp_path / "a.ply") == 2
     assert "--hulls has to end in one of" in capsys.readouterr().err
     assert run(model, "--hulls", tmp_path / "a.glb", "--max-hulls=0") == 2
-    assert "Most Hulls is 0" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "Most Hulls is 0" in said
+    assert "(Most Hulls is --max-hulls.)" in said
     assert run(model, "--hulls-format=obj") == 2
     assert "--hulls-format needs --hulls" in capsys.readouterr().err
     words = ["--naming=template", "--template={name}"]
