@@ -123,9 +123,12 @@ def _holds_any(
     corners: list[int],
     normal: NDArray[np.float64],
 ) -> bool:
-    """Return whether another corner of the polygon lies in a triangle."""
-    others = places[[corner for corner in corners if corner not in triangle]]
-    starts = places[triangle]
+    """Return whether another corner of the polygon lies in a triangle.
+
+    Corners at the same place as its own do not count: edges to holes have two of each.
+    """
+    starts, others = places[triangle], places[corners]
+    others = others[~(others[:, None] == starts).all(axis=2).any(axis=1)]
     along = np.roll(starts, -1, axis=0) - starts
     sides = np.cross(along, others[:, None] - starts) @ normal
     return bool((sides >= 0).all(axis=1).any())

@@ -30,8 +30,8 @@ class Piece:
         Points with the same convex hull as the piece.
     boundary : (N, 3) float
         Samples of the surface in the piece, and of the faces that cuts made.
-    on_surface : (N,) bool
-        Which of these samples are on the surface.
+    triangles : (N,) int
+        Triangle of the solid that each of these samples lies on, −1 on such faces.
     volume : float
         Volume of the solid in the piece.
     solid : Solid
@@ -44,11 +44,16 @@ class Piece:
 
     points: NDArray[np.float64]
     boundary: NDArray[np.float64]
-    on_surface: NDArray[np.bool_]
+    triangles: NDArray[np.int64]
     volume: float
     solid: Solid
     fit: Fit
     witnesses: NDArray[np.float64]
+
+    @property
+    def on_surface(self) -> NDArray[np.bool_]:
+        """Which samples of the boundary are on the surface, (N,)."""
+        return self.triangles >= 0
 
     @cached_property
     def hull(self) -> Hull:
@@ -153,7 +158,7 @@ def piece_of_part(solid: Solid, fit: Fit, chosen: NDArray[np.bool_]) -> Piece:
     return Piece(
         solid.corners[chosen].reshape(-1, 3),
         solid.samples[samples],
-        np.ones(np.count_nonzero(samples), dtype=bool),
+        solid.triangles[samples],
         float(solid.volumes[samples[nearest]].sum()) if len(solid.chords) else 0.0,
         solid,
         fit,
@@ -173,7 +178,7 @@ def join(one: Piece, other: Piece) -> Piece:
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
         boundary[once],
-        np.concatenate([one.on_surface, other.on_surface])[once],
+        np.concatenate([one.triangles, other.triangles])[once],
         one.volume + other.volume,
         one.solid,
         one.fit,

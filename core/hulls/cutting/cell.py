@@ -55,7 +55,7 @@ def whole(solid: Solid, fit: Fit) -> Cell:
     return Cell(
         solid.vertices,
         solid.samples,
-        np.ones(len(solid.samples), dtype=bool),
+        solid.triangles,
         solid.volume,
         solid,
         fit,
@@ -108,7 +108,7 @@ def _side(
     return Cell(
         np.concatenate([cell.points[points], rim]),
         np.concatenate([cell.boundary[boundary], face]),
-        np.concatenate([cell.on_surface[boundary], np.zeros(len(face), dtype=bool)]),
+        np.concatenate([cell.triangles[boundary], np.full(len(face), -1)]),
         float(cell.volumes[chords].sum()),
         cell.solid,
         cell.fit,

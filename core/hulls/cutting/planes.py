@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ...geometry.frames import principal_axes
 from ...steps.progress import Progress, Steps
 from .cell import Cell
+from .directions import directions_of
 from .extremes import reaches_of, volumes_beside
 
 # Number of evenly spaced planes along each direction.
@@ -18,8 +19,6 @@ _PLANES = 7
 _BETWEEN = np.array([-2, -1, 1, 2]) / 3
 # Decimal digits to which added volumes are compared.
 _DIGITS = 7
-# Two directions count as the same above this cosine between them.
-_SAME = 0.995
 # A level is a height that at least this many points share, such as that of a flat face.
 _POINTS_IN_LEVEL = 4
 # Decimal digits to which the heights of one level agree.
@@ -30,6 +29,8 @@ _MOST_LEVELS = 6
 # both hulls added less by a share of the solid's volume: estimates are no sharper, and
 # such planes may divide blocks exactly.
 _FLAT_FACE, _BONUS = 0.01, 3e-3
+# Planes closer to a flat face of a block leave a sliver: those next to it are better.
+_SLIVER = 0.05
 # Distance of planes above and below a level, so that its faces are all on one side.
 _SKIM = 1e-5
 # Largest number of boundary points that planes are compared by.
@@ -44,7 +45,8 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     """Return planes through a piece, ranked by the volume that both hulls add.
 
     First, evenly spaced planes are tried along each direction. Then further planes are
-    tried around the best one of each direction, among them planes next to flat faces.
+    tried around the best one of each direction, among them planes next to flat faces:
+    of a block next to all large ones.
 
     Parameters
     ----------
@@ -58,7 +60,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     """
     sketch = _sketch_of(cell)
     planes, added, gains = [], [], []
-    directions = _directions(cell)
+    directions, is_block = directions_of(cell)
     for turn, direction in enumerate(directions):
         yield Progress("Cutting", turn / len(directions))
         ordered, heights, chords = sketch.along(direction)
@@ -72,21 +74,27 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         step = (high - low) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)
         near = levels[np.abs(levels - best) < step][:_MOST_LEVELS]
-        steps = [best + _BETWEEN * step, near - _SKIM, near + _SKIM]
+        flat = _flat_levels(levels if is_block else near, heights)
+        tried = np.union1d(near, flat)
+        steps = [best + _BETWEEN * step, tried - _SKIM, tried + _SKIM]
         others = np.sort(np.concatenate(steps))
         offsets = np.concatenate([offsets, others])
         planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
         second = ordered.added_volumes(heights, chords, others)
-        second[_are_flush(others, near, heights)] -= _BONUS * cell.solid.volume
-        added += [first, second]
+        volumes = np.concatenate([first, second])
+        flush = np.isin(offsets, np.concatenate([flat - _SKIM, flat + _SKIM]))
+        volumes[flush] -= _BONUS * cell.solid.volume
+        if is_block:
+            volumes[~flush & _are_beside(offsets, flat)] = np.inf
+        added.append(volumes)
         # By how much planes shorten the longer side, as a square: ties end so.
         gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
         gains = [np.zeros(len(each)) for each in gains]
-    volumes = np.concatenate(added)
+    ranks = np.concatenate(added)
     shortened = np.round(np.concatenate(gains), _DIGITS)
-    order = np.lexsort((-shortened, np.round(volumes, _DIGITS)))
-    return np.concatenate(planes)[order[np.isfinite(volumes)[order]]]
+    order = np.lexsort((-shortened, np.round(ranks, _DIGITS)))
+    return np.concatenate(planes)[order[np.isfinite(ranks)[order]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,28 +185,22 @@ def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
     return levels[counts >= _POINTS_IN_LEVEL]
 
 
-def _are_flush(
-    offsets: NDArray[np.float64],
-    levels: NDArray[np.float64],
-    heights: NDArray[np.float64],
-) -> NDArray[np.bool_]:
-    """Return which planes are beside a level with a flat face.
+def _flat_levels(
+    levels: NDArray[np.float64], heights: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the levels at which the largest flat faces lie, at most `_MOST_LEVELS`.
 
     `heights` are those of points spread over the surface, ascending.
     """
     ends = np.searchsorted(heights, [levels - 2 * _SKIM, levels + 2 * _SKIM])
-    flat = levels[np.diff(ends, axis=0)[0] >= _FLAT_FACE * len(heights)]
-    return np.isin(offsets, np.concatenate([flat - _SKIM, flat + _SKIM]))
+    counts = np.diff(ends, axis=0)[0]
+    largest = np.argsort(-counts, kind="stable")[:_MOST_LEVELS]
+    return levels[largest[counts[largest] >= _FLAT_FACE * len(heights)]]
 
 
-def _directions(cell: Cell) -> NDArray[np.float64]:
-    """Return the normals of planes to try: coordinate and principal axes, (D, 3).
-
-    Planes along the seams of weakly convex parts measured worse as first cuts.
-    """
-    own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
-    found: list[NDArray[np.float64]] = []
-    for direction in (*np.eye(3), *own):
-        if all(abs(direction @ other) < _SAME for other in found):
-            found.append(direction)
-    return np.array(found)
+def _are_beside(
+    offsets: NDArray[np.float64], flat: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which planes leave a sliver beside a flat face."""
+    near = np.abs(offsets[:, None] - flat) < _SLIVER
+    return np.asarray(near.any(axis=1))

@@ -20,6 +20,10 @@ OUTLINES = {
         (np.cos(angle) * reach, np.sin(angle) * reach)
         for angle, reach in zip(np.arange(12) * np.pi / 6, [3.0, 0.5] * 6, strict=True)
     ],
+    "frame": [  # with an edge to its hole, which it runs along twice
+        *((0, 0), (4, 0), (4, 4), (0, 4), (0, 0)),
+        *((1, 1), (1, 3), (3, 3), (3, 1), (1, 1)),
+    ],
     "corners in a line": [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2)],
 }
 

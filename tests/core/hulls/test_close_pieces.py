@@ -42,9 +42,9 @@ def test_a_film_with_one_sample_of_the_surface_is_cut(monkeypatch):
     seen, best_cut = [], close_pieces.best_cut
 
     def one_sample(cell):
-        first = np.arange(len(cell.on_surface)) == 0
+        first = np.where(np.arange(len(cell.triangles)) == 0, cell.triangles, -1)
         seen.append(cell)
-        return best_cut(replace(cell, on_surface=first) if len(seen) == 1 else cell)
+        return best_cut(replace(cell, triangles=first) if len(seen) == 1 else cell)
 
     monkeypatch.setattr(close_pieces, "best_cut", one_sample)
     assert build_hulls(shapes.comb(), HullParameters()).n_hulls > 1

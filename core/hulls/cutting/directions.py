@@ -1,0 +1,62 @@
+"""Choose the directions along which planes through a piece are tried."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...geometry.frames import principal_axes
+from .cell import Cell
+
+# Two directions count as the same above this cosine between them.
+_SAME = 0.995
+# A block has at least this share of its surface in large flat faces, in this many
+# directions at least: the others of a plate may be round.
+_BLOCK, _SIDES = 0.5, 3
+# Large faces, with those parallel to them, have at least this share of the surface.
+_LARGE_FACE = 0.05
+# Decimal digits to which the normals of parallel faces agree.
+_NORMAL_DIGITS = 3
+
+
+def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
+    """Return the normals of planes to try, and whether the piece is a block.
+
+    Blocks are cut along their faces however they are turned, others along the
+    coordinate axes. Planes along the seams of weakly convex parts measured worse as
+    first cuts, and so did planes along the flat faces of shapes that are no blocks.
+
+    Parameters
+    ----------
+    cell : Cell
+
+    Returns
+    -------
+    directions : (D, 3) float
+        Unit vectors.
+    is_block : bool
+    """
+    flat = _flat_normals(cell)
+    own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
+    found: list[NDArray[np.float64]] = []
+    for direction in (*(flat if len(flat) else np.eye(3)), *own):
+        if all(abs(direction @ other) < _SAME for other in found):
+            found.append(direction)
+    return np.array(found), len(flat) > 0
+
+
+def _flat_normals(cell: Cell) -> NDArray[np.float64]:
+    """Return the normals of a block's large flat faces, (N, 3); none if it is no block.
+
+    The first has most of the surface. Parallel faces count together.
+    """
+    normals = cell.solid.mesh.normals[cell.triangles[cell.on_surface]]
+    largest = np.abs(normals).argmax(axis=1)
+    normals = normals * np.sign(np.take_along_axis(normals, largest[:, None], axis=1))
+    _, first, counts = np.unique(
+        np.round(normals, _NORMAL_DIGITS), axis=0, return_index=True, return_counts=True
+    )
+    large = counts >= _LARGE_FACE * len(normals)
+    if large.sum() < _SIDES or counts[large].sum() < _BLOCK * len(normals):
+        return normals[:0]
+    return normals[first[large][np.argsort(-counts[large], kind="stable")]]
