@@ -122,6 +122,8 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     bl_description = "Replace the parts by those of the settings in the sidebar"
     bl_options: ClassVar[set[str]] = {"UNDO", "INTERNAL"}
 
+    _reports_at_once = False
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether the active object has parts, also while something runs."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import ClassVar
 
 import bpy
@@ -45,7 +46,11 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
 
     def _commit(self, obj: bpy.types.Object, value: Picture) -> str:
         image = write_image(obj, _chosen_picture(self).label, value.pixels)
-        _show(image)
+        show = partial(_show_named, image.name)
+        if bpy.app.background:  # where no timers run
+            show()
+        else:
+            bpy.app.timers.register(show)
         return f"Image {image.name}"
 
 
@@ -63,8 +68,15 @@ def _chosen_picture(properties: bpy.types.OperatorProperties) -> Choice:
     return next(each for each in PICTURES if each.identifier == properties.picture)
 
 
-def _show(image: bpy.types.Image) -> None:
-    """Show an image in all open Image Editors, or in one that is opened for it."""
+def _show_named(name: str) -> None:
+    """Show an image in all open Image Editors, or in one that is opened for it.
+
+    The area of a running operator must not become another editor: Blender goes on to
+    use it, and would crash.
+    """
+    image = bpy.data.images.get(name)
+    if image is None:  # undone in the meantime
+        return
     for window, area in _editors("IMAGE_EDITOR") or _new_editors():
         area.spaces.active.image = image
         region = next(each for each in area.regions if each.type == "WINDOW")

@@ -34,6 +34,10 @@ class Computation(OnObjects):
     results are written at the end. If an object fails, it is reported and left out.
     """
 
+    # Whether `invoke` reports at once that nothing can be done: what a timer invokes
+    # has no window to report to until it runs.
+    _reports_at_once = True
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute while Blender waits."""
         try:
@@ -47,7 +51,7 @@ class Computation(OnObjects):
         """Begin to compute while the window stays alive."""
         works = self._read(context)
         errors = [work for work in works if isinstance(work, DecompositionError)]
-        if len(errors) == len(works):
+        if self._reports_at_once and len(errors) == len(works):
             discard_waiting()
             return self._write(errors, Target.find)
         steps = in_turn(works, self._names)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, ClassVar
 
 import bpy
@@ -122,7 +123,14 @@ def _show(run: Running) -> None:
 
 
 def show_status(name: str, text: str | None) -> None:
-    """Show a text in the status bar of a workspace; None shows the usual one again."""
+    """Show a text in the status bar of a workspace; None shows the usual one again.
+
+    While Blender closes a window it is shown a moment later: the end of an override of
+    the context would crash Blender then.
+    """
+    if bpy.context.window not in (None, *bpy.context.window_manager.windows):
+        bpy.app.timers.register(partial(show_status, name, text))
+        return
     workspace = bpy.data.workspaces.get(name)
     if workspace is None:
         return

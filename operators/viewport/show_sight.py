@@ -76,6 +76,11 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             return {"PASS_THROUGH"}
         return self._clicked(*place)
 
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop, and hide what is shown: nothing takes clicks any more."""
+        super().cancel(context)
+        stop()
+
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[core.PointViewer]:

@@ -29,8 +29,6 @@ _MOST_LEVELS = 6
 # both hulls added less by a share of the solid's volume: estimates are no sharper, and
 # such planes may divide blocks exactly.
 _FLAT_FACE, _BONUS = 0.01, 3e-3
-# Planes closer to a flat face of a block leave a sliver: those next to it are better.
-_SLIVER = 0.05
 # Distance of planes above and below a level, so that its faces are all on one side.
 _SKIM = 1e-5
 # Largest number of boundary points that planes are compared by.
@@ -84,8 +82,6 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         volumes = np.concatenate([first, second])
         flush = np.isin(offsets, np.concatenate([flat - _SKIM, flat + _SKIM]))
         volumes[flush] -= _BONUS * cell.solid.volume
-        if is_block:
-            volumes[~flush & _are_beside(offsets, flat)] = np.inf
         added.append(volumes)
         # By how much planes shorten the longer side, as a square: ties end so.
         gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
@@ -196,11 +192,3 @@ def _flat_levels(
     counts = np.diff(ends, axis=0)[0]
     largest = np.argsort(-counts, kind="stable")[:_MOST_LEVELS]
     return levels[largest[counts[largest] >= _FLAT_FACE * len(heights)]]
-
-
-def _are_beside(
-    offsets: NDArray[np.float64], flat: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """Return which planes leave a sliver beside a flat face."""
-    near = np.abs(offsets[:, None] - flat) < _SLIVER
-    return np.asarray(near.any(axis=1))

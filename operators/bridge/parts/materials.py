@@ -76,7 +76,9 @@ def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
 
 
 def own_materials(
-    identities: Iterable[Identity], sources: Sequence[bpy.types.Material | None]
+    identities: Iterable[Identity],
+    sources: Sequence[bpy.types.Material | None],
+    hulls: Iterable[bpy.types.Object] = (),
 ) -> list[bpy.types.Material]:
     """Return materials for the parts of one object.
 
@@ -86,13 +88,16 @@ def own_materials(
     sources : sequence of bpy.types.Material or None
         The material that each part had. It is used again if nothing else uses it;
         otherwise it is copied, so that no two objects share one.
+    hulls : iterable of bpy.types.Object, optional
+        The hulls of the object: they share the materials of its parts.
     """
     materials = []
+    worn = [each for mesh in {hull.data for hull in hulls} for each in mesh.materials]
     for identity, source in zip(identities, sources, strict=True):
         if source is None or not is_ours(source):
             material = _new(identity.name)
             recolor(material, identity.color)
-        elif source.users == 0 and source.library is None:
+        elif source.users == worn.count(source) and source.library is None:
             material = source
         else:
             material = source.copy()

@@ -13,6 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
+from ..hulls.listed import hulls_of
 from ..mesh.by_label import ByLabel
 from ..mesh.fingerprint import to_be_noted
 from ..mesh.layers import flush_edits, layers_of
@@ -165,8 +166,9 @@ def check_writable(obj: bpy.types.Object) -> None:
     written = check_records(obj)
     for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
-        # Points and faces both: the user may turn a mesh into points, or back.
-        ours = attribute and written and attribute.domain in {"FACE", "POINT"}
+        # Points and the others: the user may turn a mesh into points, or back.
+        domains = {"POINT", "CORNER" if name == COLOR_LAYER else "FACE"}
+        ours = attribute and written and attribute.domain in domains
         fits = attribute is None or (ours and attribute.data_type == data_type)
         if not fits or name in obj.vertex_groups:
             raise DecompositionError(
@@ -229,4 +231,5 @@ def _materials(
     """Return a material for each part of a mesh, or one for all points."""
     if is_cloud(obj):
         return [points_material(COLOR_LAYER, slots)]
-    return own_materials(identities, [sources.get(each.number) for each in identities])
+    own = [sources.get(each.number) for each in identities]
+    return own_materials(identities, own, hulls_of(obj))

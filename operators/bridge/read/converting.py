@@ -20,6 +20,20 @@ from ..mesh.attributes import read_floats, read_ints
 from ..mesh.known import corner_vertices
 from ..refusals import CONVERTIBLE
 
+# What to do about an object that gives no faces, by its type.
+_OUTLINES = (
+    ", and no closed outline in one plane to fill with them; close its curves (Toggle"
+    " Cyclic in Edit Mode) and flatten them, or give it an extrusion."
+)
+_ADVICE = {
+    "CURVE": _OUTLINES,
+    "SURFACE": _OUTLINES,
+    "FONT": "; type letters in Edit Mode, and choose a font that has them.",
+    "META": (
+        "; metaballs whose names differ in a number alone share one surface, which"
+        " belongs to the one without a number; choose that one."
+    ),
+}
 # A shape is flat if its points are this close to a plane, as a share of its size.
 _FLAT = 1e-4
 # The longest edge of a flat shape, as a share of its diagonal.
@@ -62,11 +76,7 @@ def converted(obj: bpy.types.Object) -> bpy.types.Mesh:
         mesh = _filled(obj)
     if not mesh.polygons:
         bpy.data.meshes.remove(mesh)
-        raise DecompositionError(
-            f"{obj.name} has no faces, and no closed outline in one plane to fill with"
-            " them; close its curves (Toggle Cyclic in Edit Mode) and flatten them, or"
-            " give it an extrusion."
-        )
+        raise DecompositionError(f"{obj.name} has no faces{_ADVICE[obj.type]}")
     mesh.materials.clear()
     places = np.array([vertex.co for vertex in mesh.vertices])
     if _plane(places) is not None:

@@ -169,3 +169,14 @@ def test_a_curve_without_a_flat_outline_has_its_sentence():
         with pytest.raises(RuntimeError, match=NO_OUTLINE):
             bpy.ops.wcd.decompose(**FAST)
         assert blocks() == before
+
+
+def test_metaballs_of_a_family_and_texts_without_letters_have_sentences():
+    for _ in range(2):
+        bpy.ops.object.metaball_add()
+    with pytest.raises(RuntimeError, match=r"Mball\.001 has no faces; metaballs"):
+        bpy.ops.wcd.decompose(**FAST)
+    bpy.ops.object.text_add()
+    bpy.context.active_object.data.body = " "
+    with pytest.raises(RuntimeError, match="Text has no faces; type letters"):
+        bpy.ops.wcd.decompose(**FAST)

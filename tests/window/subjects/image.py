@@ -1,6 +1,7 @@
 """The matrix of lines of sight in an Image Editor that opens for it, all of it.
 
-Undo takes the image away. Another picture uses the editor that is there.
+Undo takes the image away. Another picture uses the editor that is there. A view that
+fills the screen becomes the editor.
 """
 
 import bpy
@@ -38,3 +39,12 @@ def steps(hands):
         bpy.ops.wcd.show_picture("INVOKE_DEFAULT", picture="SCATTER")
     yield lambda: running.current is None and editors(hands)[0].spaces.active.image
     assert len(editors(hands)) == 1
+    yield 0.5
+    (editor,) = editors(hands)
+    editor.type = "VIEW_3D"
+    yield from hands.fill_screen()
+    with hands.context():
+        bpy.ops.wcd.show_picture("INVOKE_DEFAULT", picture="SIGHT")
+    yield lambda: running.current is None and editors(hands)
+    yield 0.5
+    assert len(editors(hands)) == len(hands.window.screen.areas) == 1

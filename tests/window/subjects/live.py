@@ -74,7 +74,24 @@ def steps(hands):
     yield lambda: running.current is None
     assert n_parts() == 6
     assert leftovers() == []
+    yield from locked(hands)
     yield from large(hands)
+
+
+def locked(hands):
+    """Ask for fewer parts than are locked: the parts stay, and the window says why."""
+    settings = bpy.context.scene.wcd
+    for row in bpy.context.active_object.wcd_parts[:3]:
+        row.locked = True
+    settings.parts = 2
+    yield 1.0
+    yield lambda: running.current is None
+    assert n_parts() == 6
+    hands.picture("locked")
+    settings.live = False
+    settings.parts = 6
+    for row in bpy.context.active_object.wcd_parts:
+        row.locked = False
 
 
 def large(hands):

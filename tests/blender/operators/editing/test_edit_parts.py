@@ -137,3 +137,16 @@ def test_smoothing_by_nothing_changes_nothing(monkey):
     labels = labels_of(monkey)
     bpy.ops.wcd.smooth_seams(scope="ALL", smoothness=0.0)
     assert (labels_of(monkey) == labels).all()
+
+
+def test_colors_in_an_attribute_follow_edits(monkey):
+    bpy.ops.wcd.decompose(**FAST)
+    bpy.ops.wcd.color_attribute()
+    n_parts = len(monkey.wcd_parts)
+    bpy.ops.wcd.split_parts(parts=2)
+    assert len(monkey.wcd_parts) > n_parts
+    colors = monkey.data.attributes["wcd_color"].data
+    for polygon, part in zip(monkey.data.polygons, labels_of(monkey), strict=True):
+        expected = pytest.approx(tuple(monkey.wcd_parts[part].color[:3]), abs=1e-6)
+        for corner in polygon.loop_indices:
+            assert tuple(colors[corner].color[:3]) == expected

@@ -47,6 +47,20 @@ def test_hulls_of_no_part_share_materials_with_those_of_other_objects(suzanne):
     assert [m for m in bpy.data.materials if m.name.startswith("Hull")] == [users]
 
 
+def test_hulls_and_parts_share_materials_also_after_an_edit(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    suzanne.wcd_parts[0].chosen = True
+    bpy.ops.wcd.smooth_seams()
+    names = [slot.name for slot in suzanne.material_slots]
+    assert names == ["Part 01", "Part 02", "Part 03"]
+    suzanne.wcd_parts[1].color = (0.1, 0.2, 0.3)
+    colors = [
+        tuple(hull.data.materials[0].diffuse_color[:3]) for hull in hulls_of(suzanne)
+    ]
+    assert pytest.approx((0.1, 0.2, 0.3)) in colors
+
+
 def test_a_mesh_that_hulls_were_joined_to_has_no_parts_of_theirs(suzanne):
     build()
     with bpy.context.temp_override(selected_editable_objects=bpy.data.objects[:]):
