@@ -64,16 +64,17 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
         rivals = [max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))]
     first, *others = rivals
     least = least_psi(search, n_parts)
-    seams = yield from within(search.seams.cut(first, least), 0.8, 0.9)
-    rest = [Seams(rival) for rival in others]
+    found = [(yield from within(search.seams.cut(first, least), 0.8, 0.9))]
     for rival in others:
-        rest.append((yield from within(search.seams.cut(rival), 0.9, 1.0)))
+        smooth = yield from within(search.seams.cut(rival), 0.9, 1.0)
+        found += [Seams(rival), smooth]
     psi_by_k = {made: by.psi_seen(first)} | searched.psi_by_k
-    labels = (each.parts for each in rest)
-    parts = search.creases.better(seams.parts, made, made, *labels)
-    if parts is not seams.parts:
-        seams = next((each for each in rest if each.parts is parts), Seams(parts))
-        psi_by_k |= {made: by.psi_seen(parts)}
+    own_seams, *labels = (each.parts for each in found)
+    best = search.creases.better(own_seams, made, made, *labels)
+    if best is not own_seams:
+        psi_by_k |= {made: by.psi_seen(best)}
+    # Parts that follow creases are none of those found.
+    seams = next((each for each in found if each.parts is best), Seams(best))
     return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 
 

@@ -202,7 +202,7 @@ class WCD_OT_refresh_parts(_Edit, bpy.types.Operator):
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
-        return edit_object(obj, edits.nothing)
+        return edit_object(obj, edits.refreshing)
 
 
 CLASSES: tuple[Any, ...] = (

@@ -69,7 +69,7 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
     return change
 
 
-def nothing(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
+def refreshing(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
     """Change no face: the parts are only measured and written again."""
     yield Progress("Refresh", 0.0)
     return core.Change(parts.labels)
