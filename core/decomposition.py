@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cache import ShapeCache
-from .geometry.shape import Shape
+from .geometry.array_checks import check_types
+from .geometry.shape import Shape, check_members
 from .parameters.parts import Parameters
 from .parts.convex_whole import as_one_part, stays_whole
 from .parts.details.levels import finds_details, split_further
@@ -41,6 +42,7 @@ def decompose_in_steps(
     shape : TriangleMesh or PointCloud
         In any units. It may be open, in several pieces or not manifold.
     parameters : Parameters
+        `seams` is not used: faces stay as they are.
     cache : ShapeCache
         Keeps the shape and its lines of sight for the next call.
     members : (P,) bool, optional
@@ -55,13 +57,22 @@ def decompose_in_steps(
 
     Raises
     ------
+    TypeError
+        If an argument has a wrong type.
     DecompositionError
-        If the shape has no area, or faces are the samples and there are too many.
+        If the shape has no area, if faces are the samples and there are too many, or if
+        `members` does not fit the shape.
 
     References
     ----------
     Asafi, Goren and Cohen-Or 2013, "Weak Convex Decomposition by Lines-of-sight".
     """
+    check_types(
+        shape=(shape, Shape),
+        parameters=(parameters, Parameters),
+        cache=(cache, ShapeCache),
+    )
+    check_members("members", members, shape)
     steps = partial(_decompose, shape, parameters, cache, members, rough)
     if rough:  # it is as good as what is known
         return (yield from steps())

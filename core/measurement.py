@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from .cache import ShapeCache
 from .errors import DecompositionError
-from .geometry.shape import Shape
+from .geometry.array_checks import check_types
+from .geometry.shape import Shape, check_members
 from .parameters.parts import Parameters
 from .results.parts import Measurement
 from .sight.prepared import PreparedShape
@@ -52,23 +53,29 @@ def measure_in_steps(
     Returns
     -------
     Steps of Measurement
-        The steps yield `Progress`; `run` returns the measurement.
 
     Raises
     ------
+    TypeError
+        If an argument has a wrong type.
     DecompositionError
-        If the shape cannot be normalized, if the faces have no area, or if the shape is
-        a flat mesh and none of the faces lies at its outline.
+        If the shape cannot be normalized, or if the faces do not fit it, have no area,
+        or do not lie at the outline of a flat mesh.
     """
+    check_types(
+        shape=(shape, Shape),
+        parameters=(parameters, Parameters),
+        cache=(cache, ShapeCache),
+    )
+    check_members("faces", faces, shape)
     prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
     if faces is not None:
         prepared = _members(prepared, faces)
     tested = _without_blocks(parameters, faces is not None)
     steps = find_lines_of_sight(prepared, tested)
     sight = yield from within(steps, 0.1, 1.0)
-    rank, standard_error = sight.rank_pairs.rank_of_all()
-    n_samples, n_pairs = len(sight.samples), sight.rank_pairs.n_cast
-    return Measurement(rank, standard_error, n_samples, prepared.notes, n_pairs)
+    n_samples, pairs = len(sight.samples), sight.rank_pairs
+    return Measurement(*pairs.rank_of_all(), n_samples, prepared.notes, pairs.n_cast)
 
 
 def _without_blocks(parameters: Parameters, of_faces: bool) -> Parameters:

@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from .. import core
 from ..core.errors import DecompositionError
 from ..core.geometry.array_checks import described
+from ..core.geometry.shape import checked_labels
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
 from ..core.results.hulls import HullDecomposition
 from ..core.results.parts import Decomposition, Measurement
 from ..core.steps.progress import Progress, Steps, mapped, run
 from .bridge.rays.choice import choose_ray_caster
-from .bridge.read.arrays import labels_of, mesh_of, scene_unit_of, shape_of
+from .bridge.read.arrays import mesh_of, scene_unit_of, shape_of
 
 T = TypeVar("T")
 Settings = TypeVar("Settings", Parameters, HullParameters)
@@ -174,7 +175,7 @@ def build_hulls(
     """
     settings = _settings("build_hulls", parameters, HullParameters, changes)
     solid = mesh_of(mesh, faces)
-    parts = labels_of(labels, solid, needed=settings.pieces == "PARTS")
+    parts = checked_labels(labels, solid, needed=settings.pieces == "PARTS")
     cache = core.ShapeCache(choose_ray_caster())
     unit, kinds = scene_unit_of(mesh), _kinds(part_shapes, parts, settings)
     steps = core.build_hulls_in_steps(solid, settings, cache, parts, 0, unit, kinds)

@@ -1,5 +1,6 @@
 """The public functions, called as a script would."""
 
+from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
 import numpy as np
@@ -78,6 +79,15 @@ def test_the_steps_give_what_the_functions_give():
     assert isinstance(next(steps), Progress)
     labels = wcd.run(steps).labels
     assert labels.tolist() == wcd.decompose(l_shape(), samples=300).labels.tolist()
+
+
+def test_several_threads_find_the_parts_that_one_finds():
+    def labels(seed):
+        found = wcd.decompose(VERTICES, FACES, samples=100, seed=seed)
+        return found.labels.tolist()
+
+    with ThreadPoolExecutor(2) as workers:
+        assert list(workers.map(labels, range(4))) == list(map(labels, range(4)))
 
 
 def test_hulls_know_their_parts():

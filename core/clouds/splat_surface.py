@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,7 @@ def splat_surface(cloud: PointCloud) -> Steps[SplatSurface]:
     """Build the splats of a point cloud.
 
     Normals are estimated if the cloud has none, and flipped if they face inwards.
+    Copies of a point have one splat.
 
     Parameters
     ----------
@@ -65,6 +66,18 @@ def splat_surface(cloud: PointCloud) -> Steps[SplatSurface]:
     -------
     Steps of SplatSurface
     """
+    different, rows = cloud.distinct()
+    found = yield from _surface_of(different)
+    normals = found.found_normals
+    return replace(
+        found,
+        nodes=found.nodes[rows],
+        found_normals=None if normals is None else normals[rows],
+    )
+
+
+def _surface_of(cloud: PointCloud) -> Steps[SplatSurface]:
+    """Build the splats of a cloud whose points are all different."""
     points, normals, tilt = cloud.points, cloud.normals, 0.0
     notes: tuple[str, ...] = ()
     if normals is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ from sklearn.cluster import KMeans
 _STARTS = 3
 # Environment variable with the number of threads.
 _THREADS = "OMP_NUM_THREADS"
+# One thread at a time sets it, and brings it back: it is the whole process's.
+_SETTING = Lock()
 # Decimals that the embedding is rounded to.
 _DECIMALS = 6
 
@@ -51,11 +54,12 @@ def cluster(
 @contextmanager
 def _no_count_of_cores() -> Iterator[None]:
     """Set OMP_NUM_THREADS, or scikit-learn runs a program that counts the cores."""
-    before = os.environ.get(_THREADS)
-    os.environ[_THREADS] = "1"
-    try:
-        yield
-    finally:
-        del os.environ[_THREADS]
-        if before is not None:
-            os.environ[_THREADS] = before
+    with _SETTING:
+        before = os.environ.get(_THREADS)
+        os.environ[_THREADS] = "1"
+        try:
+            yield
+        finally:
+            os.environ.pop(_THREADS, None)
+            if before is not None:
+                os.environ[_THREADS] = before

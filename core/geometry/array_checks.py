@@ -1,10 +1,10 @@
-"""The arrays that shapes are made of: their checks, and vertices at the same place."""
+"""Arguments and arrays of shapes: their checks, and vertices at the same place."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +61,24 @@ def described(values: object) -> str:
     except (TypeError, ValueError):
         return f"a {type(values).__name__} of rows of unequal lengths"
     return f"an array of dtype {array.dtype} and shape {array.shape}"
+
+
+def check_types(**arguments: tuple[object, Any]) -> None:
+    """Raise an error if an argument has a wrong type.
+
+    Parameters
+    ----------
+    **arguments : tuple of object and type
+        The value and the type, or union of types, of each argument, by its name.
+
+    Raises
+    ------
+    TypeError
+    """
+    for name, (value, kind) in arguments.items():
+        if not isinstance(value, kind):
+            names = " or ".join(each.__name__ for each in get_args(kind) or (kind,))
+            raise TypeError(f"`{name}` must be a {names}, not {described(value)}.")
 
 
 def checked_numbers(values: object, name: str, whole: bool = False) -> NDArray[Any]:

@@ -122,12 +122,9 @@ def flat_mesh(mesh: TriangleMesh) -> FlatMesh | None:
     used = heights[mesh.triangles]
     if np.ptp(used) > _FLAT:
         return None
-    totals = np.bincount(mesh.polygons, mesh.areas)
-    lifts = np.bincount(mesh.polygons, mesh.areas * (mesh.normals @ normal))
-    lifts = np.where(totals > _TINY, lifts, lifts.sum())[mesh.polygons]
+    lifts, lying = _lifts(mesh, normal)
     turned = np.where(lifts[:, None] < 0, mesh.triangles[:, ::-1], mesh.triangles)
     faces = replace(mesh, triangles=turned)
-    lying = np.abs(lifts) > _LYING * totals[mesh.polygons]
     tails, heads, owners = _outline(faces, lying)
     middle = mesh.vertices + np.outer(used.mean() - heights, normal)
     rims = np.stack([middle - _HEIGHT / 2 * normal, middle + _HEIGHT / 2 * normal])
@@ -144,6 +141,23 @@ def _surely_thick(mesh: TriangleMesh) -> bool:
     few = mesh.triangles[:: -(-len(mesh.triangles) // _FEW)].ravel()
     # Their extent is at least twice their standard deviation, in any direction.
     return bool(np.linalg.eigvalsh(np.cov(mesh.vertices[few].T))[0] > _FLAT**2)
+
+
+def _lifts(
+    mesh: TriangleMesh, normal: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return which triangles to turn, (T,), and which lie in the plane, (T,).
+
+    Those whose value is negative are to be turned. The triangles of a polygon have one
+    value, unless it crosses itself: its triangles then face both ways.
+    """
+    heights, rows = mesh.areas * (mesh.normals @ normal), mesh.polygons
+    totals = np.bincount(rows, mesh.areas)
+    lifts = np.bincount(rows, heights)
+    lifts = np.where(totals > _TINY, lifts, lifts.sum())
+    lying = np.abs(lifts) > _LYING * totals
+    crossed = ~lying & (np.bincount(rows, np.abs(heights)) > _LYING * totals)
+    return np.where(crossed[rows], heights, lifts[rows]), (lying | crossed)[rows]
 
 
 def _outline(

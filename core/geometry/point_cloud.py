@@ -95,13 +95,42 @@ class PointCloud:
         """
         return replace(self, points=(self.points - self.center) / self.diagonal)
 
+    def distinct(self) -> tuple[PointCloud, NDArray[np.int64]]:
+        """Return the cloud without copies of points, and the row of each point there.
+
+        Distances of neighbors tell how dense a cloud is; copies would make them 0.
+
+        Returns
+        -------
+        cloud : PointCloud
+            This one if it has no copies. Points that differ in their normals stay.
+        rows : (N,) int
+
+        Raises
+        ------
+        DecompositionError
+            If there are too few points without the copies.
+        """
+        normals = () if self.normals is None else (self.normals,)
+        _, first, copies = np.unique(
+            np.hstack([self.points, *normals]),
+            axis=0,
+            return_index=True,
+            return_inverse=True,
+        )
+        if len(first) == len(self):
+            return self, np.arange(len(self))
+        kept = np.sort(first)
+        rows = np.searchsorted(kept, first)[copies.reshape(-1)]
+        return PointCloud(self.points[kept], *(each[kept] for each in normals)), rows
+
 
 def _check_points(points: NDArray[np.float64]) -> None:
     """Raise DecompositionError if the points cannot be points of a surface."""
     if len(points) < _FEWEST:
         raise DecompositionError(
             f"There are no faces, and too few points for a point cloud, {len(points)};"
-            f" add faces, or choose an object of at least {_FEWEST} points."
+            f" add faces, or choose an object of at least {_FEWEST} different points."
         )
     if not np.isfinite(points).all():
         raise DecompositionError(

@@ -1,4 +1,4 @@
-"""The two kinds of shape, mesh and point cloud, and whether two shapes are equal."""
+"""The two kinds of shape, when two are equal, and what fits to their faces."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import DecompositionError
+from .array_checks import checked_numbers, described
 from .mesh import TriangleMesh
 from .point_cloud import PointCloud
 
@@ -65,6 +67,78 @@ def size_of(shape: Shape) -> int:
     int
     """
     return sum(array.size for array in _arrays(shape) if array is not None)
+
+
+def check_members(name: str, members: object, shape: Shape) -> None:
+    """Raise an error if an argument does not choose faces, or points, of a shape.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument.
+    members : object
+        (P,) bool, or None for all.
+    shape : TriangleMesh or PointCloud
+
+    Raises
+    ------
+    TypeError
+        If it is no array of bool.
+    DecompositionError
+        If it has another length, or chooses none.
+    """
+    if members is None:
+        return
+    if not isinstance(members, np.ndarray) or members.dtype != np.bool_:
+        raise TypeError(f"`{name}` must be an array of bool, not {described(members)}.")
+    size = shape.n_polygons if isinstance(shape, TriangleMesh) else len(shape)
+    if members.shape != (size,) or not members.any():
+        raise DecompositionError(
+            f"`{name}` must be {size} values, one for each face or point, and at least"
+            " one of them True."
+        )
+
+
+def checked_labels(
+    labels: object, mesh: TriangleMesh, needed: bool
+) -> NDArray[np.int64] | None:
+    """Return the labels of the faces of a mesh, after checking them.
+
+    Parameters
+    ----------
+    labels : object
+        Part of each polygon, or None.
+    mesh : TriangleMesh
+        The mesh whose polygons they label.
+    needed : bool
+        Whether None is an error.
+
+    Returns
+    -------
+    (P,) int or None
+
+    Raises
+    ------
+    TypeError
+        If labels are not whole numbers.
+    DecompositionError
+        If labels do not fit the mesh, or are needed and missing.
+    """
+    if labels is None:
+        if needed:
+            raise DecompositionError(
+                "Pieces = PARTS needs the part of each face; pass `labels`, as"
+                " `decompose` finds them."
+            )
+        return None
+    array = checked_numbers(labels, "`labels`", whole=True).astype(np.int64)
+    # Numbers beyond the type have become negative.
+    if array.shape != (mesh.n_polygons,) or array.min() < 0:
+        raise DecompositionError(
+            f"`labels` must be {mesh.n_polygons} numbers from 0 to 2**63 - 1, one for"
+            " each face."
+        )
+    return array
 
 
 def _arrays(shape: Shape) -> list[NDArray[Any] | None]:

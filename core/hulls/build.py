@@ -11,20 +11,24 @@ from numpy.typing import NDArray
 
 from ..cache import ShapeCache
 from ..errors import DecompositionError
+from ..geometry.array_checks import check_types
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
-from ..geometry.shape import Shape
+from ..geometry.shape import Shape, checked_labels
 from ..parameters.hulls import HullParameters
+from ..parameters.parameter import check, field_of
+from ..parameters.parts import Parameters
 from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.memo import digest
 from ..steps.progress import Progress, Steps, within
-from .convex_hull import THIN, convex_hull, offset
+from .convex_hull import THIN, convex_hull
 from .cutting.cell import whole
 from .cutting.close_pieces import close_pieces
 from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .measure.uncovered import uncovered
+from .notes import notes_on
 from .piece import Piece, piece_of_part
 from .solid import Solid, solid_of
 
@@ -49,9 +53,9 @@ def build_hulls_in_steps(
     parameters : HullParameters
     cache : ShapeCache
     labels : (P,) int, optional
-        Part of each polygon, from 0; each is one piece with ``pieces="PARTS"``.
+        Part of each polygon, from 0. ``pieces="PARTS"`` needs it: each is one piece.
     seed : int
-        Seed of the random surface samples.
+        Seed of the random surface samples, from 0.
     scene_unit : float
         Length in the scene of 1 in the units of the mesh.
     kinds : mapping of int to str, optional
@@ -63,14 +67,23 @@ def build_hulls_in_steps(
 
     Raises
     ------
+    TypeError
+        If an argument has a wrong type.
     DecompositionError
-        If the shape is a point cloud, or cannot be normalized.
+        If the shape cannot be normalized or is a point cloud, or labels do not fit it.
     """
+    check_types(
+        shape=(shape, Shape),
+        parameters=(parameters, HullParameters),
+        cache=(cache, ShapeCache),
+        kinds=(kinds or {}, Mapping),
+    )
+    check(field_of(Parameters, "seed"), seed)
     if not isinstance(shape, TriangleMesh):
         raise DecompositionError("A cloud has no faces; give it a surface for hulls.")
+    labels = checked_labels(labels, shape, needed=parameters.pieces == "PARTS")
     rows = None if labels is None else digest(labels)
-    own = tuple(sorted((kinds or {}).items()))
-    key = "hulls", parameters, rows, seed, scene_unit, own
+    key = "hulls", parameters, rows, seed, scene_unit, frozenset((kinds or {}).items())
     steps = partial(_build, shape, parameters, cache, labels, seed, scene_unit, kinds)
     return (yield from cache.recall(shape, key, steps))
 
@@ -95,7 +108,7 @@ def _build(
         errors,
         numbers[found.rows],
         found.volume_ratio,
-        (*prepared.notes, *_notes(found, errors, fit)),
+        (*prepared.notes, *notes_on(found.hulls, errors, fit)),
         parameters.error_unit,
         fit.unit * scene_unit,
     )
@@ -212,38 +225,3 @@ def _parts_of_triangles(
     if labels is None:
         return np.array([-1]), np.zeros(len(mesh.triangles), dtype=np.int64)
     return np.unique(labels[mesh.polygons], return_inverse=True)
-
-
-def _notes(found: _Found, errors: NDArray[np.float64], fit: Fit) -> tuple[str, ...]:
-    """Return notes on errors above the largest, and on hulls that did not shrink."""
-    notes, parameters, largest = [], fit.parameters, fit.parameters.max_error
-    if parameters.pieces != "PARTS" and errors.max() > largest:
-        if not fit.has_room:
-            advice = (
-                f"because Margin = {parameters.margin:g} alone is that much; choose a"
-                " margin nearer to 0."
-            )
-        elif len(found.shapes) < parameters.max_hulls:
-            advice = (
-                "and no cuts into at most Most Hulls ="
-                f" {parameters.max_hulls} were found that make it smaller."
-            )
-        else:
-            advice = (
-                f"after as many cuts as Most Hulls = {parameters.max_hulls} allows;"
-                " raise Most Hulls for more."
-            )
-        digits = (f"{errors.max():.{n}g}" for n in range(3, 18))  # that show it
-        error = next(each for each in digits if float(each) > float(f"{largest:g}"))
-        notes.append(
-            f"The error is {error}, above Largest Error = {largest:g}, {advice}"
-        )
-    if parameters.shape == "HULL" and fit.margin < 0:
-        kept = sum(offset(hull, fit.margin) is hull for hull in found.hulls)
-        if kept:
-            notes.append(
-                f"Margin = {parameters.margin:g} would make {kept} of"
-                f" {len(found.hulls)} hulls vanish, which keep their size; choose a"
-                " value nearer to 0."
-            )
-    return tuple(notes)

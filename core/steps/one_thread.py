@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from functools import lru_cache, wraps
+from threading import RLock
 from typing import ParamSpec
 
 from threadpoolctl import ThreadpoolController
@@ -13,13 +14,17 @@ from .progress import Steps, T
 
 Given = ParamSpec("Given")
 
+# Limits hold for the whole process. If two threads set and lifted them in turn, the
+# second would keep those of the first. Steps may contain limited steps of their own.
+_LIMITED = RLock()
+
 
 def on_one_thread(compute: Callable[Given, Steps[T]]) -> Callable[Given, Steps[T]]:
     """Limit the linear algebra of a computation to one thread.
 
     With more threads, the rounding of sums would depend on the number of cores. Where
     other programs keep the cores busy, threads would wait for each other most of the
-    time.
+    time. Computations in several threads take turns, step by step.
 
     Parameters
     ----------
@@ -37,7 +42,7 @@ def on_one_thread(compute: Callable[Given, Steps[T]]) -> Callable[Given, Steps[T
         steps, controller = compute(*args, **kwargs), _controller(len(sys.modules))
         try:
             while True:
-                with controller.limit(limits=1):
+                with _LIMITED, controller.limit(limits=1):
                     try:
                         progress = next(steps)
                     except StopIteration as stop:

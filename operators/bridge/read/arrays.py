@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.geometry.array_checks import (
-    checked_numbers,
     described,
     real_numbers,
     rows_of_three,
@@ -117,48 +116,6 @@ def scene_unit_of(shape: object) -> float:
     from .shape import scene_unit
 
     return scene_unit(shape)
-
-
-def labels_of(
-    labels: object, mesh: TriangleMesh, needed: bool
-) -> NDArray[np.int64] | None:
-    """Return the labels that a script passed, after checking them.
-
-    Parameters
-    ----------
-    labels : object
-        Part of each polygon, or None.
-    mesh : TriangleMesh
-        The mesh whose polygons they label.
-    needed : bool
-        Whether None is an error.
-
-    Returns
-    -------
-    (P,) int or None
-
-    Raises
-    ------
-    TypeError
-        If labels are not whole numbers.
-    DecompositionError
-        If labels do not fit the mesh, or are needed and missing.
-    """
-    if labels is None:
-        if needed:
-            raise DecompositionError(
-                "Pieces = PARTS needs the part of each face; pass `labels`, as"
-                " `decompose` finds them."
-            )
-        return None
-    array = checked_numbers(labels, "`labels`", whole=True).astype(np.int64)
-    # Numbers beyond the type have become negative.
-    if array.shape != (mesh.n_polygons,) or array.min() < 0:
-        raise DecompositionError(
-            f"`labels` must be {mesh.n_polygons} numbers from 0 to 2**63 - 1, one for"
-            " each face."
-        )
-    return array
 
 
 def _is_blender_object(shape: object) -> bool:

@@ -4,6 +4,7 @@ import pytest
 import shapes
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.clouds import splats as splats_module
+from weak_convex_decomposition.core.clouds.splat_surface import splat_surface
 from weak_convex_decomposition.core.clouds.splats import (
     areas_of_points,
     nearest_points,
@@ -12,6 +13,8 @@ from weak_convex_decomposition.core.clouds.splats import (
     splats,
     thinned_splats,
 )
+from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def test_splats_are_centered_on_their_points_and_face_along_their_normals():
@@ -87,3 +90,18 @@ def test_thinning_keeps_all_of_few_and_an_even_share_of_many(monkeypatch):
     assert 400 < len(kept) == len(areas) == targets.n_polygons <= 500
     assert areas.sum() == pytest.approx(6, rel=0.5)  # edges count twice
     assert (points[kept, 0] < 0.5).mean() == pytest.approx(0.5, abs=0.08)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("with_normals", [True, False])
+def test_copies_of_points_change_nothing(with_normals):
+    points, normals = clouds.drawn(shapes.dumbbell(), 300)
+    order = np.repeat(np.arange(300), 10)
+    alone, copied = (
+        run(splat_surface(PointCloud(points[rows], *[normals[rows]] * with_normals)))
+        for rows in (np.arange(300), order)
+    )
+    assert (copied.mesh.vertices == alone.mesh.vertices).all()
+    assert (copied.nodes == alone.nodes[order]).all()
+    if not with_normals:
+        assert (copied.found_normals == alone.found_normals[order]).all()

@@ -1,3 +1,6 @@
+import os
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 from weak_convex_decomposition.core.clusters.kmeans import cluster
@@ -36,3 +39,15 @@ def test_fewer_places_than_clusters_pass_without_a_warning():
     assert len(labels) == 20
     assert labels.min() >= 0
     assert labels.max() < 4
+
+
+@pytest.mark.parametrize("before", [None, "3"])
+def test_several_threads_leave_the_environment_as_it_was(monkeypatch, before):
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    if before:
+        monkeypatch.setenv("OMP_NUM_THREADS", before)
+    points, _ = clouds(5, 200)
+    with ThreadPoolExecutor(4) as pool:
+        labels = list(pool.map(lambda _: cluster(points, 8, 0), range(20)))
+    assert all((each == labels[0]).all() for each in labels)
+    assert os.environ.get("OMP_NUM_THREADS") == before

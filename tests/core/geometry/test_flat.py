@@ -9,6 +9,8 @@ import pytest
 import shapes
 from computed import decompose, graph_of, lines_of_sight, measure
 from weak_convex_decomposition.core.geometry.flat import flat_mesh
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.geometry.triangulation import triangulate
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -206,3 +208,10 @@ def test_edges_between_concave_corners_are_creases():
     assert np.sort(creased).tolist() == [[2, 4]]
     assert graph.bends.max() == pytest.approx(np.pi / 2)
     assert not run(flat_mesh(RING.normalized()).graph()).bends.any()
+
+
+def test_a_face_that_crosses_itself_lies_in_the_plane():
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
+    crossed = TriangleMesh(corners, *triangulate(np.array(corners), [(0, 1, 2, 3)]))
+    assert wall_length(crossed) == pytest.approx(3 + 2 * np.sqrt(2))  # of its triangles
+    assert 0.1 < measure(crossed, Parameters(samples=100)).rank < 0.9

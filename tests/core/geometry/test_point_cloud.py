@@ -67,3 +67,20 @@ def test_normalized_is_centered_and_of_diagonal_one():
     cloud = PointCloud(POINTS * 7 + (1, 2, 3), NORMALS).normalized()
     assert cloud.diagonal == pytest.approx(1)
     assert cloud.points.min(axis=0) == pytest.approx(-cloud.points.max(axis=0))
+
+
+def test_copies_are_taken_out_and_told_where_they_are():
+    alone = PointCloud(POINTS, NORMALS)
+    assert alone.distinct()[0] is alone
+    order = np.random.default_rng(0).permutation(np.repeat(np.arange(50), 3))
+    for normals in (None, NORMALS):
+        cloud = PointCloud(POINTS[order], None if normals is None else normals[order])
+        different, rows = cloud.distinct()
+        assert len(different) == 50
+        assert (different.points[rows] == cloud.points).all()
+    both_sides = PointCloud(
+        np.tile(POINTS, (2, 1)), np.concatenate([NORMALS, -NORMALS])
+    )
+    assert both_sides.distinct()[0] is both_sides
+    with pytest.raises(DecompositionError, match=r"few points .*, 15; .* 16 differ"):
+        PointCloud(np.repeat(POINTS[:15], 9, axis=0)).distinct()

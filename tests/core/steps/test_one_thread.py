@@ -1,9 +1,14 @@
 """Products of matrices stay on one thread, and only while steps are at work."""
 
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from time import sleep
+
 import numpy as np
 import pytest
 from scipy.linalg import blas  # noqa: F401  # loads what is limited
 from threadpoolctl import ThreadpoolController, threadpool_limits
+from weak_convex_decomposition.core.steps import one_thread
 from weak_convex_decomposition.core.steps.one_thread import on_one_thread
 from weak_convex_decomposition.core.steps.progress import Progress, run
 
@@ -53,3 +58,48 @@ def test_errors_and_cancelling_give_the_threads_back():
     cancelled.close()
     assert len(closed) == 2
     assert threads() == 2
+
+
+class Pool:
+    """A pool of threads that every thread can limit, as most are."""
+
+    size = 2
+
+    @contextmanager
+    def limit(self, limits):
+        before, self.size = self.size, limits
+        yield
+        self.size = before
+
+
+@pytest.fixture
+def pool(monkeypatch):
+    found = Pool()
+    monkeypatch.setattr(one_thread, "_controller", lambda _: found)
+    return found
+
+
+def test_several_threads_are_limited_and_give_the_threads_back(pool):
+    found = []
+
+    def slow(duration):
+        sleep(duration)
+        found.append(pool.size)
+        yield Progress("Slow", 0.0)
+
+    with ThreadPoolExecutor(4) as workers:
+        durations = 0.01, 0.02, 0.03, 0.04
+        list(workers.map(lambda each: run(on_one_thread(slow)(each)), durations))
+    assert found == [1] * 4
+    assert pool.size == 2
+
+
+def test_steps_that_are_never_resumed_let_other_threads_work(pool):
+    def looking():
+        yield Progress("First", 0.0)
+        return pool.size
+
+    suspended = on_one_thread(looking)()
+    next(suspended)
+    with ThreadPoolExecutor(1) as worker:
+        assert worker.submit(run, on_one_thread(looking)()).result(timeout=30) == 1
