@@ -198,13 +198,19 @@ def _kinds(
     settings: HullParameters,
 ) -> dict[int, str]:
     """Return the shapes of single parts, after checking them."""
+    if not isinstance(part_shapes, Mapping | None):
+        raise TypeError(
+            "`part_shapes` must be a dict of part numbers and shapes, not"
+            f" {described(part_shapes)}."
+        )
     kinds = dict(part_shapes or {})
     for kind in kinds.values():
         replace(settings, shape=kind)  # raises if it is none
-    unknown = sorted(kinds.keys() - set(() if labels is None else labels.tolist()))
+    known = set(() if labels is None else labels.tolist())
+    unknown = [part for part in kinds if part not in known]
     if kinds and (settings.pieces != "PARTS" or unknown):
         raise DecompositionError(
-            f"`part_shapes` names part {unknown[0]}, which no face has; see `labels`."
+            f"`part_shapes` names part {unknown[0]!r}, which no face has; see `labels`."
             if unknown
             else 'Shapes of single parts need Pieces = PARTS; pass pieces="PARTS".'
         )

@@ -211,8 +211,9 @@ def welded(
     places = np.zeros(len(vertices), dtype=np.int64)
     for axis in range(3):
         yield Progress("Surface", 0.2 + 0.1 * axis)
-        rounded = np.round((vertices[:, axis] - center[axis]) / step).astype(np.int64)
-        places = places * _CELLS + np.clip(rounded + _CELLS // 2, 0, _CELLS - 1)
+        with np.errstate(over="ignore"):
+            cells = np.round((vertices[:, axis] - center[axis]) / step) + _CELLS // 2
+        places = places * _CELLS + np.clip(cells, 0, _CELLS - 1).astype(np.int64)
     yield Progress("Surface", 0.5)
     # Ranges of places, of about as many vertices each, one after the other.
     n_ranges = -(-len(places) // _MOST_VERTICES)

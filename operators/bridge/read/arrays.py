@@ -160,8 +160,10 @@ def _triangles_of(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the triangles (T, 3) of faces, and the face (T,) of each."""
     array = real_numbers(faces)
-    if array is not None and array.ndim == 2 and array.shape[1] == 3:
-        return _indices(array), np.arange(len(array))
+    if array is not None and array.ndim == 2:
+        faces = array  # it was anything that NumPy can read
+        if array.shape[1] == 3:
+            return _indices(array), np.arange(len(array))
     if not isinstance(faces, Sequence | np.ndarray):
         raise TypeError(
             f"`faces` must be rows of vertex numbers, (F, 3) or lists of any length,"
