@@ -225,6 +225,7 @@ class TriangleMesh:
                 zero = lengths == 0
                 lengths[zero] = 1.0
                 normals[rows] = crosses / lengths[:, None]
+            areas.flags.writeable = normals.flags.writeable = False
             self.__dict__.update(areas=areas, normals=normals)
         found: NDArray[np.float64] = self.__dict__["normals"]
         return found

@@ -87,7 +87,8 @@ def test_arrays_are_read_only_copies():
     assert mesh.vertices[0].tolist() == [0, 0, 0]
     assert mesh.vertices.dtype == np.float64
     assert mesh.triangles.dtype == np.int64
-    for array in (mesh.vertices, mesh.triangles, mesh.polygons):
+    found = mesh.areas, mesh.normals
+    for array in (mesh.vertices, mesh.triangles, mesh.polygons, *found):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
 
