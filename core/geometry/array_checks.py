@@ -160,6 +160,14 @@ def check_surface(vertices: NDArray[Any], n_triangles: int) -> None:
         )
 
 
+def check_indices(indices: NDArray[np.int64], n_vertices: int) -> None:
+    """Raise DecompositionError if numbers of vertices are not all in 0…n - 1."""
+    if indices.size and (indices.min() < 0 or indices.max() >= n_vertices):
+        raise DecompositionError(
+            "The mesh has faces that refer to missing vertices; repair it first."
+        )
+
+
 def check_size(low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
     """Raise an error if areas and volumes of a shape would leave double precision.
 
