@@ -56,7 +56,7 @@ def decompose(
     Raises
     ------
     TypeError
-        If another argument has a wrong type, or a keyword is no field of `Parameters`.
+        If a keyword is no field of `Parameters`, or another argument has a wrong type.
     DecompositionError
         If the shape, the value of a field or its type, or the ray caster is refused.
 
@@ -108,7 +108,7 @@ def measure(
     Raises
     ------
     TypeError
-        If another argument has a wrong type, or a keyword is no field of `Parameters`.
+        If a keyword is no field of `Parameters`, or another argument has a wrong type.
     DecompositionError
         If the shape, the value of a field or its type, or the ray caster is refused.
 

@@ -181,3 +181,23 @@ def test_an_override_of_a_library_is_refused(tmp_path, suzanne):
     bpy.ops.object.make_local(type="SELECT_OBDATA")
     bpy.ops.wcd.decompose(samples=100, parts=2)
     assert len(bpy.context.active_object.wcd_parts) == 2
+
+
+@pytest.mark.parametrize("broken", ["{", 5, '{"parts": []}'])
+@pytest.mark.parametrize("key", ["wcd", "wcd_restore"])
+def test_a_note_that_cannot_be_read_is_told_of_until_it_is_gone(
+    suzanne, capfd, broken, key
+):
+    bpy.ops.wcd.decompose(**FAST)
+    owner = suzanne if key == "wcd" else suzanne.data
+    owner[key] = broken
+    for name in dir(bpy.ops.wcd):
+        getattr(bpy.ops.wcd, name).poll()
+    assert "Traceback" not in capfd.readouterr().err
+    for name in ("split_parts", "select_parts", "clear"):
+        refused(
+            getattr(bpy.ops.wcd, name), f"{key} that this add-on did not write; ren"
+        )
+    del owner[key]
+    bpy.ops.wcd.clear()
+    assert "wcd_part" not in suzanne.data.attributes
