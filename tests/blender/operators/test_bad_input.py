@@ -32,6 +32,18 @@ def test_nothing_to_clear(suzanne):
     refused(bpy.ops.wcd.clear, "Suzanne has no parts to clear")
 
 
+@pytest.mark.parametrize(
+    ("name", "match"),
+    [
+        ("recut", "Suzanne has no parts to replace; press Decompose"),
+        ("tell_quality", "There are no parts; press Decompose"),
+        ("merge_next", "No parts are picked; press Pick Parts"),
+    ],
+)
+def test_buttons_say_what_they_miss(suzanne, name, match):
+    refused(getattr(bpy.ops.wcd, name), match)
+
+
 def test_another_mode(suzanne):
     bpy.ops.object.mode_set(mode="SCULPT")
     refused(bpy.ops.wcd.decompose, "Object or Edit Mode")
