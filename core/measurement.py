@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from .cache import ShapeCache
 from .errors import DecompositionError
 from .geometry.array_checks import check_types
+from .geometry.mesh import LEAST_AREA
 from .geometry.shape import Shape, check_members
 from .parameters.parts import Parameters
 from .results.parts import Measurement
@@ -17,8 +18,6 @@ from .sight.prepared import PreparedShape
 from .sight.visibility import find_lines_of_sight
 from .steps.progress import Steps, within
 
-# Smallest area to measure, in squared diagonals. Smaller faces are lines or points.
-_LEAST_AREA = 1e-9
 # Largest number of samples on chosen faces: rays are cast between all pairs of them.
 _MOST_SAMPLES = 2000
 # Pairs of each sample with random ones that replace blocks, whose inferred pairs would
@@ -93,7 +92,7 @@ def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> PreparedShape:
     """Return the chosen faces as a shape; raise if no sample can lie on them."""
     area = shape.graph.areas[shape.nodes[faces]].sum()
     members = shape.part(faces)
-    if area <= _LEAST_AREA or len(members.sampled) == 0:
+    if area <= LEAST_AREA or len(members.sampled) == 0:
         raise DecompositionError(
             "The chosen faces have no area, or none lies at the outline of the flat"
             " mesh; select other faces."

@@ -16,6 +16,7 @@ from .bridge.refusals import measure_refusal, selection_refusal
 from .bridge.stored.record import record_if_ours, write_measurement
 from .bridge.work.computing import measure_object, measure_selection_of
 from .running.computation import Computation
+from .running.on_objects import is_free
 from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
 
 
@@ -97,7 +98,8 @@ class WCD_OT_tell_quality(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether the active object has parts that were found."""
-        return record_if_ours(context.active_object).get("psi") is not None
+        found = record_if_ours(context.active_object).get("psi") is not None
+        return is_free(cls, None if found else "There are no parts; press Decompose")
 
     @classmethod
     def description(

@@ -21,6 +21,7 @@ from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
 from .running.computation import Replacement
+from .running.on_objects import is_free
 from .running.watching import stop_timer
 from .settings import parameters_from, properties_for
 
@@ -127,7 +128,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether the active object has parts, also while something runs."""
-        return cls._refusal(context.active_object) is None
+        return is_free(cls, cls._refusal(context.active_object))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Replace the parts at once if that is quick, else start a modal run.

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import core
 from ..core.errors import DecompositionError
-from ..core.geometry.array_checks import described
+from ..core.geometry.array_checks import check_types, described
 from ..core.geometry.shape import checked_labels
 from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
@@ -56,9 +56,9 @@ def decompose(
     Raises
     ------
     TypeError
-        If an argument has a wrong type, or a keyword is no field of `Parameters`.
+        If a keyword is no field of `Parameters`, or another argument has a wrong type.
     DecompositionError
-        If a value makes no sense, or no such ray caster is installed.
+        If the shape, the value of a field or its type, or the ray caster is refused.
 
     References
     ----------
@@ -108,9 +108,9 @@ def measure(
     Raises
     ------
     TypeError
-        If an argument has a wrong type, or a keyword is no field of `Parameters`.
+        If a keyword is no field of `Parameters`, or another argument has a wrong type.
     DecompositionError
-        If a value makes no sense, or no such ray caster is installed.
+        If the shape, the value of a field or its type, or the ray caster is refused.
 
     References
     ----------
@@ -198,13 +198,15 @@ def _kinds(
     settings: HullParameters,
 ) -> dict[int, str]:
     """Return the shapes of single parts, after checking them."""
+    check_types(part_shapes=(part_shapes or {}, Mapping))
     kinds = dict(part_shapes or {})
     for kind in kinds.values():
         replace(settings, shape=kind)  # raises if it is none
-    unknown = sorted(kinds.keys() - set(() if labels is None else labels.tolist()))
+    known = set(() if labels is None else labels.tolist())
+    unknown = [part for part in kinds if part not in known]
     if kinds and (settings.pieces != "PARTS" or unknown):
         raise DecompositionError(
-            f"`part_shapes` names part {unknown[0]}, which no face has; see `labels`."
+            f"`part_shapes` names part {unknown[0]!r}, which no face has; see `labels`."
             if unknown
             else 'Shapes of single parts need Pieces = PARTS; pass pieces="PARTS".'
         )
@@ -218,17 +220,15 @@ def _settings(
     changes: dict[str, Any],
 ) -> Settings:
     """Return `parameters` with the fields in `changes` replaced; TypeError if wrong."""
-    if parameters is not None and not isinstance(parameters, kind):
-        raise TypeError(
-            f"`parameters` must be {kind.__name__}, not {type(parameters).__name__}."
-        )
+    parameters = kind() if parameters is None else parameters
+    check_types(parameters=(parameters, kind))
     names = [field.name for field in fields(kind)]
     for name in changes.keys() - set(names):
         raise TypeError(
             f"{function}() got an unexpected keyword argument {name!r}; its"
             f" parameters are {', '.join(names)}."
         )
-    return replace(parameters or kind(), **changes)
+    return replace(parameters, **changes)
 
 
 def _finish(steps: Steps[T], progress: ShowProgress | None) -> T:

@@ -103,9 +103,12 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
     bl_description = "Remove the modifier of the exploded view"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether there is an exploded view."""
-        return super().poll(context) and any(map(exploding, cls._chosen(context)))
+    def _obstacle(cls, context: bpy.types.Context) -> str | None:
+        """Return why there is no exploded view to end."""
+        reason = super()._obstacle(context)
+        if reason is None and not any(map(exploding, cls._chosen(context))):
+            return "There is no exploded view; press Exploded View first"
+        return reason
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         implode(obj)

@@ -21,6 +21,16 @@ class Cloud:
     vertices = l_shape().vertices[l_shape().triangles].mean(axis=1)
 
 
+class Readable:
+    """An array of another library, which NumPy can read."""
+
+    def __init__(self, values):
+        self.values = values
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self.values, dtype=dtype)
+
+
 class Trimesh:
     """A mesh of another library."""
 
@@ -37,6 +47,7 @@ def test_one_part_of_each_face_however_the_mesh_comes():
     ways = [
         wcd.decompose(mesh, samples=300),
         wcd.decompose(mesh.vertices, np.array(faces), samples=300),
+        wcd.decompose(Readable(mesh.vertices), Readable(faces), samples=300),
         wcd.decompose(mesh.vertices.tolist(), faces, samples=300),
         wcd.decompose(Trimesh(mesh.vertices, faces), samples=300),
     ]
@@ -160,15 +171,21 @@ def test_a_progress_that_raises_ends_the_work():
         ),
         (
             lambda: wcd.decompose(VERTICES, parameters={}),
-            "must be Parameters, not dict",
+            "must be a Parameters, not .* dict",
         ),
         (
             lambda: wcd.build_hulls(VERTICES, FACES, parameters=wcd.Parameters()),
-            "must be HullParameters, not Parameters",
+            "must be a HullParameters, not .* Parameters",
         ),
         (
             lambda: wcd.build_hulls(VERTICES, FACES, labels=[0.5] * 8),
             "`labels` must be whole numbers",
+        ),
+        (lambda: shaped("ab"), "`part_shapes` must be a Mapping, .* type str"),
+        (lambda: shaped([(0, "BOX")]), "`part_shapes` must be a Mapping"),
+        (
+            lambda: wcd.measure(VERTICES, FACES, caster=np.array([1, 2])),
+            "`caster` must be one of BLENDER, EMBREE, not an array",
         ),
         (lambda: wcd.decompose(np.eye(3) > 0), r"not .* dtype bool and shape \(3, 3\)"),
         (lambda: wcd.decompose(np.array([None])), "not an array of dtype object"),
@@ -200,6 +217,7 @@ def test_wrong_types_are_told_in_a_sentence(call, sentence):
         (lambda: wcd.build_hulls(VERTICES, FACES, pieces="PARTS"), "pass `labels`"),
         (lambda: wcd.build_hulls(VERTICES, FACES, labels=[0, 1]), "must be 8 numbers"),
         (lambda: shaped({7: "BOX"}), "names part 7, which no face has"),
+        (lambda: shaped({None: "BOX", "x": "BOX"}), "names part None, which no face"),
         (lambda: shaped({0: "BALL"}), "BALL"),
         (lambda: shaped({0: "BOX"}, pieces="BY_ERROR"), "need Pieces = PARTS"),
         (lambda: wcd.build_hulls(VERTICES, FACES, labels=[-1] * 8), "8 numbers from 0"),

@@ -160,6 +160,14 @@ def check_surface(vertices: NDArray[Any], n_triangles: int) -> None:
         )
 
 
+def check_indices(indices: NDArray[np.int64], n_vertices: int) -> None:
+    """Raise DecompositionError if numbers of vertices are not all in 0…n - 1."""
+    if indices.size and (indices.min() < 0 or indices.max() >= n_vertices):
+        raise DecompositionError(
+            "The mesh has faces that refer to missing vertices; repair it first."
+        )
+
+
 def check_size(low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
     """Raise an error if areas and volumes of a shape would leave double precision.
 
@@ -211,8 +219,9 @@ def welded(
     places = np.zeros(len(vertices), dtype=np.int64)
     for axis in range(3):
         yield Progress("Surface", 0.2 + 0.1 * axis)
-        rounded = np.round((vertices[:, axis] - center[axis]) / step).astype(np.int64)
-        places = places * _CELLS + np.clip(rounded + _CELLS // 2, 0, _CELLS - 1)
+        with np.errstate(over="ignore"):
+            cells = np.round((vertices[:, axis] - center[axis]) / step) + _CELLS // 2
+        places = places * _CELLS + np.clip(cells, 0, _CELLS - 1).astype(np.int64)
     yield Progress("Surface", 0.5)
     # Ranges of places, of about as many vertices each, one after the other.
     n_ranges = -(-len(places) // _MOST_VERTICES)

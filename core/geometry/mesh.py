@@ -13,6 +13,7 @@ from ..errors import DecompositionError
 from ..steps.progress import Progress, Steps, run, within
 from ..steps.rows import blocks, used_rows
 from .array_checks import (
+    check_indices,
     check_size,
     check_surface,
     checked_numbers,
@@ -21,7 +22,7 @@ from .array_checks import (
 )
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
-_LEAST_AREA = 1e-9
+LEAST_AREA = 1e-9
 # Cell size, in diagonals, of the grid that welds vertices. It allows for the rounding
 # of equal positions to single precision.
 _SAME_PLACE = 1e-6
@@ -73,10 +74,7 @@ class TriangleMesh:
         polygons = checked_numbers(self.polygons, "Polygons", whole=True)
         polygons = _kept(polygons, np.int64)
         check_surface(vertices, len(triangles))
-        if triangles.min() < 0 or triangles.max() >= len(vertices):
-            raise DecompositionError(
-                "The mesh has faces that refer to missing vertices; repair it first."
-            )
+        check_indices(triangles, len(vertices))
         if polygons.shape != (len(triangles),) or polygons.min() < 0:
             raise DecompositionError(
                 "The mesh needs one polygon number for each of its triangles."
@@ -161,7 +159,7 @@ class TriangleMesh:
             yield Progress("Surface", 0.3)
             scaled = replace(self, vertices=vertices)
             yield from within(scaled.normals_in_steps(), 0.4, 1.0)
-            if scaled.areas.sum() > _LEAST_AREA:
+            if scaled.areas.sum() > LEAST_AREA:
                 return scaled
         raise DecompositionError(
             "The faces have no area; choose an object with a surface."
@@ -225,6 +223,7 @@ class TriangleMesh:
                 zero = lengths == 0
                 lengths[zero] = 1.0
                 normals[rows] = crosses / lengths[:, None]
+            areas.flags.writeable = normals.flags.writeable = False
             self.__dict__.update(areas=areas, normals=normals)
         found: NDArray[np.float64] = self.__dict__["normals"]
         return found

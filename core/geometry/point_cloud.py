@@ -15,8 +15,6 @@ _FEWEST = 16
 # Points lie in a line if they spread less than this across it: a root mean square
 # distance, in diagonals.
 _LEAST_WIDTH = 1e-4
-# Least length of a usable normal, before it is scaled to length 1.
-_LEAST_NORMAL = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +58,7 @@ class PointCloud:
         object.__setattr__(self, "points", points)
         if self.normals is not None:
             normals = rows_of_three(self.normals, "Normals").astype(np.float64)
-            lengths = _lengths_of_normals(normals, len(points))
-            normals /= lengths
+            normals = _unit_normals(normals, len(points))
             normals.flags.writeable = False
             object.__setattr__(self, "normals", normals)
 
@@ -151,19 +148,21 @@ def _check_points(points: NDArray[np.float64]) -> None:
         )
 
 
-def _lengths_of_normals(
-    normals: NDArray[np.float64], n_points: int
-) -> NDArray[np.float64]:
-    """Return the lengths of normals, (N, 1), or raise if normals are unusable."""
+def _unit_normals(normals: NDArray[np.float64], n_points: int) -> NDArray[np.float64]:
+    """Return normals (N, 3) at length 1, or raise if they are unusable."""
     if len(normals) != n_points:
         raise DecompositionError(
             f"The point cloud has {n_points} points but {len(normals)} normals; give"
             " one per point, or no normals to have them estimated."
         )
+    # Squares of very long and very short ones would leave double precision.
+    _, exponents = np.frexp(np.abs(normals).max(axis=1, keepdims=True))
+    normals = np.ldexp(normals, -exponents)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    if not np.isfinite(lengths).all() or lengths.min() < _LEAST_NORMAL:
+    if not np.isfinite(lengths).all() or lengths.min() == 0:
         raise DecompositionError(
             "The point cloud has normals that are zero or not finite numbers; delete"
             " those points, or the normals to have them estimated."
         )
-    return lengths
+    unit: NDArray[np.float64] = normals / lengths
+    return unit

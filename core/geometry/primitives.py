@@ -8,10 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .frames import cross
-
-# Heights of points above planes computed at once: more fit into no processor's cache.
-_HEIGHTS_AT_ONCE = 100_000
+from .frames import HEIGHTS_AT_ONCE, cross
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -74,7 +71,7 @@ class Hull:
         m, c = corners.shape[:2]
         highest = np.empty(m)
         normals, offsets = np.ascontiguousarray(self.planes[:, :3]), self.planes[:, 3:]
-        step = max(_HEIGHTS_AT_ONCE // (c * len(normals)), 1)
+        step = max(HEIGHTS_AT_ONCE // (c * len(normals)), 1)
         for start in range(0, m, step):  # corner by corner: NumPy's minima take less
             some = corners[start : start + step].swapaxes(0, 1).reshape(-1, 3)
             heights = (normals @ some.T + offsets).reshape(len(normals), c, -1)

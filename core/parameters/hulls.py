@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..errors import DecompositionError
 from .hull_names import NAMINGS, hull_names
-from .parameter import Choice, ParameterInfo, parameter, settle
+from .parameter import Choice, ParameterInfo, is_within, parameter, settle
 
 SHAPES = (
     Choice("HULL", "Convex Hull", "The smallest convex shape around it"),
@@ -16,8 +16,8 @@ SHAPES = (
     Choice("CYLINDER", "Cylinder", "A cylinder of small volume"),
 )
 
-# Bounds of a relative error, and how far it may be beyond them in single precision.
-_RELATIVE, _ROUNDING = (0.001, 1.0), 1e-6
+# Bounds of a relative error.
+_RELATIVE = 0.001, 1.0
 
 
 @dataclass(frozen=True)
@@ -164,8 +164,7 @@ class HullParameters:
         """Check every field, and that the template gives each hull another name."""
         settle(self)
         low, high = _RELATIVE
-        within = low * (1 - _ROUNDING) <= self.max_error <= high * (1 + _ROUNDING)
-        if self.error_unit == "RELATIVE" and not within:
+        if self.error_unit == "RELATIVE" and not is_within(self.max_error, low, high):
             raise DecompositionError(
                 f"Largest Error is {self.max_error:g}; choose a value from {low:g} to"
                 f" {high:g}, or Error Unit = Scene for lengths."

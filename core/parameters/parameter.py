@@ -9,8 +9,8 @@ from typing import Any
 
 from ..errors import DecompositionError
 
-# Blender stores properties in single precision: a value may exceed its bound by this
-# share of itself.
+# Blender stores properties in single precision: a value may exceed a bound by this
+# share of the bound.
 _FLOAT32_SLACK = 1e-6
 # Messages write whole numbers from this on with an exponent.
 _LONGEST_PLAIN = 1e15
@@ -165,9 +165,27 @@ def check(parameter_field: Field[Any], value: Any) -> None:
     if not finite or isinstance(value, bool):
         kind = "a whole number" if whole else "a number"
         raise DecompositionError(f"{info.label} must be {kind}, not {value!r}.")
-    slack = 0.0 if whole else _FLOAT32_SLACK * max(1.0, abs(value))
-    if not info.low - slack <= value <= info.high + slack:
+    if not is_within(value, info.low, info.high):
         raise DecompositionError(f"{info.label} is {_written(value)}; {bounds}.")
+
+
+def is_within(value: float, low: float, high: float) -> bool:
+    """Return whether a number is within bounds, but for rounding to single precision.
+
+    Parameters
+    ----------
+    value : int or float
+    low, high : float
+        Inclusive bounds, which may be infinite.
+
+    Returns
+    -------
+    bool
+    """
+    if isinstance(value, Integral):
+        return low <= value <= high
+    below, above = _FLOAT32_SLACK * abs(low), _FLOAT32_SLACK * abs(high)
+    return low - below <= value <= high + above
 
 
 def _written(number: float) -> str:

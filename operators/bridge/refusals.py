@@ -13,6 +13,7 @@ from .hulls.lost_hulls import has_hulls_to_clear
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
 from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME, WHOLE_MESH
+from .stored.notes import or_not_ours
 from .stored.record import (
     beside_parts,
     has_record,
@@ -91,6 +92,7 @@ def recut_refusal(obj: Candidate) -> str | None:
     return reason
 
 
+@or_not_ours
 def clear_refusal(obj: Candidate) -> str | None:
     """Return why nothing can be cleared from an object."""
     reason = refusal(obj, writes_mesh=False)
@@ -164,6 +166,7 @@ def object_mode_refusal(obj: Candidate) -> str | None:
 # The parts of an object, to be edited by hand.
 
 
+@or_not_ours
 def edit_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be edited."""
     reason = refusal(obj)

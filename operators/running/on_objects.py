@@ -28,10 +28,7 @@ class OnObjects(Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is an object to work on."""
-        reason = cls._obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
+        return is_free(cls, cls._obstacle(context))
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
@@ -87,6 +84,13 @@ class OnEach(OnObjects):
                 title = f"{obj.name}: " if objects[1:] else ""
                 failures.append(f"{title}{error}")
         return self._conclude(failures, len(objects))
+
+
+def is_free(operator: type[Operator], obstacle: str | None) -> bool:
+    """Return whether an operator can be called; its button tells of an obstacle."""
+    if obstacle:
+        operator.poll_message_set(obstacle)
+    return obstacle is None
 
 
 def chosen_objects(

@@ -10,6 +10,7 @@ from ..bridge.parts.rows import chosen_numbers
 from ..bridge.refusals import edit_refusal, faces_refusal
 from ..bridge.stored.names import RESULT
 from ..running import modal
+from ..running.on_objects import is_free
 from . import picking
 from .choose_parts import choose_too
 from .part_at import make_tree, part_at
@@ -48,10 +49,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether an object has parts that can be picked."""
-        reason = _refusal(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return reason is None
+        return is_free(cls, _refusal(context))
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin, or end if parts are picked already."""
@@ -220,7 +218,8 @@ class WCD_OT_merge_next(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether parts are picked."""
-        return picking.current is not None
+        picked = picking.current is not None
+        return is_free(cls, None if picked else "No parts are picked; press Pick Parts")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Wait for the click."""

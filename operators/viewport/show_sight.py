@@ -18,7 +18,7 @@ from ..bridge.refusals import measure_refusal
 from ..bridge.work.computing import point_viewer_of
 from ..running import modal
 from ..running.computation import Computation
-from ..running.on_objects import OnActive
+from ..running.on_objects import OnActive, is_free
 from ..running.watching import changed_objects, unwatch, watch
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
@@ -151,7 +151,8 @@ class WCD_OT_hide_sight(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether any are shown."""
-        return sight_overlay.current is not None
+        shown = sight_overlay.current is not None
+        return is_free(cls, None if shown else "No lines of sight are shown; show some")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Hide them."""

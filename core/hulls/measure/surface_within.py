@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import heights_above
+from ...geometry.frames import HEIGHTS_AT_ONCE, heights_above
 from ...geometry.primitives import CollisionShape
 from ..convex_hull import THIN
 from ..outline import outline_of
@@ -15,8 +15,6 @@ from ..solid import Solid
 _WITHIN = THIN / 10
 # Heights up to this are rounding.
 _ABOVE = 1e-9
-# Heights of points above planes computed at once: more fit into no processor's cache.
-_HEIGHTS_AT_ONCE = 100_000
 
 
 def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
@@ -58,7 +56,7 @@ def _farthest_above(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return the height of points (N, 3) above their highest plane, and which it is."""
     height, plane = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
-    step = max(_HEIGHTS_AT_ONCE // len(planes), 1)
+    step = max(HEIGHTS_AT_ONCE // len(planes), 1)
     for start in range(0, len(points), step):
         some = slice(start, start + step)
         heights = heights_above(planes, points[some])
@@ -102,7 +100,7 @@ def _above(
     """
     n = len(corners)
     lowest, above = np.empty(n), np.empty((n, 3))
-    step = max(_HEIGHTS_AT_ONCE // (3 * len(planes)), 1)
+    step = max(HEIGHTS_AT_ONCE // (3 * len(planes)), 1)
     for start in range(0, n, step):
         some = slice(start, start + step)
         heights = corners[some] @ planes[:, :3].T + planes[:, 3]

@@ -109,6 +109,8 @@ def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:
     for hull in hulls_of(obj):
         if hull.name == name:
             return hull
+    if not name:
+        raise DecompositionError(f"Name a hull of {obj.name}: `hull` is empty.")
     raise DecompositionError(
         f"{obj.name} has no hull {name}; choose one in the list of its hulls."
     )

@@ -6,6 +6,7 @@ from contextlib import suppress
 from importlib import import_module
 
 from ....core.errors import DecompositionError
+from ....core.geometry.array_checks import described
 from ....core.sight.ray_caster import MakeCaster
 
 _EMBREE = "install Embree with `pip install embreex`"
@@ -37,9 +38,15 @@ def choose_ray_caster(caster: str | None = None) -> MakeCaster:
 
     Raises
     ------
+    TypeError
+        If it is no name at all.
     DecompositionError
         If it is not installed, or if there is no caster of that name.
     """
+    if not isinstance(caster, str | None):
+        raise TypeError(
+            f"`caster` must be one of {', '.join(CASTERS)}, not {described(caster)}."
+        )
     if caster not in (None, *CASTERS):
         raise DecompositionError(
             f"There is no ray caster {caster!r}; choose one of {', '.join(CASTERS)}."

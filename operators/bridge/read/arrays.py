@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.geometry.array_checks import (
+    check_indices,
     described,
     real_numbers,
     rows_of_three,
@@ -160,8 +161,10 @@ def _triangles_of(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the triangles (T, 3) of faces, and the face (T,) of each."""
     array = real_numbers(faces)
-    if array is not None and array.ndim == 2 and array.shape[1] == 3:
-        return _indices(array), np.arange(len(array))
+    if array is not None and array.ndim == 2:
+        faces = array  # it was anything that NumPy can read
+        if array.shape[1] == 3:
+            return _indices(array), np.arange(len(array))
     if not isinstance(faces, Sequence | np.ndarray):
         raise TypeError(
             f"`faces` must be rows of vertex numbers, (F, 3) or lists of any length,"
@@ -171,10 +174,8 @@ def _triangles_of(
         polygons = list(_indices(array))
     else:
         polygons = [_polygon(face, row) for row, face in enumerate(faces)]
-    if polygons and np.concatenate(polygons).max() >= len(vertices):
-        raise DecompositionError(
-            "The mesh has faces that refer to missing vertices; repair it first."
-        )
+    if polygons:
+        check_indices(np.concatenate(polygons), len(vertices))
     return triangulate(vertices, polygons)
 
 
@@ -193,12 +194,7 @@ def _polygon(face: object, row: int) -> NDArray[np.int64]:
 
 
 def _indices(array: NDArray[Any]) -> NDArray[np.int64]:
-    """Return vertex numbers as integers; raise if one is negative or not whole."""
+    """Return vertex numbers as integers; raise if they are not whole."""
     if array.dtype.kind == "f" and array.size:
         raise TypeError("`faces` must be whole numbers: rows of the vertices.")
-    rows = array.astype(np.int64)  # numbers beyond the type become negative
-    if rows.size and rows.min() < 0:
-        raise DecompositionError(
-            "The mesh has faces that refer to missing vertices; repair it first."
-        )
-    return rows
+    return array.astype(np.int64)  # numbers beyond the type become negative

@@ -6,9 +6,9 @@ import json
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import fields
-from functools import cache
+from functools import cache, wraps
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 import bpy
 
@@ -17,6 +17,7 @@ from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 
 T = TypeVar("T", Parameters, HullParameters)
+Given = ParamSpec("Given")
 
 _MANIFEST = Path(__file__).parents[3] / "blender_manifest.toml"
 
@@ -71,3 +72,19 @@ def not_ours(owner: bpy.types.ID, key: str) -> DecompositionError:
         f"{owner.name} has a custom property {key} that this add-on did not write;"
         " rename or delete it."
     )
+
+
+def or_not_ours(refusal: Callable[Given, str | None]) -> Callable[Given, str | None]:
+    """Let a function that returns why not do so for notes that are not ours, too.
+
+    Buttons and panels ask it all the time, and must not fail.
+    """
+
+    @wraps(refusal)
+    def told(*args: Given.args, **kwargs: Given.kwargs) -> str | None:
+        try:
+            return refusal(*args, **kwargs)
+        except DecompositionError as error:
+            return str(error).removesuffix(".")
+
+    return told

@@ -32,6 +32,18 @@ def test_nothing_to_clear(suzanne):
     refused(bpy.ops.wcd.clear, "Suzanne has no parts to clear")
 
 
+@pytest.mark.parametrize(
+    ("name", "match"),
+    [
+        ("recut", "Suzanne has no parts to replace; press Decompose"),
+        ("tell_quality", "There are no parts; press Decompose"),
+        ("merge_next", "No parts are picked; press Pick Parts"),
+    ],
+)
+def test_buttons_say_what_they_miss(suzanne, name, match):
+    refused(getattr(bpy.ops.wcd, name), match)
+
+
 def test_another_mode(suzanne):
     bpy.ops.object.mode_set(mode="SCULPT")
     refused(bpy.ops.wcd.decompose, "Object or Edit Mode")
@@ -181,3 +193,23 @@ def test_an_override_of_a_library_is_refused(tmp_path, suzanne):
     bpy.ops.object.make_local(type="SELECT_OBDATA")
     bpy.ops.wcd.decompose(samples=100, parts=2)
     assert len(bpy.context.active_object.wcd_parts) == 2
+
+
+@pytest.mark.parametrize("broken", ["{", 5, '{"parts": []}'])
+@pytest.mark.parametrize("key", ["wcd", "wcd_restore"])
+def test_a_note_that_cannot_be_read_is_told_of_until_it_is_gone(
+    suzanne, capfd, broken, key
+):
+    bpy.ops.wcd.decompose(**FAST)
+    owner = suzanne if key == "wcd" else suzanne.data
+    owner[key] = broken
+    for name in dir(bpy.ops.wcd):
+        getattr(bpy.ops.wcd, name).poll()
+    assert "Traceback" not in capfd.readouterr().err
+    for name in ("split_parts", "select_parts", "clear"):
+        refused(
+            getattr(bpy.ops.wcd, name), f"{key} that this add-on did not write; ren"
+        )
+    del owner[key]
+    bpy.ops.wcd.clear()
+    assert "wcd_part" not in suzanne.data.attributes

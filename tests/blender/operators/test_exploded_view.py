@@ -43,7 +43,8 @@ def test_parts_move_away_from_the_center_together(suzanne):
 def test_exploded_views_end(suzanne):
     decompose_by_hand(suzanne, 4)
     before = snapshot(suzanne)
-    assert not bpy.ops.wcd.implode.poll()
+    with pytest.raises(RuntimeError, match="There is no exploded view; press Exploded"):
+        bpy.ops.wcd.implode()
     call("explode")
     assert bpy.ops.wcd.implode() == {"FINISHED"}
     assert snapshot(suzanne) == before

@@ -87,7 +87,8 @@ def test_arrays_are_read_only_copies():
     assert mesh.vertices[0].tolist() == [0, 0, 0]
     assert mesh.vertices.dtype == np.float64
     assert mesh.triangles.dtype == np.int64
-    for array in (mesh.vertices, mesh.triangles, mesh.polygons):
+    found = mesh.areas, mesh.normals
+    for array in (mesh.vertices, mesh.triangles, mesh.polygons, *found):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
 
@@ -131,3 +132,11 @@ def test_welded_corners_are_equal_where_vertices_coincide():
 def test_welding_ignores_the_sign_of_zero():
     mesh = TriangleMesh([*CORNERS, [-0.0, 0, 0]], [[0, 1, 2], [3, 2, 1]], [0, 1])
     assert mesh.welded_triangles[0, 0] == mesh.welded_triangles[1, 0]
+
+
+@pytest.mark.filterwarnings("error")
+def test_loose_vertices_far_away_are_welded_with_nothing():
+    box = shapes.box()
+    far = [[1e300, 0, 0], [-1e300, 1.7e308, 0]]
+    loose = TriangleMesh([*box.vertices, *far], box.triangles, box.polygons)
+    assert (loose.welded_triangles == box.welded_triangles + 1).all()

@@ -84,3 +84,10 @@ def test_copies_are_taken_out_and_told_where_they_are():
     assert both_sides.distinct()[0] is both_sides
     with pytest.raises(DecompositionError, match=r"few points .*, 15; .* 16 differ"):
         PointCloud(np.repeat(POINTS[:15], 9, axis=0)).distinct()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("length", [1e-310, 1e-200, 1e-7, 1e200])
+def test_normals_may_have_any_length_but_0(length):
+    cloud = PointCloud(POINTS, NORMALS * length)
+    assert cloud.normals == pytest.approx(NORMALS, abs=1e-9)

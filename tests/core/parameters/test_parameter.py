@@ -88,3 +88,18 @@ def test_every_parameter_has_a_label_a_help_and_a_good_default():
         assert info.help[:1].isupper(), field.name
         assert not info.help.endswith("."), field.name
         check(field, field.default)  # its error names the parameter
+
+
+def test_bounds_give_way_by_a_share_of_themselves():
+    for error in (0, 0.0, 9e-7, 1.001e6):
+        with pytest.raises(DecompositionError, match="choose a value from 1e-06 to"):
+            HullParameters(max_error=error, error_unit="SCENE")
+    for error in (np.float32(1e-6), np.float32(1e6)):
+        HullParameters(max_error=float(error), error_unit="SCENE")
+    for error in (np.float32(0.001), np.float32(1.0)):
+        HullParameters(max_error=float(error))
+    for error in (0.00099999, 1.00001):
+        with pytest.raises(
+            DecompositionError, match=r"from 0\.001 to 1, or Error Unit"
+        ):
+            HullParameters(max_error=error)

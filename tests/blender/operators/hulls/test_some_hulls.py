@@ -70,6 +70,9 @@ def test_one_hull_is_removed(built):
     assert [hull.name for hull in hulls_of(built)] == [names[0], names[2]]
     with pytest.raises(RuntimeError, match="has no hull nothing"):
         bpy.ops.wcd.remove_hull(hull="nothing")
+    for operator in (bpy.ops.wcd.remove_hull, bpy.ops.wcd.refit_hull):
+        with pytest.raises(RuntimeError, match="Name a hull of Suzanne: `hull` is"):
+            operator(hull="")
     for name in (names[0], names[2]):
         bpy.ops.wcd.remove_hull(hull=name)
     assert "hulls" not in record_of(built)

@@ -126,6 +126,8 @@ def test_esc_leaves_everything_as_it_was(suzanne, window, cls):
 
 def test_the_cancel_button_stops(suzanne, window):
     assert not bpy.ops.wcd.cancel.poll()
+    with pytest.raises(RuntimeError, match="Nothing is running"):
+        bpy.ops.wcd.cancel()
     before = snapshot(suzanne)
     pressed = press(WCD_OT_decompose, window)
     assert bpy.ops.wcd.cancel() == {"FINISHED"}

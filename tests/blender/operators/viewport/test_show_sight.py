@@ -42,7 +42,8 @@ def test_a_face_of_a_cube_sees_all_other_faces(cube):
     assert snapshot(cube) == before
     assert bpy.ops.wcd.hide_sight() == {"FINISHED"}
     assert sight_overlay.current is None
-    assert not bpy.ops.wcd.hide_sight.poll()
+    with pytest.raises(RuntimeError, match="No lines of sight are shown; show some"):
+        bpy.ops.wcd.hide_sight()
 
 
 def test_nothing_is_shown_of_what_cannot_be_read(cube):
