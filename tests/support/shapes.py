@@ -119,18 +119,10 @@ def box(low=(0, 0, 0), high=(1, 1, 1), divisions=1):
 
 def l_prism(arm=4.0):
     """Return an L of 20 triangles: two hexagons and six quads."""
-    return prism([(1, 1), (1, arm), (0, arm), (0, 0), (arm, 0), (arm, 1)])
-
-
-def prism(outline):
-    """Return a prism of height 1 over an outline, counter-clockwise: two n-gons.
-
-    The first corner sees all others.
-    """
-    n = len(outline)
+    outline = [(1, 1), (1, arm), (0, arm), (0, 0), (arm, 0), (arm, 1)]
     vertices = [(x, y, z) for z in (0, 1) for x, y in outline]
-    sides = [(i, (i + 1) % n, (i + 1) % n + n, i + n) for i in range(n)]
-    return mesh_of(vertices, [range(n, 2 * n), (0, *range(n - 1, 0, -1)), *sides])
+    sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+    return mesh_of(vertices, [range(6, 12), (0, 5, 4, 3, 2, 1), *sides])
 
 
 def sheet(divisions=6):

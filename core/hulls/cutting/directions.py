@@ -36,17 +36,18 @@ def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
         Unit vectors.
     is_block : bool
     """
-    flat = _flat_normals(cell)
+    flat, share = _flat_normals(cell)
+    is_block = len(flat) >= _SIDES and share >= _BLOCK
     own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
     found: list[NDArray[np.float64]] = []
-    for direction in (*(flat if len(flat) else np.eye(3)), *own):
+    for direction in (*(flat if is_block else np.eye(3)), *own):
         if all(abs(direction @ other) < _SAME for other in found):
             found.append(direction)
-    return np.array(found), len(flat) > 0
+    return np.array(found), is_block
 
 
-def _flat_normals(cell: Cell) -> NDArray[np.float64]:
-    """Return the normals of a block's large flat faces, (N, 3); none if it is no block.
+def _flat_normals(cell: Cell) -> tuple[NDArray[np.float64], float]:
+    """Return the normals of a piece's large flat faces, (N, 3), and their share of all.
 
     The first has most of the surface. Parallel faces count together.
     """
@@ -57,6 +58,5 @@ def _flat_normals(cell: Cell) -> NDArray[np.float64]:
         np.round(normals, _NORMAL_DIGITS), axis=0, return_index=True, return_counts=True
     )
     large = counts >= _LARGE_FACE * len(normals)
-    if large.sum() < _SIDES or counts[large].sum() < _BLOCK * len(normals):
-        return normals[:0]
-    return normals[first[large][np.argsort(-counts[large], kind="stable")]]
+    flat = normals[first[large][np.argsort(-counts[large], kind="stable")]]
+    return flat, float(counts[large].sum() / max(len(normals), 1))

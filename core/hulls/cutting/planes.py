@@ -29,8 +29,9 @@ _MOST_LEVELS = 6
 # both hulls added less by a share of the solid's volume: estimates are no sharper, and
 # such planes may divide blocks exactly.
 _FLAT_FACE, _BONUS = 0.01, 3e-3
-# Distance of planes above and below a level, so that its faces are all on one side.
-_SKIM = 1e-5
+# Planes lie below and above a level, so that its faces are all on one side. What
+# is between counts as added: 1e-5 would make errors of about 0.003, this makes 0.0007.
+_BESIDE = np.array([-1e-7, 1e-7])
 # Largest number of boundary points that planes are compared by.
 _MOST_POINTS = 2000
 # Least number of points on either side of a plane.
@@ -56,8 +57,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         Unit normal n and offset d of each plane, n · x + d = 0. Planes whose hulls add
         least volume come first.
     """
-    sketch = _sketch_of(cell)
-    planes, added, gains = [], [], []
+    sketch, planes, added, gains = _sketch_of(cell), [], [], []
     directions, is_block = directions_of(cell)
     for turn, direction in enumerate(directions):
         yield Progress("Cutting", turn / len(directions))
@@ -71,26 +71,23 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         yield Progress("Cutting", turn / len(directions))
         step = (high - low) / (_PLANES + 1)
         levels = _levels(cell.points @ direction)
-        near = levels[np.abs(levels - best) < step][:_MOST_LEVELS]
+        near = levels[np.abs(levels.mean(axis=1) - best) < step][:_MOST_LEVELS]
         flat = _flat_levels(levels if is_block else near, heights)
-        tried = np.union1d(near, flat)
-        steps = [best + _BETWEEN * step, tried - _SKIM, tried + _SKIM]
-        others = np.sort(np.concatenate(steps))
+        beside = np.concatenate([near, flat]) + _BESIDE
+        others = np.union1d(best + _BETWEEN * step, beside)
         offsets = np.concatenate([offsets, others])
         planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
         second = ordered.added_volumes(heights, chords, others)
-        volumes = np.concatenate([first, second])
-        flush = np.isin(offsets, np.concatenate([flat - _SKIM, flat + _SKIM]))
-        volumes[flush] -= _BONUS * cell.solid.volume
-        added.append(volumes)
+        flush = np.isin(others, flat + _BESIDE)
+        added += [first, second - _BONUS * cell.solid.volume * flush]
         # By how much planes shorten the longer side, as a square: ties end so.
         gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
         gains = [np.zeros(len(each)) for each in gains]
-    ranks = np.concatenate(added)
+    volumes = np.concatenate(added)
     shortened = np.round(np.concatenate(gains), _DIGITS)
-    order = np.lexsort((-shortened, np.round(ranks, _DIGITS)))
-    return np.concatenate(planes)[order[np.isfinite(ranks)[order]]]
+    order = np.lexsort((-shortened, np.round(volumes, _DIGITS)))
+    return np.concatenate(planes)[order[np.isfinite(volumes)[order]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,9 +173,17 @@ def _sketch_of(cell: Cell) -> _Sketch:
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the heights that several points share, such as those of flat faces."""
-    levels, counts = np.unique(np.round(heights, _LEVEL_DIGITS), return_counts=True)
-    return levels[counts >= _POINTS_IN_LEVEL]
+    """Return the levels of points, such as those of flat faces: lowest, highest, (L, 2).
+
+    The points of a level agree up to rounding: a turned face is not quite even.
+    """
+    ascending = np.sort(heights)
+    _, starts, counts = np.unique(
+        np.round(ascending, _LEVEL_DIGITS), return_index=True, return_counts=True
+    )
+    several = counts >= _POINTS_IN_LEVEL
+    ends = (starts + counts)[several] - 1
+    return np.stack([ascending[starts[several]], ascending[ends]], axis=1)
 
 
 def _flat_levels(
@@ -188,7 +193,7 @@ def _flat_levels(
 
     `heights` are those of points spread over the surface, ascending.
     """
-    ends = np.searchsorted(heights, [levels - 2 * _SKIM, levels + 2 * _SKIM])
-    counts = np.diff(ends, axis=0)[0]
+    ends = np.searchsorted(heights, levels + _BESIDE)
+    counts = np.diff(ends, axis=1)[:, 0]
     largest = np.argsort(-counts, kind="stable")[:_MOST_LEVELS]
     return levels[largest[counts[largest] >= _FLAT_FACE * len(heights)]]

@@ -88,7 +88,8 @@ class ErrorBound:
         """
         known_allowed = self.__dict__.get("is_allowed", False)
         limit = self._largest if known_allowed else np.inf
-        return self._bound(self._largest * _TOLD_APART, limit, _TOLERANCE)
+        bound = self._bound(self._largest * _TOLD_APART, limit, _TOLERANCE)
+        return min(bound, limit)  # it is looser where the search ends for its time
 
     @property
     def place(self) -> NDArray[np.float64]:

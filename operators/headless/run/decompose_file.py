@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bpy
 
+from ..current_file import has_shape
 from ..formats import USUAL_UP
 from ..read.load import LoadedFile, load_file
 from ..request.options import Request
@@ -21,7 +22,6 @@ from ..write.render_engine import EngineTrial
 from .attempts import Attempts
 from .build_hulls import build_hulls
 from .decompose_objects import decompose_objects
-from .list_objects import list_objects
 from .results import InputResult, ObjectResult
 from .stages import Stages
 
@@ -90,10 +90,23 @@ def _parts_of(
         screen.warning(f"{path.name}: {loaded.hull_note}")
     hulls_alone = not targets.show_parts
     if hulls_alone and request.hull_parameters.pieces != "PARTS":
-        return list_objects(loaded)
+        return _without_parts(loaded)
     return decompose_objects(
         path.name, loaded, request.parameters, screen, kept=hulls_alone
     )
+
+
+def _without_parts(loaded: LoadedFile) -> tuple[ObjectResult, ...]:
+    """Return a result for each object, without parts; say which have no faces."""
+    results = []
+    for obj in loaded.objects:
+        notes = loaded.notes_of(obj)
+        if has_shape(obj):
+            results.append(ObjectResult(obj.name_full, record={}, notes=notes))
+        else:
+            notes = (*notes, "It has no faces and gets no hulls.")
+            results.append(ObjectResult(obj.name_full, notes=notes))
+    return tuple(results)
 
 
 def _write_hulls(

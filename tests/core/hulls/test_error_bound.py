@@ -115,6 +115,15 @@ def test_lengths_in_the_scene_are_the_same_errors(seed):
         relative.errors_in("scene")
 
 
+def test_lengths_that_are_too_small_for_a_shape_are_refused():
+    mesh = shapes.box((0, 0, 0), (200, 1, 1))
+    small = HullParameters(max_error=0.09, error_unit="SCENE")
+    with pytest.raises(DecompositionError, match=r"choose at least 0\.1, a thousandth"):
+        build_hulls(mesh, small)
+    enough = HullParameters(max_error=0.1, error_unit="SCENE")
+    assert build_hulls(mesh, enough).n_hulls == 1
+
+
 def test_relative_errors_above_1_make_no_sense():
     with pytest.raises(DecompositionError, match="Error Unit = Scene"):
         HullParameters(max_error=2.0)
