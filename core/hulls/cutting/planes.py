@@ -173,7 +173,7 @@ def _sketch_of(cell: Cell) -> _Sketch:
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the levels of points, such as those of flat faces: lowest, highest, (L, 2).
+    """Return the lowest and highest height of levels, such as flat faces, (L, 2).
 
     The points of a level agree up to rounding: a turned face is not quite even.
     """
