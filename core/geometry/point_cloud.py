@@ -108,6 +108,10 @@ class PointCloud:
         DecompositionError
             If there are too few points without the copies.
         """
+        x, y, z = self.points.T
+        mixed = np.sort(x + np.sqrt(2) * y + np.pi * z)
+        if (mixed[1:] != mixed[:-1]).all():  # far quicker than to compare points
+            return self, np.arange(len(self))
         normals = () if self.normals is None else (self.normals,)
         _, first, copies = np.unique(
             np.hstack([self.points, *normals]),
