@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import principal_axes
+from ...geometry.frames import cross, principal_axes, unit
 from .cell import Cell
 
 # Two directions count as the same above this cosine between them.
@@ -51,7 +51,8 @@ def _flat_normals(cell: Cell) -> tuple[NDArray[np.float64], float]:
 
     The first has most of the surface. Parallel faces count together.
     """
-    normals = cell.solid.mesh.normals[cell.triangles[cell.on_surface]]
+    a, b, c = cell.solid.corners[cell.triangles[cell.on_surface]].swapaxes(0, 1)
+    normals = unit(cross(b - a, c - a))  # those of all triangles may take long
     largest = np.abs(normals).argmax(axis=1)
     normals = normals * np.sign(np.take_along_axis(normals, largest[:, None], axis=1))
     _, first, counts = np.unique(
