@@ -12,7 +12,9 @@ from weak_convex_decomposition.operators.running import modal
 def window(monkeypatch):
     window = Window()
     context = SimpleNamespace(
-        window_manager=window, temp_override=lambda workspace: nullcontext()
+        window=None,
+        window_manager=window,
+        temp_override=lambda workspace: nullcontext(),
     )
     data = SimpleNamespace(workspaces={"Layout": window})
     monkeypatch.setattr(modal, "bpy", SimpleNamespace(context=context, data=data))
