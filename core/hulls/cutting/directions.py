@@ -11,8 +11,8 @@ from .cell import Cell
 # Two directions count as the same above this cosine between them.
 _SAME = 0.995
 # A block has at least this share of its surface in large flat faces, in this many
-# directions at least: the others of a plate may be round.
-_BLOCK, _SIDES = 0.5, 3
+# directions at least. With half of it, pieces of coarse meshes would count as blocks.
+_BLOCK, _SIDES = 0.9, 3
 # Large faces, with those parallel to them, have at least this share of the surface.
 _LARGE_FACE = 0.05
 # Decimal digits to which the normals of parallel faces agree.
