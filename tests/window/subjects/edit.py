@@ -44,11 +44,13 @@ def edited(hands, button, expected, columns):
 
 def shown_for_a_moment(hands):
     """Look at the viewport right after a click on a row, and after that moment."""
-    seen = []
+    seen, system = [], bpy.context.preferences.system
+    smooth, system.viewport_aa = system.viewport_aa, "OFF"  # drawn once is enough
     yield 0.5
     for name in ("row-clicked", "row-later", "row-last"):
         seen.append(hands.pixels(name)[100:900, 100:1200])
         yield _LOOK
+    system.viewport_aa = smooth
     outlined, still = (
         int((np.abs(seen[n] - seen[n + 1]).max(axis=2) > 0.2).sum()) for n in (0, 1)
     )
