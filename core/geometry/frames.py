@@ -96,6 +96,34 @@ def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float
     return product
 
 
+def distinct_directions(
+    normals: NDArray[np.float64], digits: int
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return the directions of normals, and how many normals have each.
+
+    Parameters
+    ----------
+    normals : (N, 3) float
+        Unit vectors. Equal and opposite ones have one direction.
+    digits : int
+        Decimal digits to which equal normals agree.
+
+    Returns
+    -------
+    directions : (D, 3) float
+        In the order of the first normal of each. Largest coordinates are positive.
+    counts : (D,) int
+    """
+    rounded = np.round(normals, digits)  # first, so that rounding decides no signs
+    largest = np.abs(rounded).argmax(axis=1)[:, None]
+    signs = np.sign(np.take_along_axis(rounded, largest, axis=1))
+    _, rows, counts = np.unique(
+        signs * rounded, axis=0, return_index=True, return_counts=True
+    )
+    order = np.argsort(rows)
+    return (signs * normals)[rows[order]], counts[order]
+
+
 def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the principal axes of points, the one of least variance first.
 
@@ -214,25 +242,3 @@ def fan_directions(
         -normals[:, None] * np.cos(angles)[:, None]
         + sideways[:, None] * np.sin(angles)[:, None]
     )
-
-
-def tripod_directions(normals: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Return three directions around each normal, 30° off it and well apart.
-
-    Parameters
-    ----------
-    normals : (N, 3) float
-        Unit vectors.
-
-    Returns
-    -------
-    list of three (N, 3) float
-        Unit vectors.
-    """
-    axes = frames(normals)
-    turns = 2 * np.pi * np.arange(3) / 3
-    return [
-        normals * np.sqrt(0.75)
-        + 0.5 * (axes[0] * np.cos(turn) + axes[1] * np.sin(turn))
-        for turn in turns
-    ]

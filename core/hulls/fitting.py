@@ -122,7 +122,6 @@ def fit_for(
         If the largest error is too small for the mesh.
     """
     size = float(np.ptp(mesh.bounds, axis=0).max()) / 2
-    parameters.check_largest_error(size * scene_unit)
     factor = parameters.unit_of_errors(size * scene_unit)
     every = tuple((kinds or {}).get(part, parameters.shape) for part in parts)
     return Fit(parameters, size, parameters.max_error / factor, every), factor

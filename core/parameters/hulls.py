@@ -172,22 +172,6 @@ class HullParameters:
             )
         hull_names(self.naming, self.template, "name", ("HULL", "HULL"))
 
-    def check_largest_error(self, half_side: float) -> None:
-        """Raise an error if Largest Error is a length that is too small for a shape.
-
-        Parameters
-        ----------
-        half_side : float
-            Half of the longest side of the shape, in units of the scene.
-        """
-        least = _RELATIVE[0] * half_side
-        in_scene = self.error_unit == "SCENE" and self.pieces != "PARTS"
-        if in_scene and not is_within(self.max_error, least, math.inf):
-            raise DecompositionError(
-                f"Largest Error = {self.max_error:g} is too small for this shape;"
-                f" choose at least {least:.4g}, a thousandth of half its longest side."
-            )
-
     def unit_of_errors(self, half_side: float) -> float:
         """Return how much an error of 1 is in the chosen unit, where 1 is relative.
 
@@ -200,5 +184,18 @@ class HullParameters:
         -------
         float
             `half_side` for lengths in the scene, 1 for relative errors.
+
+        Raises
+        ------
+        DecompositionError
+            If Largest Error counts, and is a length that is too small for the shape.
         """
-        return half_side if self.error_unit == "SCENE" else 1.0
+        if self.error_unit == "RELATIVE":
+            return 1.0
+        least = _RELATIVE[0] * half_side
+        if self.pieces != "PARTS" and not is_within(self.max_error, least, math.inf):
+            raise DecompositionError(
+                f"Largest Error = {self.max_error:g} is too small for this shape;"
+                f" choose at least {least:.4g}, a thousandth of half its longest side."
+            )
+        return half_side

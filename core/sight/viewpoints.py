@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.frames import tripod_directions
+from ..geometry.frames import frames
 from ..geometry.sampling import Samples
 from .ray_march import PASS, RayMarcher
 
@@ -53,7 +53,7 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
     Viewpoints
         One for each sample.
     """
-    outwards = tripod_directions(samples.normals)
+    outwards = _tripod_directions(samples.normals)
     nudge = PASS * marcher.diagonal
     inwards = -samples.normals
     own = marcher.closed[samples.triangles].astype(np.int64)
@@ -73,3 +73,14 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
         np.maximum(marcher.shells_around(positions, outwards), own),
         marcher.shells_around(outside, outwards) > 0,
     )
+
+
+def _tripod_directions(normals: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Return three directions around each normal (N, 3), 30° off it and well apart."""
+    axes = frames(normals)
+    turns = 2 * np.pi * np.arange(3) / 3
+    return [
+        normals * np.sqrt(0.75)
+        + 0.5 * (axes[0] * np.cos(turn) + axes[1] * np.sin(turn))
+        for turn in turns
+    ]

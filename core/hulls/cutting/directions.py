@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import cross, principal_axes, unit
+from ...geometry.frames import cross, distinct_directions, principal_axes, unit
 from .cell import Cell
 
 # Two directions count as the same above this cosine between them.
@@ -53,11 +53,7 @@ def _flat_normals(cell: Cell) -> tuple[NDArray[np.float64], float]:
     """
     a, b, c = cell.solid.corners[cell.triangles[cell.on_surface]].swapaxes(0, 1)
     normals = unit(cross(b - a, c - a))  # those of all triangles may take long
-    largest = np.abs(normals).argmax(axis=1)
-    normals = normals * np.sign(np.take_along_axis(normals, largest[:, None], axis=1))
-    _, first, counts = np.unique(
-        np.round(normals, _NORMAL_DIGITS), axis=0, return_index=True, return_counts=True
-    )
+    found, counts = distinct_directions(normals, _NORMAL_DIGITS)
     large = counts >= _LARGE_FACE * len(normals)
-    flat = normals[first[large][np.argsort(-counts[large], kind="stable")]]
+    flat = found[large][np.argsort(-counts[large], kind="stable")]
     return flat, float(counts[large].sum() / max(len(normals), 1))

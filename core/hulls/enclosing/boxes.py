@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-from ...geometry.frames import frame_of, frames, principal_axes
+from ...geometry.frames import distinct_directions, frame_of, frames, principal_axes
 from ...geometry.primitives import CollisionShape, Hull
 
 # Number of faces that a box may be flush with while cuts are compared.
@@ -14,6 +14,8 @@ _FEW_FACES = 4
 # Decimal digits to which volumes and areas are compared; the longest side is 2.
 DIGITS = 9
 _EQUAL = 10**-DIGITS
+# The same for the normals of parallel faces.
+_NORMAL_DIGITS = 4
 # Number of angles at which rectangles are looked at, to bound their areas, and of
 # coordinates that are held at once for that.
 _TURNS = 96
@@ -34,7 +36,7 @@ def box_around(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    return _smallest_box(hull, _distinct(hull.planes[:, :3]))
+    return _smallest_box(hull, distinct_directions(hull.planes[:, :3], _NORMAL_DIGITS)[0])
 
 
 def rough_box(hull: Hull) -> CollisionShape:
@@ -81,17 +83,8 @@ def _few_normals(hull: Hull) -> NDArray[np.float64]:
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     largest = np.argsort(-np.round(areas, DIGITS), kind="stable")[:_FEW_FACES]
     axes = principal_axes(hull.vertices)
-    return _distinct(np.concatenate([hull.planes[largest, :3], axes]))
-
-
-def _distinct(normals: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return normals, (N, 3), the first only of those that are equal or opposite."""
-    rounded = np.round(normals, 4)
-    rounded *= np.sign(
-        rounded[np.arange(len(rounded)), np.abs(rounded).argmax(axis=1)]
-    )[:, None]
-    _, rows = np.unique(rounded, axis=0, return_index=True)
-    return normals[np.sort(rows)]
+    normals = np.concatenate([hull.planes[largest, :3], axes])
+    return distinct_directions(normals, _NORMAL_DIGITS)[0]
 
 
 def _least_areas(
