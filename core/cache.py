@@ -154,7 +154,7 @@ class ShapeCache:
         if latest and self._seen is not None and self._seen[0] == key:
             return self._seen[1]
         if not latest and parameters.samples <= _FEW_SAMPLES and self._has(shape):
-            part = blake2b(shape.targets.polygons.data).digest()
+            part = _digest_of_part(shape)
             seen = self._details.recall_steps(
                 (part, key), lambda: _seen(shape, parameters)
             )
@@ -193,6 +193,16 @@ class ShapeCache:
 def _seen(shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:
     """Return the visibility of a shape."""
     return PartMemo((yield from see_in_steps(shape, parameters)))
+
+
+def _digest_of_part(part: PreparedShape) -> bytes:
+    """Return a digest of which faces or points of the whole shape a part has.
+
+    Points of a cloud that are close share a splat, so splats alone do not tell.
+    """
+    found = blake2b(part.targets.polygons.data)
+    found.update(part.nodes.data)
+    return found.digest()
 
 
 def _sight_key(parameters: Parameters) -> Hashable:

@@ -69,7 +69,7 @@ def measure_in_steps(
     check_members("faces", faces, shape)
     prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
     if faces is not None:
-        prepared = _members(prepared, faces)
+        prepared = yield from within(_members(prepared, faces), 0.1, 0.1)
     tested = _without_blocks(parameters, faces is not None)
     steps = find_lines_of_sight(prepared, tested)
     sight = yield from within(steps, 0.1, 1.0)
@@ -88,9 +88,10 @@ def _without_blocks(parameters: Parameters, of_faces: bool) -> Parameters:
     return parameters
 
 
-def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> PreparedShape:
+def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> Steps[PreparedShape]:
     """Return the chosen faces as a shape; raise if no sample can lie on them."""
-    area = shape.graph.areas[shape.nodes[faces]].sum()
+    graph = yield from shape.graph_in_steps()
+    area = graph.areas[shape.nodes[faces]].sum()
     members = shape.part(faces)
     if area <= LEAST_AREA or len(members.sampled) == 0:
         raise DecompositionError(

@@ -182,7 +182,7 @@ def _outline(
         Polygon on the left, one of them where there are several.
     """
     sides = [0, 1, 1, 2, 2, 0]
-    welded = faces.welded_triangles[lying][:, sides].reshape(-1, 2)
+    welded = faces.welded_triangles[lying][:, sides].reshape(-1, 2).astype(np.int64)
     edges = faces.triangles[lying][:, sides].reshape(-1, 2)
     forward = welded[:, 0] < welded[:, 1]
     keys = welded.min(axis=1) * (welded.max() + 1) + welded.max(axis=1)

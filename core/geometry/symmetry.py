@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..steps.progress import Progress, Steps
 from .face_graph import FaceGraph
+from .frames import with_normals
 
 # Polygons, drawn evenly by area, that mirror images are matched to.
 _POLYGONS = 30_000
@@ -137,7 +138,9 @@ def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, fl
     sources, images = np.flatnonzero(heights >= 0), np.flatnonzero(heights < 0)
     if len(sources) == 0 or len(images) == 0:
         return Side(images[:0], sources[:0]), 0.0
-    tree = cKDTree(places(graph.centers[sources], graph.normals[sources]))
+    tree = cKDTree(
+        with_normals(graph.centers[sources], graph.normals[sources], _NORMAL_WEIGHT)
+    )
     nearest = []
     for start in range(0, len(images), _BLOCK):
         yield Progress("Symmetry", 0.0)
@@ -159,7 +162,9 @@ def find_plane(graph: FaceGraph) -> Steps[Plane | None]:
         for n in (_POLYGONS, _ASKED)
     )
     rows = np.unique(everywhere)
-    tree = cKDTree(places(graph.centers[rows], graph.normals[rows]))
+    tree = cKDTree(
+        with_normals(graph.centers[rows], graph.normals[rows], _NORMAL_WEIGHT)
+    )
     best, most = None, _ENOUGH
     center = graph.centers[everywhere].mean(axis=0)
     starts, normals = graph.centers[asked], graph.normals[asked]
@@ -228,23 +233,12 @@ def nearest_images(
     Parameters
     ----------
     tree : scipy.spatial.cKDTree
-        Built from the coordinates that `places` returns.
+        Built from what `with_normals` returns.
     points, normals : (N, 3) float
     plane : Plane
     """
     upright = Plane(plane.normal, 0.0)
-    images = places(plane.mirrored(points), upright.mirrored(normals))
+    turned = upright.mirrored(normals)
+    images = with_normals(plane.mirrored(points), turned, _NORMAL_WEIGHT)
     rows: NDArray[np.int64] = tree.query(images)[1]
     return rows
-
-
-def places(
-    points: NDArray[np.float64], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return coordinates whose distances combine positions and normals, (N, 6) float.
-
-    Parameters
-    ----------
-    points, normals : (N, 3) float
-    """
-    return np.hstack([points, _NORMAL_WEIGHT * normals])

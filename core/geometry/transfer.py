@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from ..steps.progress import Progress, Steps, within
 from .face_graph import FaceGraph
+from .frames import with_normals
 from .sampling import Samples
 
 # Nearest samples that vote for the label of a polygon.
@@ -40,7 +41,7 @@ class NearestSamples:
     def __init__(self, samples: Samples, spacing: float) -> None:
         self._spacing, self._n_nearest = spacing, min(_NEAREST, len(samples))
         self._weight = _NORMAL_WEIGHT * spacing
-        at = np.hstack([samples.positions, self._weight * samples.normals])
+        at = with_normals(samples.positions, samples.normals, self._weight)
         self._tree = cKDTree(at)
         self._forget()
 
@@ -75,7 +76,8 @@ class NearestSamples:
         for start in range(0, len(new), _BLOCK):
             yield Progress("Surface", start / len(new))
             block = places[new[start : start + _BLOCK]]
-            at = np.hstack([graph.centers[block], self._weight * graph.normals[block]])
+            sides = graph.centers[block], graph.normals[block]
+            at = with_normals(*sides, self._weight)
             distances, rows = self._tree.query(at, range(1, self._n_nearest + 1))
             away.append(distances / self._spacing)
             nearest.append(rows.astype(np.int32))

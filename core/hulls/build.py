@@ -108,7 +108,7 @@ def _build(
         errors,
         numbers[found.rows],
         found.volume_ratio,
-        (*prepared.notes, *notes_on(found.hulls, errors, fit)),
+        (*prepared.notes, *notes_on(found.shapes, found.hulls, errors, fit)),
         parameters.error_unit,
         fit.unit * scene_unit,
     )
@@ -169,7 +169,9 @@ def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | 
     its error is what it leaves uncovered.
     """
     assert prepared.solid is not None  # None for point clouds only
-    hull = convex_hull(prepared.solid.vertices * scale, THIN)
+    mesh = prepared.solid
+    used = np.unique(mesh.triangles)  # other vertices are in no face
+    hull = convex_hull(mesh.vertices[used] * scale, THIN)
     shape = fit.of_part(0).shape(hull)
     error = uncovered(shape, hull)
     within = shape.kind == "HULL" and fit.margin <= 0
@@ -190,7 +192,8 @@ def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_F
         has_own = fit.parameters.pieces == "PARTS" or piece.fit == fit
         final = piece if has_own else replace(piece, fit=fit)
         errors.append(final.stated_error)
-        rows.append(solid.main_part(parts, piece.hull))
+        is_part = piece.part >= 0
+        rows.append(piece.part if is_part else solid.main_part(parts, piece.hull))
         shapes.append(final.shape)
     order = sorted(range(len(pieces)), key=lambda k: -round(shapes[k].volume, 6))
     return _Found(
@@ -206,9 +209,10 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
     """Return the pieces that get a shape each."""
     most = fit.parameters.max_hulls
     if fit.parameters.pieces == "PARTS":
-        start = [
-            piece_of_part(solid, fit.of_part(k), parts == k) for k in np.unique(parts)
-        ]
+        start = []
+        for row in np.unique(parts).tolist():
+            yield Progress("Hulls", 0.0)
+            start.append(piece_of_part(solid, fit.of_part(row), parts, row))
         return (yield from join_pieces(start, most, {}, close=False))
     if not fit.has_room:  # cuts cannot make up for the margin
         fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))

@@ -6,11 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-from ..geometry.frames import heights_above, principal_axes
+from ..geometry.frames import HEIGHTS_AT_ONCE, heights_above, principal_axes
 from ..geometry.primitives import Hull
+from ..steps.rows import blocks
 
 # Thickness of the hulls of flat pieces; the longest side of the shape is 2.
 THIN = 2e-3
+# Simplified hulls may leave out vertices that are less than this far outside.
+LEFT_OUT = THIN / 10
+# Less than this share of it is rounding: vertices are in single precision.
+_ROUNDING = 2e-3
 # Least number of vertices added to a simplified hull in each round.
 _VERTICES_A_ROUND = 6
 
@@ -31,9 +36,12 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
         Triangles face outwards.
     """
     try:
-        return _hull(points)
+        hull = _hull(points)
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
-        return _hull(_thickened(points, thin))
+        hull = None
+    if hull is None or _is_flat(hull, _ROUNDING * thin):
+        hull = _hull(_thickened(points, thin))
+    return hull
 
 
 def hull_volume(points: NDArray[np.float64]) -> float:
@@ -77,11 +85,10 @@ def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
     chosen = _tetrahedron(hull.vertices)
     coarse = _hull(hull.vertices[chosen])
     while True:
-        heights = heights_above(coarse.planes, hull.vertices)
-        facets = np.argsort(-heights.max(axis=0), kind="stable")
-        facets = facets[heights.max(axis=0)[facets] > tolerance]
+        highest, heights = _farthest_out(coarse.planes, hull.vertices)
+        facets = np.argsort(-heights, kind="stable")
         # Several facets may have the same vertex farthest out of them.
-        new = list(dict.fromkeys(heights.argmax(axis=0)[facets].tolist()))
+        new = list(dict.fromkeys(highest[facets[heights[facets] > tolerance]].tolist()))
         fresh = max(_VERTICES_A_ROUND, len(chosen) // 3)
         room = min(fresh, max_vertices - len(chosen))
         if room == 0 or not new:
@@ -147,6 +154,14 @@ def _hull(points: NDArray[np.float64]) -> Hull:
     )
 
 
+def _is_flat(hull: Hull, thickness: float) -> bool:
+    """Return whether a hull has less than a thickness along a principal axis."""
+    low, high = hull.bounds
+    if hull.volume > thickness * float(np.sum(high - low)) ** 2:  # the usual case
+        return False
+    return float(np.ptp(hull.vertices @ principal_axes(hull.vertices)[0])) < thickness
+
+
 def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
     """Return points made at least `thin` thick along each of their principal axes."""
     center = points.mean(axis=0)
@@ -156,6 +171,17 @@ def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
             flat = points - heights[:, None] * axis
             points = np.concatenate([flat + thin / 2 * axis, flat - thin / 2 * axis])
     return points
+
+
+def _farthest_out(
+    planes: NDArray[np.float64], points: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return the row of the point highest above each plane, (P,), and its height."""
+    rows, heights = np.empty(len(planes), dtype=np.int64), np.empty(len(planes))
+    for some in blocks(len(planes), HEIGHTS_AT_ONCE // len(points)):
+        above = heights_above(planes[some], points)
+        rows[some], heights[some] = above.argmax(axis=0), above.max(axis=0)
+    return rows, heights
 
 
 def _tetrahedron(points: NDArray[np.float64]) -> list[int]:

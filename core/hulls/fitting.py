@@ -10,7 +10,7 @@ import numpy as np
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..parameters.hulls import HullParameters
-from .convex_hull import THIN, offset, simplified
+from .convex_hull import LEFT_OUT, THIN, offset, simplified
 from .enclosing.shapes import around, roughly_around
 
 
@@ -71,7 +71,7 @@ class Fit:
         """
         kind, most = self.parameters.shape, self.parameters.max_vertices
         if kind == "HULL":
-            return _as_shape(simplified(offset(hull, self.margin), most, THIN / 10))
+            return _as_shape(simplified(offset(hull, self.margin), most, LEFT_OUT))
         return _grown(around(hull, kind), self.margin)
 
     def rough_shape(self, hull: Hull) -> CollisionShape:
@@ -90,10 +90,10 @@ class Fit:
             return _as_shape(offset(hull, self.margin))
         return _grown(roughly_around(hull, kind), self.margin)
 
-    def is_sharp(self, hull: Hull) -> bool:
+    def is_sharp(self, rough: CollisionShape) -> bool:
         """Return whether `rough_shape` is `shape`, but for what simplifying removes."""
-        kind, most = self.parameters.shape, self.parameters.max_vertices
-        return kind == "HULL" and len(hull.vertices) <= most
+        most = self.parameters.max_vertices
+        return rough.kind == "HULL" and len(rough.hull.vertices) <= most
 
 
 def fit_for(

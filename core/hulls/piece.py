@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import single
@@ -40,6 +39,8 @@ class Piece:
         Which shape it gets.
     witnesses : (W, 3) float
         Points far outside of the solid, which shapes of larger pieces held.
+    part : int
+        Row of the part that it is, or most of it; −1 for what cuts made.
     """
 
     points: NDArray[np.float64]
@@ -49,6 +50,7 @@ class Piece:
     solid: Solid
     fit: Fit
     witnesses: NDArray[np.float64]
+    part: int
 
     @property
     def on_surface(self) -> NDArray[np.bool_]:
@@ -107,7 +109,7 @@ class Piece:
     @cached_property
     def _is_deep(self) -> bool:
         """Whether samples of the surface are surely deeper than what is allowed."""
-        if not self.fit.is_sharp(self.hull):
+        if not self.fit.is_sharp(self.rough_shape):
             return False
         depth = estimated_depth(self.rough_shape, self.boundary[self.on_surface])
         return depth > self.fit.max_error + THIN
@@ -139,30 +141,33 @@ class Piece:
         return self._bound.value
 
 
-def piece_of_part(solid: Solid, fit: Fit, chosen: NDArray[np.bool_]) -> Piece:
+def piece_of_part(solid: Solid, fit: Fit, parts: NDArray[np.int64], row: int) -> Piece:
     """Return a part of the surface as a piece, with the inside that is nearest to it.
 
     Parameters
     ----------
     solid : Solid
     fit : Fit
-    chosen : (T,) bool
-        Which triangles belong to the part.
+    parts : (T,) int
+        Row of the part of each triangle.
+    row : int
+        That of the piece.
 
     Returns
     -------
     Piece
     """
+    chosen = parts == row
     samples = chosen[solid.triangles]
-    nearest = cKDTree(solid.samples).query(solid.chords)[1]
     return Piece(
         solid.corners[chosen].reshape(-1, 3),
         solid.samples[samples],
         solid.triangles[samples],
-        float(solid.volumes[samples[nearest]].sum()) if len(solid.chords) else 0.0,
+        float(solid.volumes[samples[solid.samples_of_chords]].sum()),
         solid,
         fit,
         np.zeros((0, 3)),
+        row,
     )
 
 
@@ -183,4 +188,5 @@ def join(one: Piece, other: Piece) -> Piece:
         one.solid,
         one.fit,
         np.concatenate([one.all_witnesses, other.all_witnesses]),
+        max(one, other, key=lambda piece: round(piece.hull.volume, 6)).part,
     )

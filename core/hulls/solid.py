@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
@@ -41,7 +42,7 @@ class Solid:
     triangles : (N,) int
         Triangle that each sample lies on.
     chords : (C, 3) float
-        Centers of short chords along each axis.
+        A point of each of short chords along each axis.
     volumes : (C,) float
         Volume around each chord.
     spacing : float
@@ -92,13 +93,19 @@ class Solid:
 
     @cached_property
     def _some_chords(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Centers of chords chosen by chance, and volumes around them."""
+        """Points of chords chosen by chance, and volumes around them."""
         if len(self.chords) <= _SOME_CHORDS:
             return self.chords, self.volumes
         rng = np.random.default_rng(0)
         rows = rng.choice(len(self.chords), _SOME_CHORDS, replace=False)
         volumes = self.volumes[rows]
         return self.chords[rows], volumes * (self.volume / volumes.sum())
+
+    @cached_property
+    def samples_of_chords(self) -> NDArray[np.int64]:
+        """Row of the sample that is nearest to each chord, (C,)."""
+        rows: NDArray[np.int64] = cKDTree(self.samples).query(self.chords)[1]
+        return rows
 
     def volume_in(self, shape: CollisionShape) -> float:
         """Return about how much of a collision shape is inside.
@@ -157,14 +164,14 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     mesh = replace(mesh, vertices=mesh.vertices * scale)
     samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]
-    centers, shares = [], []
+    places, shares = [], []
     for axis in range(3):
         yield Progress("Solid", axis / 3)
         along, share = chords_along(corners, axis)
-        centers.append(along)
+        places.append(along)
         shares.append(share)
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
-    chords, volumes = np.concatenate(centers), np.concatenate(shares) / 3
+    chords, volumes = np.concatenate(places), np.concatenate(shares) / 3
     if volumes.sum() < _NO_VOLUME:
         chords, volumes = chords[:0], volumes[:0]
     return Solid(

@@ -120,28 +120,6 @@ BENDS = (
     ),
 )
 
-# Meshes of an object of Blender that can be read.
-MESHES = (
-    Choice("ORIGINAL", "Original", "The mesh itself, as in Edit Mode"),
-    Choice(
-        "EVALUATED",
-        "Evaluated",
-        "The mesh as it is seen: with modifiers, shape keys and poses. Parts go to the"
-        " faces that it comes from; if there are none, to a new object",
-    ),
-)
-
-# How hulls are seen in Blender's viewport.
-LOOKS = (
-    Choice(
-        "TRANSPARENT",
-        "Transparent",
-        "Solids that are seen through, in the colors of the parts",
-    ),
-    Choice("SOLID", "Solid", "Solids in the colors of the parts"),
-    Choice("WIRE", "Wire", "Edges only"),
-)
-
 # Pictures that `pictures.draw_picture` draws.
 PICTURES = (
     Choice(

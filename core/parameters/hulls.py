@@ -18,7 +18,7 @@ SHAPES = (
 )
 
 # Bounds of a relative error.
-_RELATIVE = 0.001, 1.0
+RELATIVE_ERRORS = 0.001, 1.0
 
 
 @dataclass(frozen=True)
@@ -164,7 +164,7 @@ class HullParameters:
     def __post_init__(self) -> None:
         """Check every field, and that the template gives each hull another name."""
         settle(self)
-        low, high = _RELATIVE
+        low, high = RELATIVE_ERRORS
         if self.error_unit == "RELATIVE" and not is_within(self.max_error, low, high):
             raise DecompositionError(
                 f"Largest Error is {self.max_error:g}; choose a value from {low:g} to"
@@ -192,7 +192,7 @@ class HullParameters:
         """
         if self.error_unit == "RELATIVE":
             return 1.0
-        least = _RELATIVE[0] * half_side
+        least = RELATIVE_ERRORS[0] * half_side
         if self.pieces != "PARTS" and not is_within(self.max_error, least, math.inf):
             raise DecompositionError(
                 f"Largest Error = {self.max_error:g} is too small for this shape;"

@@ -8,9 +8,6 @@ from ..parameters.parts import Parameters
 from ..results.parts import Decomposition
 from ..sight.prepared import PreparedShape
 
-# The search never tries fewer. With more, the user wants to hear of what it tried.
-_USUAL_FEWEST = 2
-
 
 def stays_whole(shape: PreparedShape, parameters: Parameters) -> bool:
     """Return whether a shape is one part, as is known without lines of sight.
@@ -29,7 +26,9 @@ def stays_whole(shape: PreparedShape, parameters: Parameters) -> bool:
     bool
     """
     searches = parameters.parts > 1 or parameters.levels > 1
-    return shape.convex and not searches and parameters.min_parts == _USUAL_FEWEST
+    # With more than the usual fewest, the user wants to hear of what was tried.
+    searches |= parameters.min_parts > Parameters.min_parts
+    return shape.convex and not searches
 
 
 def as_one_part(shape: PreparedShape) -> Decomposition:

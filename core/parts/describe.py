@@ -159,7 +159,7 @@ def _notes_on_count(parameters: Parameters, most: int) -> tuple[str, ...]:
     """Return a note if the shape cannot be split into the number of parts asked for."""
     wanted = parameters.parts or parameters.min_parts
     # By default the search may well end with one part: that deserves no note.
-    alone = not parameters.parts and wanted == 2
+    alone = not parameters.parts and wanted == Parameters.min_parts
     if most >= wanted or alone:
         return ()
     return (

@@ -9,7 +9,7 @@ from ..steps.memo import Memo
 from ..steps.progress import Steps, within
 from .part_count import PartCountSearch, Search
 from .part_count_given import least_psi, own_parts
-from .part_memo import Candidate
+from .part_memo import Candidate, SeamsKey
 from .part_psi import count_parts
 from .seams.cutter import SeamCutter, Seams
 
@@ -32,7 +32,7 @@ def likely_number(search: PartCountSearch, tried: dict[int, Candidate]) -> int:
 
 
 def guess(
-    search: PartCountSearch, n_parts: int, memo: Memo[tuple[float, bytes], Seams]
+    search: PartCountSearch, n_parts: int, memo: Memo[SeamsKey, Seams]
 ) -> Steps[Search]:
     """Return about the parts that the search gives for a number of parts.
 
@@ -42,7 +42,8 @@ def guess(
         Nothing is searched for. Numbers it has tried are known.
     n_parts : int
     memo : Memo
-        Maps a smoothness and the digest of parts to the parts with their seams cut.
+        Maps a smoothness, a least psi and the digest of parts to the parts with their
+        seams cut.
 
     Returns
     -------

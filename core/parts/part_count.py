@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import NamedTuple
 
+from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
 from .part_memo import Candidate, CutMemo
@@ -18,9 +19,6 @@ _GAIN_TOLERANCE = 0.025
 # Symmetric parts may lack this share. So may parts that were found from lines of sight
 # alone: they fit the chance in the very pairs that psi is counted from.
 _WIDE_TOLERANCE = 0.035
-# A larger alpha scales all gains alike, so that alone it would hardly change k. Above
-# this alpha, which is the default, tolerances fall as alpha grows.
-_TOLERANT_ALPHA = 2.0
 # Above this number only every second one gets parts of its own. For those between,
 # parts of one more are merged: errors on the benchmark are the same.
 _ALL_OWN = 5
@@ -215,5 +213,8 @@ class PartCountSearch:
 
 
 def _strictness(alpha: float) -> float:
-    """Return the factor of all tolerances: 1 up to the default alpha, then less."""
-    return _TOLERANT_ALPHA / max(alpha, _TOLERANT_ALPHA)
+    """Return the factor of all tolerances: 1 up to the default alpha, then less.
+
+    A larger alpha scales all gains alike, so that alone it would hardly change k.
+    """
+    return Parameters.alpha / max(alpha, Parameters.alpha)

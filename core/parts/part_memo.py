@@ -20,6 +20,8 @@ from ..steps.progress import Steps, run, within
 from .details.surface import PartSurface
 
 Labels: TypeAlias = NDArray[np.int64]
+# A smoothness, a least psi and a digest of parts.
+SeamsKey: TypeAlias = tuple[float, float | None, bytes]
 
 
 class Candidate(NamedTuple):
@@ -55,8 +57,9 @@ class CutMemo:
         Map the first and last number tried to the candidate for each number, and with a
         number given before, and a smoothness behind, to the result for that number.
     seams, looks, fine : Memo
-        Map a smoothness and the digest of parts to the parts with their seams cut, well
-        or for a first look, and parts of patches to those of the nodes in them.
+        Map a smoothness, a least psi and the digest of parts to the parts with their
+        seams cut, well or for a first look; a smoothness and parts of patches to those
+        of the nodes in them.
     """
 
     def __init__(self) -> None:
@@ -65,8 +68,8 @@ class CutMemo:
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.given: Memo[tuple[int, int, int, float], Any] = Memo(32)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
-        self.seams: Memo[tuple[float, bytes], Any] = Memo(32)
-        self.looks: Memo[tuple[float, bytes], Any] = Memo(32)
+        self.seams: Memo[SeamsKey, Any] = Memo(32)
+        self.looks: Memo[SeamsKey, Any] = Memo(32)
         self.fine: Memo[tuple[float, bytes], NDArray[np.uint16]] = Memo(16)
 
 
@@ -90,10 +93,10 @@ class PartMemo:
     tallies : Memo
         Maps the digest and number of labels, and whether seen, to counts of pairs.
     on_nodes, pieces : Memo
-        Map the digest of labels of samples to those of the nodes, and a smallest area
-        and the digest of labels to connected parts.
+        Map the digest and number of labels of samples to those of the nodes, and a
+        smallest area and the digest of labels to connected parts.
     moves : Memo
-        Maps the digest of labels and alpha to the labels after all moves.
+        Maps the digest and number of labels, and alpha, to the labels after all moves.
     surfaces : Memo
         Maps the digest of a part's place to its surface.
     tried : dict of int to Candidate
@@ -109,9 +112,9 @@ class PartMemo:
         self._nearest: NearestSamples | None = None
         self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
-        self.on_nodes: Memo[bytes, Labels] = Memo(64)
+        self.on_nodes: Memo[tuple[bytes, int], Labels] = Memo(64)
         self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
-        self.moves: Memo[tuple[bytes, float], Labels] = Memo(32)
+        self.moves: Memo[tuple[bytes, int, float], Labels] = Memo(32)
         self.surfaces: Memo[bytes, PartSurface] = Memo(16)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
         self._clusters: Memo[tuple[str, int], Memo[tuple[int, int], Labels]] = Memo(2)

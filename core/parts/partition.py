@@ -108,7 +108,7 @@ class Partitioner(PartPsi):
         n_clusters, labels = self._clusters(n_parts, n_parts)
         pairs, alpha = self.visibility.likely_pairs, self.parameters.alpha
         raised = self._memo.moves.recall(
-            (digest(labels), alpha),
+            (digest(labels), n_clusters, alpha),
             lambda: raise_psi(pairs, labels, n_clusters, alpha),
         )
         parts = self.tidied(self._on_nodes(raised, n_clusters), n_parts)
@@ -154,7 +154,8 @@ class Partitioner(PartPsi):
     def _on_nodes(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.int64]:
         """Return labels (N,) of the samples carried to the nodes, (P,)."""
         return self._memo.on_nodes.recall(
-            digest(labels), lambda: self.transfer.to_polygons(labels, n_labels)
+            (digest(labels), n_labels),
+            lambda: self.transfer.to_polygons(labels, n_labels),
         )
 
     def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, NDArray[np.int64]]:

@@ -57,7 +57,7 @@ def good_numbers(psi_by_k: Mapping[int, float], best_k: int) -> tuple[int, ...]:
     """
     if best_k not in psi_by_k or best_k == 1:
         return (best_k,)
-    low, high = min(psi_by_k.values()), max(psi_by_k.values())
+    low, high = psi_by_k.get(1, min(psi_by_k.values())), max(psi_by_k.values())
     enough = low + _COARSE * (high - low)
     coarse = min(k for k, psi in psi_by_k.items() if psi >= enough)
     finer = sorted(k for k in psi_by_k if best_k <= k <= _FINE * best_k)

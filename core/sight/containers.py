@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps, within
+from ..steps.rows import blocks
 from .enclosed import ENCLOSED_OUTSIDE, OPEN, Grid, find_enclosed
 from .pair_visibility import PairVisibility
 from .ray_march import RayMarcher
@@ -22,8 +23,6 @@ _STRIDE = 0.5
 _ENDS = 1.0
 # Points of a segment that are tested before those that ended are left out.
 _STRIDES_AT_ONCE = 8
-# Segments between two reports of progress.
-_SEGMENTS_PER_STEP = 2**16
 
 
 def see_through_containers(
@@ -52,14 +51,17 @@ def see_through_containers(
     for pairs in matrices:
         if pairs not in revealed:
             first, second = pairs.hidden()
-            steps = see_through(grid, places[first], places[second])
+            steps = see_through(grid, places, first, second)
             through = yield from within(steps, 0.6, 1.0)
             revealed[pairs] = pairs.revealed(first[through], second[through])
     return [revealed[pairs] for pairs in matrices]
 
 
 def see_through(
-    grid: Grid, starts: NDArray[np.float64], ends: NDArray[np.float64]
+    grid: Grid,
+    places: NDArray[np.float64],
+    first: NDArray[np.int64],
+    second: NDArray[np.int64],
 ) -> Steps[NDArray[np.bool_]]:
     """Find the segments that run through enclosed cells but not through open ones.
 
@@ -67,18 +69,19 @@ def see_through(
     ----------
     grid : Grid
         Cells around the shape.
-    starts, ends : (M, 3) float
-        Ends of the segments on the surface, in the space of the grid.
+    places : (N, 3) float
+        Points of the surface, in the space of the grid.
+    first, second : (M,) int
+        Their rows at the ends of each segment.
 
     Returns
     -------
     Steps of (M,) bool
     """
-    through = np.zeros(len(starts), dtype=bool)
-    for first in range(0, len(starts), _SEGMENTS_PER_STEP):
-        yield Progress("Containers", first / len(starts))
-        chunk = slice(first, first + _SEGMENTS_PER_STEP)
-        through[chunk] = _run_through(grid, starts[chunk], ends[chunk])
+    through = np.zeros(len(first), dtype=bool)
+    for rows in blocks(len(first)):
+        yield Progress("Containers", rows.start / len(first))
+        through[rows] = _run_through(grid, places[first[rows]], places[second[rows]])
     return through
 
 

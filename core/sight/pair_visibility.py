@@ -1,4 +1,4 @@
-"""Convexity rank (eq. 1) and psi (eq. 5), counted from all pairs of samples or some."""
+"""Which pairs of samples see each other, of all pairs or of some."""
 
 from __future__ import annotations
 

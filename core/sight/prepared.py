@@ -108,7 +108,7 @@ class PreparedShape:
         -------
         labels : (`n_nodes`,) int
         """
-        found = np.zeros(int(self.nodes.max()) + 1, dtype=np.int64)
+        found = np.zeros(self.n_nodes, dtype=np.int64)
         found[self.nodes] = labels
         return found
 
@@ -186,7 +186,7 @@ def _prepare_mesh(
     nodes = np.arange(mesh.n_polygons)
     edges = yield from within(sort_edges(mesh), 0.0, 0.2)
     shells = yield from within(find_shells(mesh, edges), 0.2, 0.3)
-    single, rows = without_doubles(mesh) if shells.crowded else (mesh, nodes)
+    single, rows = without_doubles(mesh) if shells.crowded else (mesh, nodes[:0])
     if single is not mesh:
         shells = yield from within(shells_of(single), 0.3, 0.4)
     turned, notes = yield from within(oriented(single, shells), 0.4, 0.6)

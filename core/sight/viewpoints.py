@@ -57,12 +57,7 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
     nudge = PASS * marcher.diagonal
     inwards = -samples.normals
     own = marcher.closed[samples.triangles].astype(np.int64)
-    _, thickness, _ = marcher.march(
-        samples.positions + nudge * inwards,
-        inwards,
-        np.full(len(samples), 2 * marcher.diagonal),
-        own,
-    )
+    thickness = thickness_at(marcher, samples)
     deepest = max(_OFFSET * marcher.diagonal, _OFFSET_OF_SPLAT * marcher.splat_size)
     offsets = np.minimum(deepest, _OFFSET_OF_THICKNESS * thickness)
     offsets = np.maximum(offsets, nudge)
@@ -73,6 +68,27 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
         np.maximum(marcher.shells_around(positions, outwards), own),
         marcher.shells_around(outside, outwards) > 0,
     )
+
+
+def thickness_at(marcher: RayMarcher, samples: Samples) -> NDArray[np.float64]:
+    """Return the length inside the shape of a ray straight inwards from each sample.
+
+    Parameters
+    ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
+
+    Returns
+    -------
+    (N,) float
+    """
+    inwards = -samples.normals
+    starts = samples.positions + PASS * marcher.diagonal * inwards
+    around = marcher.closed[samples.triangles].astype(np.int64)
+    far = np.full(len(samples), 2 * marcher.diagonal)
+    return marcher.march(starts, inwards, far, around)[1]
 
 
 def _tripod_directions(normals: NDArray[np.float64]) -> list[NDArray[np.float64]]:

@@ -21,8 +21,7 @@ from .likely_pairs import likely_pairs
 from .lines import RayBudget
 from .pair_visibility import Matrix, PairVisibility
 from .prepared import PreparedShape
-from .ray_march import PASS
-from .viewpoints import viewpoints
+from .viewpoints import thickness_at, viewpoints
 
 # Most samples whose matrix of all pairs fits into memory.
 _MOST_FOR_ALL_PAIRS = 10_000
@@ -96,12 +95,7 @@ class Visibility:
     @cached_property
     def thickness(self) -> NDArray[np.float64]:
         """Length inside the shape of a ray straight inwards from each sample, (N,)."""
-        marcher, samples = self.shape.marcher, self.samples
-        inwards = -samples.normals
-        starts = samples.positions + PASS * marcher.diagonal * inwards
-        around = marcher.closed[samples.triangles].astype(np.int64)
-        far = np.full(len(samples), 2 * marcher.diagonal)
-        return marcher.march(starts, inwards, far, around)[1]
+        return thickness_at(self.shape.marcher, self.samples)
 
 
 def find_lines_of_sight(

@@ -13,15 +13,18 @@ from .progress import Progress, Steps
 _BLOCK = 2**16
 
 
-def blocks(n_rows: int) -> Iterator[slice]:
+def blocks(n_rows: int, size: int = _BLOCK) -> Iterator[slice]:
     """Yield slices that together cover some rows, each a step's worth of work.
 
     Parameters
     ----------
     n_rows : int
+    size : int, optional
+        Rows in each slice; 0 counts as 1.
     """
-    for start in range(0, n_rows, _BLOCK):
-        yield slice(start, min(start + _BLOCK, n_rows))
+    size = max(size, 1)
+    for start in range(0, n_rows, size):
+        yield slice(start, min(start + size, n_rows))
 
 
 def used_rows(numbers: NDArray[np.int64], n_rows: int) -> Steps[NDArray[np.bool_]]:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapes
 from brute_caster import WatchedCaster, are_cast
+from clouds import cloud_of
 from computed import decompose
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
@@ -111,6 +112,21 @@ def test_what_few_samples_see_of_a_part_is_kept():
     run(cache.prepare(shapes.l_shape()))
     run(cache.prepare(shapes.comb()))
     assert see(members) is not kept
+
+
+def test_parts_of_clouds_with_other_points_of_the_same_splats_are_others():
+    cloud = cloud_of(shapes.box(), 400)
+    copied = replace(
+        cloud,
+        points=np.concatenate([cloud.points, cloud.points[:100]]),
+        normals=np.concatenate([cloud.normals, cloud.normals[:100]]),
+    )
+    cache = ShapeCache(WatchedCaster)
+    some = np.arange(len(copied.points)) < 150
+    more = some | (np.arange(len(copied.points)) >= 400)
+    for members in (some, more):
+        found = run(decompose_in_steps(copied, BEFORE, cache, members))
+        assert len(found.labels) == members.sum()
 
 
 def test_every_parameter_is_tried():

@@ -39,3 +39,9 @@ def heights_above_shape(shape, points):
         return np.maximum(around, np.abs(local[:, 2]) - half)
     local[:, 2] -= np.clip(local[:, 2], -half, half)
     return np.linalg.norm(local, axis=1) - radius
+
+
+def covered(shapes, points):
+    """Return which points are in one of some collision shapes, or next to it, (M,)."""
+    heights = [heights_above_shape(shape, points) for shape in shapes]
+    return np.min(heights, axis=0) < 1e-3

@@ -22,7 +22,7 @@ class Cell(Piece):
     Attributes
     ----------
     chords : (C, 3) float
-        Centers of the chords in the piece.
+        A point of each chord in the piece.
     volumes : (C,) float
         Volume around each chord.
     planes : (P, 4) float
@@ -60,6 +60,7 @@ def whole(solid: Solid, fit: Fit) -> Cell:
         solid,
         fit,
         np.zeros((0, 3)),
+        -1,
         solid.chords,
         solid.volumes,
         np.zeros((0, 4)),
@@ -113,6 +114,7 @@ def _side(
         cell.solid,
         cell.fit,
         cell.all_witnesses,
+        cell.part,
         cell.chords[chords],
         cell.volumes[chords],
         np.concatenate([cell.planes, plane[None]]),

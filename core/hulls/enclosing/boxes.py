@@ -9,8 +9,11 @@ from scipy.spatial import ConvexHull, QhullError
 from ...geometry.frames import distinct_directions, frame_of, frames, principal_axes
 from ...geometry.primitives import CollisionShape, Hull
 
-# Number of faces that a box may be flush with while cuts are compared.
-_FEW_FACES = 4
+# Number of faces that a box may be flush with, the largest ones; and while cuts are
+# compared.
+_MOST_FACES, _FEW_FACES = 500, 4
+# Largest number of vertices by which sizes of boxes are bounded.
+_MOST_VERTICES = 500
 # Decimal digits to which volumes and areas are compared; the longest side is 2.
 DIGITS = 9
 _EQUAL = 10**-DIGITS
@@ -23,7 +26,7 @@ _AT_ONCE = 1_000_000
 
 
 def box_around(hull: Hull) -> CollisionShape:
-    """Return the smallest box that has one side flush with a face of a hull.
+    """Return the smallest box that has one side flush with a large face of a hull.
 
     The smallest box of all has two adjacent sides that each contain an edge of the hull
     (O'Rourke 1985). Boxes flush with a face are nearly as small and far fewer.
@@ -36,7 +39,8 @@ def box_around(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    return _smallest_box(hull, distinct_directions(hull.planes[:, :3], _NORMAL_DIGITS)[0])
+    normals = _normals_of_largest(hull, _MOST_FACES)
+    return _smallest_box(hull, distinct_directions(normals, _NORMAL_DIGITS)[0])
 
 
 def rough_box(hull: Hull) -> CollisionShape:
@@ -50,7 +54,9 @@ def rough_box(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    return _smallest_box(hull, _few_normals(hull))
+    largest, axes = _normals_of_largest(hull, _FEW_FACES), principal_axes(hull.vertices)
+    normals = np.concatenate([largest, axes])
+    return _smallest_box(hull, distinct_directions(normals, _NORMAL_DIGITS)[0])
 
 
 def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
@@ -59,8 +65,9 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
     Few of them are made: lower bounds of their volumes rule the others out. Equal ones
     are told apart by the order of the normals.
     """
-    heights = np.ptp(hull.vertices @ normals.T, axis=0)
-    least = heights * _least_areas(hull.vertices, normals)
+    some = hull.vertices[:: -(-len(hull.vertices) // _MOST_VERTICES)]
+    heights = np.ptp(some @ normals.T, axis=0)
+    least = heights * _least_areas(some, normals)
     best, smallest = None, (np.inf, 0)
     for row in np.argsort(least, kind="stable"):
         if least[row] > smallest[0] + _EQUAL:
@@ -77,14 +84,12 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
     return best
 
 
-def _few_normals(hull: Hull) -> NDArray[np.float64]:
-    """Return the normals of the largest faces, and the principal axes, (N, 3)."""
+def _normals_of_largest(hull: Hull, n_faces: int) -> NDArray[np.float64]:
+    """Return the normals of the largest faces of a hull, in its order, (N, 3)."""
     a, b, c = np.moveaxis(hull.corners, 1, 0)
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    largest = np.argsort(-np.round(areas, DIGITS), kind="stable")[:_FEW_FACES]
-    axes = principal_axes(hull.vertices)
-    normals = np.concatenate([hull.planes[largest, :3], axes])
-    return distinct_directions(normals, _NORMAL_DIGITS)[0]
+    largest = np.argsort(-np.round(areas, DIGITS), kind="stable")[:n_faces]
+    return hull.planes[np.sort(largest), :3]
 
 
 def _least_areas(

@@ -105,7 +105,7 @@ def roughly_around(hull: Hull, kind: str) -> CollisionShape:
         return box
     along = _cylinder if kind == "CYLINDER" else _capsule
     shapes = [along(hull, axis, _FEW_ROUNDS) for axis in box.axes]
-    return min(shapes, key=lambda shape: shape.volume)
+    return _smallest(shapes)
 
 
 def _best_along(
@@ -114,8 +114,12 @@ def _best_along(
 ) -> CollisionShape:
     """Return the smallest shape along an axis; only the best is made exactly."""
     rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
-    best = min(rough, key=lambda shape: round(shape.volume, DIGITS))
-    return along(hull, best.axes[2], _ROUNDS)
+    return along(hull, _smallest(rough).axes[2], _ROUNDS)
+
+
+def _smallest(shapes: list[CollisionShape]) -> CollisionShape:
+    """Return the first of the smallest shapes."""
+    return min(shapes, key=lambda shape: round(shape.volume, DIGITS))
 
 
 def _sphere(hull: Hull, rounds: int) -> CollisionShape:

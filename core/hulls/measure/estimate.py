@@ -37,7 +37,7 @@ def estimated_error(
     solid : Solid
     shape : CollisionShape
     hull : Hull
-        As for `error_bound`.
+        As for `ErrorBound`.
     boundary : (N, 3) float
         Samples of the surface of the piece, and of the faces that cuts made.
     witnesses : (W, 3) float

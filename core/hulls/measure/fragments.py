@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-# Cutting stops at this many triangles, however long their edges still are.
-_MOST = 200_000
+# Cutting stops at so many triangles more, however long their edges still are.
+_MOST_MORE = 200_000
 
 
 def fragments_of(
@@ -15,7 +15,7 @@ def fragments_of(
     """Halve triangles until no edge is longer than allowed.
 
     Whether an edge is halved depends on nothing but its length, so that neighbors that
-    fit together still do.
+    fit together still do, until there are very many.
 
     Parameters
     ----------
@@ -33,10 +33,11 @@ def fragments_of(
     done = [corners[:0]]
     rows = [np.zeros(0, dtype=np.int64)]
     triangles, n_done = np.arange(len(corners)), 0
+    most = len(corners) + _MOST_MORE
     while len(corners):
         lengths = edge_lengths(corners)
         ready = lengths.max(axis=1) <= longest
-        if n_done + len(corners) > _MOST:
+        if n_done + len(corners) > most:
             ready[:] = True
         done.append(corners[ready])
         rows.append(triangles[ready])

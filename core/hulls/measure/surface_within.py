@@ -7,12 +7,10 @@ from numpy.typing import NDArray
 
 from ...geometry.frames import HEIGHTS_AT_ONCE, heights_above
 from ...geometry.primitives import CollisionShape
-from ..convex_hull import THIN
+from ..convex_hull import LEFT_OUT
 from ..outline import outline_of
 from ..solid import Solid
 
-# The surface is within a shape that it is outside of by less: hulls are simplified.
-_WITHIN = THIN / 10
 # Heights up to this are rounding.
 _ABOVE = 1e-9
 
@@ -35,10 +33,10 @@ def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
     (low, high), (lowest, highest) = shape.bounds, solid.bounds
     rows = np.arange(len(solid.corners))
     for axis in range(3):  # at once takes ten times as long
-        begins, ends = low[axis] - _WITHIN, high[axis] + _WITHIN
+        begins, ends = low[axis] - LEFT_OUT, high[axis] + LEFT_OUT
         kept = (lowest[rows, axis] <= ends) & (highest[rows, axis] >= begins)
         rows = rows[kept]
-    planes = outline_of(shape).planes - [0, 0, 0, _WITHIN]
+    planes = outline_of(shape).planes - [0, 0, 0, LEFT_OUT]
     corners = solid.corners[rows]
     # Whole triangles are told by their vertices, which takes a tenth of the time.
     vertices, of = np.unique(solid.mesh.triangles[rows], return_inverse=True)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ...steps.rows import blocks
 from .fragments import distances_to, fragments_of, reach_of
 
 # Longest edge of the fragments by whose centers the nearest triangles are found.
@@ -14,6 +15,8 @@ _GRAIN = 0.08
 _NEIGHBORS = 3
 # Fragments that the nearest is looked for among, at first.
 _FIRST = 12
+# Largest number of pairs of a point and a fragment at once.
+_MOST_PAIRS = 500_000
 
 
 class Targets:
@@ -68,15 +71,15 @@ class Targets:
         left, n_near = np.arange(len(points)), 0
         while len(left):
             n_near = min(max(4 * n_near, _FIRST), len(self._origins))
-            apart, rows = self._tree.query(points[left], np.arange(1, n_near + 1))
-            away = _from_each(
-                points[left, None], self._corners[self._origins[rows]]
-            ).min(axis=(1, 2))
-            found[left] = away
-            if n_near == len(self._origins):
-                break
-            # Fragments whose centers are farther away hold nothing nearer.
-            left = left[away > apart[:, -1] - self._reach]
+            unsure = [left[:0]]
+            for block in blocks(len(left), _MOST_PAIRS // n_near):
+                some = left[block]
+                apart, rows = self._tree.query(points[some], np.arange(1, n_near + 1))
+                near = self._corners[self._origins[rows]]
+                found[some] = _from_each(points[some, None], near).min(axis=(1, 2))
+                # Fragments whose centers are farther away hold nothing nearer.
+                unsure.append(some[found[some] > apart[:, -1] - self._reach])
+            left = np.concatenate(unsure) if n_near < len(self._origins) else left[:0]
         return found
 
 

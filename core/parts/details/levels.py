@@ -94,7 +94,7 @@ def split_further(
         few = replace(
             parameters,
             samples=min(parameters.samples, _SAMPLES),
-            min_parts=2,
+            min_parts=Parameters.min_parts,
             max_parts=min(parameters.max_parts, _MOST_PIECES),
             containers="HOLLOW",  # limbs enclose nothing, and to find that out is slow
         )

@@ -17,7 +17,8 @@ Count: TypeAlias = Callable[[NDArray[np.int64], int], PairTally]
 # What is left of a part without its spikes sees at least so much of itself: a wing of
 # feathers has no spikes.
 _LEAST_BODY = 0.8
-# Fewer samples of a spike say nothing.
+# Fewer samples of a spike say nothing. Where not all pairs are known, it needs as many
+# known pairs as so many samples have.
 _FEWEST_SAMPLES = 10
 
 
@@ -31,7 +32,7 @@ class Demands(NamedTuple):
     most_seen : float
         The share of the pairs across the joint that do is below this.
     fewest_samples : int
-        A piece with fewer of them says nothing.
+        A piece with fewer pairs than so many have says nothing.
     """
 
     least_rank: float
@@ -114,6 +115,6 @@ def seen_beyond(joints: Joints, count: Count, demands: Demands) -> Joints:
 
 
 def _sampled(tally: PairTally, fewest: int) -> NDArray[np.bool_]:
-    """Return which pieces have so many samples (K,)."""
+    """Return which pieces have as many known pairs as so many samples have (K,)."""
     enough: NDArray[np.bool_] = np.diag(tally.known) >= fewest**2
     return enough

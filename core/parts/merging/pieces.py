@@ -10,11 +10,12 @@ from scipy.spatial import cKDTree
 
 from ...geometry.connectivity import components_at_once
 from ...geometry.face_graph import FaceGraph
+from ...parameters.parameter import field_of, info_of
+from ...parameters.parts import Parameters
 from ...sight.pair_tally import PairTally
 
-# Largest number of parts, the upper bound of the parameter Parts. If there are more
-# pieces, the smallest ones join their neighbors.
-_MOST_PARTS = 256
+# If there are more pieces, the smallest ones join their neighbors.
+_MOST_PARTS = int(info_of(field_of(Parameters, "parts")).high)
 
 
 def connected_parts(

@@ -7,11 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
 
 from ...clusters.moves import MoveGains
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
+from ..part_memo import SeamsKey
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .graph_cut import SWEEPS, cut_seams
@@ -54,8 +56,9 @@ class SeamCutter:
     partitioner : Partitioner
         The partitioner that made the parts; its parameters are used.
     memo : Memo
-        Maps a smoothness and the digest of parts to the parts with their seams cut, and
-        with the digest of ragged nodes behind, to those parts with smooth seams.
+        Maps a smoothness, a least psi and the digest of parts to the parts with their
+        seams cut, and with the digest of ragged nodes behind, to those parts with
+        smooth seams.
     sweeps : int, optional
         Largest number of sweeps of a cut over all parts.
     even : bool, optional
@@ -65,7 +68,7 @@ class SeamCutter:
     def __init__(
         self,
         partitioner: Partitioner,
-        memo: Memo[tuple[float, bytes], Seams],
+        memo: Memo[SeamsKey, Seams],
         sweeps: int = SWEEPS,
         *,
         even: bool = True,
@@ -96,7 +99,7 @@ class SeamCutter:
         Steps of Seams
             The steps yield `Progress`; `run` returns the new parts.
         """
-        key = self._smoothness, digest(parts)
+        key = self._smoothness, enough, digest(parts)
         return self._memo.recall_steps(key, lambda: self._cut(parts, enough))
 
     def _cut(self, parts: NDArray[np.int64], enough: float | None) -> Steps[Seams]:
@@ -129,7 +132,7 @@ class SeamCutter:
         parts, smoothness, ragged = seams
         if ragged is None:
             return seams
-        key = smoothness, digest(parts) + digest(ragged)
+        key = smoothness, None, digest(parts) + digest(ragged)
         steps = partial(self._smoothed, parts, smoothness, ragged)
         return (yield from self._memo.recall_steps(key, steps))
 
@@ -240,7 +243,7 @@ def distances_to_parts(
     members = np.eye(n_labels)[labels]
     sizes = np.maximum(members.sum(axis=0), 1.0)
     centers = (members.T @ embedding) / sizes[:, None]
-    squared = ((embedding[:, None, :] - centers[None]) ** 2).sum(axis=2)
+    squared = cdist(embedding, centers, "sqeuclidean")
     # One variance for all: with variances of their own, wide parts swallow narrow ones.
     variance = (members * squared).sum() / len(labels) + np.finfo(float).tiny
     costs: NDArray[np.float64] = np.minimum(squared / (2 * variance), _MOST_DISLIKE)

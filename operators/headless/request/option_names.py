@@ -37,7 +37,7 @@ def with_options(text: str) -> str:
     named = [
         f"{label} is {flag}"
         for label, flag in _options_of_labels().items()
-        if re.search(rf"\b{label}\b", text)
+        if re.search(rf"(?<![\w./\\]){label}\b(?!\.\w|[/\\])", text)  # not in paths
     ]
     return f"{text} ({', '.join(named)}.)" if named else text
 

@@ -1,14 +1,18 @@
+import re
+from dataclasses import replace
+
 import changes
 import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
 from computed import build_hulls
-from convexity_check import assert_convex, heights_above_shape
+from convexity_check import assert_convex, covered
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
-from weak_convex_decomposition.core.hulls.outline import outline_of
+from weak_convex_decomposition.core.hulls.fitting import fit_for
+from weak_convex_decomposition.core.hulls.notes import notes_on
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import Progress
 
@@ -17,12 +21,6 @@ def hulls_of(mesh, labels=None, **values):
     if labels is None:
         labels = np.zeros(mesh.n_polygons, dtype=np.int64)
     return build_hulls(mesh, HullParameters(**values), labels)
-
-
-def covered(decomposition, points):
-    """Return which points are in a hull."""
-    heights = [heights_above_shape(shape, points) for shape in decomposition.shapes]
-    return np.min(heights, axis=0) < 1e-3
 
 
 @pytest.mark.parametrize("make", [shapes.box, lambda: shapes.sphere(2)])
@@ -50,7 +48,7 @@ def test_hulls_are_within_the_error(make):
     assert 2 <= found.n_hulls <= 10
     assert found.errors.max() <= 0.05
     assert found.volume_ratio < 1.06
-    assert covered(found, mesh.vertices).all()
+    assert covered(found.shapes, mesh.vertices).all()
     for shape in found.shapes:
         assert_convex(shape.hull)
         assert len(shape.hull.vertices) <= 64
@@ -77,7 +75,7 @@ def test_a_cup_stays_hollow():
     found = hulls_of(shapes.cup())
     assert found.n_hulls <= 32
     hollow = np.array([[0.5, 0.5, z] for z in (0.3, 0.5, 0.7, 0.9)])
-    assert not covered(found, hollow).any()
+    assert not covered(found.shapes, hollow).any()
 
 
 @pytest.mark.parametrize(
@@ -94,8 +92,8 @@ def test_vessels_stay_hollow(make, depth):
         radius = 0.6 * np.sqrt(1 - (1 - share) ** 2)
         ring = np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1) * radius
         ring[:, 2] = low[2] + share * (high - low)[2] - 0.01
-        assert not covered(found, ring).any()
-    assert covered(found, mesh.vertices).all()
+        assert not covered(found.shapes, ring).any()
+    assert covered(found.shapes, mesh.vertices).all()
 
 
 def test_larger_errors_need_fewer_hulls():
@@ -126,46 +124,6 @@ def test_the_same_input_gives_the_same_hulls():
         assert (first.hull.vertices == second.hull.vertices).all()
 
 
-def test_one_shape_for_each_part():
-    mesh = shapes.joined(shapes.box(), shapes.box((2, 0, 0), (4, 1, 1)))
-    labels = np.repeat([1, 0], 6)
-    found = hulls_of(mesh, labels, pieces="PARTS", max_error=0.001)
-    assert [round(shape.volume, 3) for shape in found.shapes] == [2, 1]
-    boxes = hulls_of(mesh, labels, pieces="PARTS", shape="BOX")
-    assert [round(shape.volume, 3) for shape in boxes.shapes] == [2, 1]
-    assert hulls_of(mesh, labels, pieces="PARTS", max_hulls=1).n_hulls == 1
-
-
-def test_parts_may_have_any_numbers():
-    mesh = shapes.joined(shapes.box(), shapes.box((2, 0, 0), (4, 1, 1)))
-    labels = np.repeat([10**12, 7], 6)
-    for pieces in ("PARTS", "BY_ERROR"):
-        found = hulls_of(mesh, labels, pieces=pieces)
-        assert found.parts.tolist() == [7, 10**12]
-
-
-def test_hulls_that_a_margin_would_make_vanish_are_told():
-    mesh = shapes.joined(shapes.box(), shapes.box((2, 0, 0), (5, 3, 3)))
-    volumes, notes = {}, {}
-    for margin in (0.0, -0.4, -0.6):
-        found = hulls_of(mesh, margin=margin)
-        volumes[margin] = [round(each.volume, 3) for each in found.shapes]
-        notes[margin] = found.notes
-    assert volumes == {0.0: [27, 1], -0.4: [10.648, 0.008], -0.6: [5.832, 1]}
-    assert notes[0.0] == ()
-    (above,) = notes[-0.4]
-    assert above.endswith(
-        "Largest Error = 0.05, because Margin = -0.4 alone is that much; choose a"
-        " margin nearer to 0."
-    )
-    assert notes[-0.6][1:] == (
-        "Margin = -0.6 would make 1 of 2 hulls vanish, which keep their size; choose a"
-        " value nearer to 0.",
-    )
-    boxes = hulls_of(mesh, margin=-0.6, shape="BOX")
-    assert not any("vanish" in note for note in boxes.notes)
-
-
 def test_fewer_hulls_than_connected_pieces():
     mesh = shapes.joined(
         *(shapes.box((2 * i, 0, 0), (2 * i + 1, 1, 1)) for i in range(4))
@@ -173,7 +131,7 @@ def test_fewer_hulls_than_connected_pieces():
     for most in (1, 2, 3):
         found = hulls_of(mesh, max_hulls=most)
         assert found.n_hulls == most
-        assert covered(found, mesh.vertices).all()
+        assert covered(found.shapes, mesh.vertices).all()
         assert len(found.notes) == 1
 
 
@@ -193,7 +151,7 @@ def test_shapes_that_are_no_solids_have_hulls(make):
     assert 1 <= found.n_hulls <= 8
     for shape in found.shapes:
         assert_convex(shape.hull)
-    assert covered(found, mesh.vertices[mesh.triangles].reshape(-1, 3)).all()
+    assert covered(found.shapes, mesh.vertices[mesh.triangles].reshape(-1, 3)).all()
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -209,23 +167,21 @@ def test_sheets_with_two_sides_have_no_volume(seed):
     assert found.errors.max() < 0.1
 
 
-def test_parts_that_are_no_solids_have_hulls():
-    flat = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    line = [(5, 0, 0), (6, 0, 0), (7, 0, 0)]
-    mesh = shapes.joined(
-        shapes.mesh_of(flat, [(0, 1, 2)]),
-        shapes.mesh_of(line, [(0, 1, 2)]),
-        shapes.mesh_of([(9, 9, 9)] * 3, [(0, 1, 2)]),
-        shapes.sheet(),
-    )
-    labels = np.minimum(np.arange(mesh.n_polygons), 3)
-    for shape in ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE"):
-        found = hulls_of(mesh, labels, pieces="PARTS", shape=shape)
-        assert found.n_hulls == 4
-        assert all(each.volume > 0 for each in found.shapes)
-        assert covered(found, mesh.vertices).all()
-        for each in found.shapes:
-            assert_convex(outline_of(each))
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_flat_meshes_are_one_hull_however_they_are_turned_and_rounded(dtype):
+    turned = changes.moved(shapes.sheet(6), rotation=changes.any_rotation(0))
+    mesh = replace(turned, vertices=turned.vertices.astype(dtype))
+    found = hulls_of(mesh)
+    assert found.n_hulls == 1
+    assert found.errors.max() < 0.05
+    assert found.notes == ()
+
+
+def test_loose_vertices_get_no_hull():
+    cube = shapes.box()
+    mesh = replace(cube, vertices=np.concatenate([cube.vertices, [[5, 5, 5]]]))
+    found = hulls_of(mesh)
+    assert [round(shape.volume, 6) for shape in found.shapes] == [1]
 
 
 def test_points_have_no_hull():
@@ -241,6 +197,17 @@ def test_progress_rises():
     assert len(fractions) > 5
     assert fractions == sorted(fractions)
     assert fractions[-1] <= 1
+
+
+@pytest.mark.parametrize("error", [0.0500001, 0.06, 0.12343472])
+def test_an_error_is_told_from_the_largest_however_near_it_is(error):
+    most = min(error - 1e-8, 0.1234347)
+    parameters = HullParameters(max_error=most, max_hulls=1)
+    fit, _ = fit_for(shapes.box(), parameters, 1.0)
+    (note,) = notes_on([], [], np.array([error]), fit)
+    numbers = [float(text) for text in re.findall(r"0\.\d+", note)]
+    assert numbers == pytest.approx([error, most], rel=1e-3)
+    assert numbers[0] > numbers[1]
 
 
 def test_parameters_are_checked():

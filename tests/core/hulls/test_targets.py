@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
+from weak_convex_decomposition.core.hulls.measure.fragments import (
+    distances_to,
+    edge_lengths,
+    fragments_of,
+)
 from weak_convex_decomposition.core.hulls.measure.targets import Targets
 
 
@@ -31,6 +35,17 @@ def test_the_nearest_triangle_is_found():
     points = np.random.default_rng(0).uniform(-0.5, 2.5, (500, 3))
     found = Targets(corners).nearest(points)
     assert found == pytest.approx(nearest_of(points, corners), abs=1e-7)
+
+
+def test_a_large_triangle_among_very_many_small_ones_is_cut_too():
+    """Otherwise each of all would have to be looked at for every point."""
+    sheet = shapes.sheet(320)
+    small = sheet.vertices[sheet.triangles]
+    assert len(small) > 200_000
+    base = [[[0, 0, -0.5], [1, 1, -0.5], [0, 1, -0.5]]]
+    fragments, origins = fragments_of(np.concatenate([small, base]), 0.08)
+    assert edge_lengths(fragments).max() <= 0.08
+    assert (origins == len(small)).sum() > 100
 
 
 def nearest_of(points, corners):

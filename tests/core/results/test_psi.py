@@ -45,3 +45,8 @@ def test_good_numbers_are_a_coarse_one_the_best_and_a_fine_one(best, expected):
     gains = (0.0, 0.5, 0.8, 0.96, 0.94, 0.97, 0.96, 1.0, 0.99)
     psi_by_k = {k: 0.25 + 0.5 * gain for k, gain in enumerate(gains, start=1)}
     assert good_numbers(psi_by_k, best) == expected
+
+
+def test_one_part_is_good_only_where_more_gain_nothing():
+    """Psi may fall with the number of parts below that of one: a small Detail."""
+    assert good_numbers({1: 0.5, 2: 0.52, 12: 0.3}, 2) == (2,)
