@@ -54,6 +54,40 @@ def join_pieces(
     return joined
 
 
+def part_again(pieces: list[Piece], max_pieces: int, known: Joints) -> list[Piece]:
+    """Undo joints of pieces that are not close as one, while there is room for more.
+
+    They were joined when there were too many pieces; others have been joined since.
+
+    Parameters
+    ----------
+    pieces : list of Piece
+    max_pieces : int
+        Largest number of pieces to return.
+    known : dict
+        Joined pieces of pairs, as `join_pieces` leaves them.
+
+    Returns
+    -------
+    list of Piece
+        Pieces come apart where both halves have smaller errors, the worst one first.
+    """
+    halves = {joint: pair for pair, joint in known.items()}
+    while len(pieces) < max_pieces:
+        far = [
+            one
+            for one in pieces
+            if one in halves
+            and not one.is_close
+            and max(half.known_error for half in halves[one]) < one.known_error
+        ]
+        if not far:
+            break
+        worst = max(far, key=lambda one: round(one.known_error, 6))
+        pieces = [*(one for one in pieces if one is not worst), *halves[worst]]
+    return pieces
+
+
 def _join(
     pieces: Sequence[Piece],
     max_pieces: int,

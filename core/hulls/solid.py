@@ -17,6 +17,7 @@ from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
 from .measure.inside import InsideTest
+from .measure.line_crossings import LineCrossings
 
 # Number of samples on the surface.
 _SAMPLES = 6000
@@ -164,10 +165,12 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     mesh = replace(mesh, vertices=mesh.vertices * scale)
     samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]
-    places, shares = [], []
+    vertices = np.unique(corners.reshape(-1, 3), axis=0)
+    yield Progress("Solid", 0.0)
+    crossings, places, shares = LineCrossings(corners), [], []
     for axis in range(3):
         yield Progress("Solid", axis / 3)
-        along, share = chords_along(corners, axis)
+        along, share = chords_along(crossings, vertices, axis)
         places.append(along)
         shares.append(share)
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
@@ -176,7 +179,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         chords, volumes = chords[:0], volumes[:0]
     return Solid(
         mesh,
-        np.unique(corners.reshape(-1, 3), axis=0),
+        vertices,
         samples.positions,
         samples.triangles,
         chords,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...steps.progress import Progress, Steps, within
 from ..cost import cost_of_sides, least_cost_of_sides
 from ..enclosing.shapes import roughly_around
-from ..joining import Joints, join_pieces
+from ..joining import Joints, join_pieces, part_again
 from ..piece import Piece
 from .cell import Cell, cut
 from .planes import ranked_planes
@@ -37,7 +37,8 @@ _LOWER = 0.9
 def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
     """Cut a piece until all are close, and join neighbors.
 
-    If joining leaves room for more pieces, those that are not close yet are cut again.
+    If joining leaves room for more pieces, those that are not close yet are cut again,
+    or come apart again.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
         far = [one for one in cells if not one.is_close] if len(pieces) < most else []
         tried.update(far)
         pieces = [one for one in pieces if one not in far]
-    return pieces
+    return part_again(pieces, most, joints)
 
 
 def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:

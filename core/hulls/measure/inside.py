@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape
-from ..chords import in_order
 from .holes import HoleEdges
-from .line_crossings import TURNS, LineCrossings, as_seen
+from .line_crossings import TURNS, LineCrossings, as_seen, in_order
 from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.

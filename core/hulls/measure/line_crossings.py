@@ -100,6 +100,43 @@ class LineCrossings:
         return line[hit], heights, turns[triangle].astype(np.int64)
 
 
+def in_order(
+    line: NDArray[np.int64], heights: NDArray[np.float64], turns: NDArray[np.int64]
+) -> tuple[
+    NDArray[np.int64],
+    NDArray[np.float64],
+    NDArray[np.int64],
+    NDArray[np.bool_],
+    NDArray[np.int64],
+]:
+    """Sort crossings of lines and a surface by line and height, and count them.
+
+    Parameters
+    ----------
+    line : (C,) int
+        Row of the line.
+    heights : (C,) float
+        Coordinate along the line.
+    turns : (C,) int
+        1 where the line enters the inside, −1 where it leaves it.
+
+    Returns
+    -------
+    line, heights, turns : (C,) int, float and int
+        Sorted.
+    first : (C,) bool
+        Which are the first on their line.
+    depths : (C,) int
+        How many more times the line has entered than left from there on.
+    """
+    order = np.lexsort((heights, line))
+    line, heights, turns = line[order], heights[order], turns[order]
+    first = np.r_[True, line[1:] != line[:-1]][: len(line)]
+    starts = np.maximum.accumulate(np.where(first, np.arange(len(line)), 0))
+    total = np.cumsum(turns)
+    return line, heights, turns, first, total - (total - turns)[starts]
+
+
 def _number_of(
     axes: NDArray[np.int64], columns: NDArray[np.int64], rows: NDArray[np.int64]
 ) -> NDArray[np.int64]:

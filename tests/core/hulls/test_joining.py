@@ -3,6 +3,7 @@
 import numpy as np
 import shapes
 from computed import build_hulls
+from weak_convex_decomposition.core.hulls.joining import part_again
 from weak_convex_decomposition.core.hulls.piece import Piece
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
@@ -17,3 +18,20 @@ def test_joins_go_by_errors_that_estimates_miss(monkeypatch):
     # The hull of the dice would add less volume, but be far from both in the middle.
     assert found.n_hulls == 3
     assert found.errors.max() < 0.1
+
+
+class Known:
+    """What is asked of a piece whose error is known."""
+
+    def __init__(self, error):
+        self.known_error, self.is_close = error, error <= 0.05
+
+
+def test_joints_come_apart_again_where_there_is_room_and_something_to_gain():
+    a, b, c, d, e = (Known(error) for error in (0.01, 0.02, 0.06, 0.01, 0.09))
+    worse, worst, vain, close = (Known(error) for error in (0.07, 0.2, 0.08, 0.04))
+    known = {(a, b): worse, (worse, c): worst, (d, e): vain, (a, d): close}
+    pieces = [worst, vain, close]
+    assert part_again(pieces, 3, known) == pieces
+    assert part_again(pieces, 4, known) == [vain, close, worse, c]
+    assert part_again(pieces, 9, known) == [vain, close, c, a, b]
