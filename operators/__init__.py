@@ -42,7 +42,7 @@ def register() -> None:
     """Register the operators, the settings, the command and the table's rows."""
     import bpy
 
-    from . import scene_settings
+    from . import recut, scene_settings
     from .bridge.parts import rows
     from .bridge.work import session_cache
     from .headless import command_line
@@ -54,6 +54,7 @@ def register() -> None:
     scene_settings.register()
     command_line.register()
     session_cache.register()
+    recut.register()
     ahead.register()
     refine.register()
     joins.register()
@@ -74,7 +75,7 @@ def unregister() -> None:
     from .running import ahead, joins, modal, refine
     from .viewport import picking, show_sight, shown_parts
 
-    recut.stop()
+    recut.unregister()
     modal.stop()
     libraries.unregister()
     rows.unregister()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import time
 from dataclasses import replace
 from typing import Any, ClassVar
@@ -51,12 +52,16 @@ class _Recut(Replacement):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to find the parts while the window stays alive."""
-        self._rough = context.active_object.mode == "OBJECT"
+        self._rough = _active(context).mode == "OBJECT"
         return super().invoke(context, event)
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return recut_refusal(obj)
+
+    @classmethod
+    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        return [_active(context)]
 
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         """Return the parameters of the new parts."""
@@ -84,6 +89,11 @@ class _Recut(Replacement):
         if value.decomposition.rough:
             refine.start()
         return said
+
+
+def _active(context: bpy.types.Context) -> Any:
+    """Return the active object or None, also where a script set the window to None."""
+    return context.view_layer.objects.active
 
 
 def _taken(key: Any) -> Steps[Edited] | None:
@@ -128,7 +138,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether the active object has parts, also while something runs."""
-        return is_free(cls, cls._refusal(context.active_object))
+        return is_free(cls, cls._refusal(_active(context)))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Replace the parts at once if that is quick, else start a modal run.
@@ -151,7 +161,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     def _cut(self, context: bpy.types.Context) -> bool:
         """Replace the parts if they differ; return False if that takes too long."""
         global _begun
-        obj, parameters = context.active_object, self._wanted(context)
+        obj, parameters = _active(context), self._wanted(context)
         _begun = None  # settings have changed since
         mesh = which_mesh(context.scene.wcd.mesh, obj)
         if (noted_parameters(obj), noted_mesh(obj)) == (parameters, mesh):
@@ -192,11 +202,25 @@ def _invoke() -> float | None:
     return None
 
 
-def stop() -> None:
-    """Forget a modal run that waits to be started."""
+@bpy.app.handlers.persistent
+def stop(*_: object) -> None:
+    """Forget a modal run that waits to be started. Blender passes arguments."""
     global _begun
     _begun = None
     stop_timer(_invoke)
+
+
+def register() -> None:
+    """Stop whenever a file is loaded, and when Python ends: see `session_cache`."""
+    atexit.register(stop)
+    bpy.app.handlers.load_pre.append(stop)
+
+
+def unregister() -> None:
+    """Undo `register`, and stop."""
+    bpy.app.handlers.load_pre.remove(stop)
+    atexit.unregister(stop)
+    stop()
 
 
 class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
@@ -214,8 +238,10 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
         return replace(super()._wanted(context), parts=self.parts)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        said = super()._commit(obj, value)
+        # Last: with Live on, this asks for parts that the object has by now.
         bpy.context.scene.wcd.parts = self.parts
-        return super()._commit(obj, value)
+        return said
 
 
 WCD_OT_choose_part_count.__annotations__ = properties_for(("parts",))

@@ -13,15 +13,20 @@ from .settings import ALL, HULLS, RECUT, property_for
 _FIRST_NUMBER = 6
 
 
+def _are_here(settings: Any, context: bpy.types.Context) -> bool:
+    """Return whether settings are those of the scene that operators would work in."""
+    return bool(settings.id_data == context.scene)
+
+
 def _recut(settings: Any, context: bpy.types.Context) -> None:
     """Replace the parts of the active object if the settings are live."""
-    if settings.live and bpy.ops.wcd.recut.poll():
+    if settings.live and _are_here(settings, context) and bpy.ops.wcd.recut.poll():
         bpy.ops.wcd.recut()
 
 
 def _show_hulls(settings: Any, context: bpy.types.Context) -> None:
     """Show the hulls of the selected objects as it is set."""
-    if bpy.ops.wcd.show_hulls.poll():
+    if _are_here(settings, context) and bpy.ops.wcd.show_hulls.poll():
         bpy.ops.wcd.show_hulls(look=settings.look)
 
 
@@ -31,18 +36,18 @@ def _is_auto(settings: Any) -> bool:
 
 def _set_auto(settings: Any, auto: bool) -> None:
     """Leave the number of parts to the search, or take the number that there is."""
-    obj = bpy.context.active_object
+    here = _are_here(settings, bpy.context)
+    obj = bpy.context.view_layer.objects.active if here else None
     settings.parts = 0 if auto else (len(obj.wcd_parts) if obj else 0) or _FIRST_NUMBER
 
 
 def use_preset(settings: Any, chosen: Preset) -> None:
     """Set all settings of a scene to those of a preset."""
     parameters = chosen.parameters()
-    live, settings.live = settings.live, False  # replace the parts once, at the end
+    live, settings.live = settings.live, False
     for name in ALL:
         setattr(settings, name, getattr(parameters, name))
-    settings.live = live
-    _recut(settings, bpy.context)
+    settings.live = live  # replaces the parts, once
 
 
 class WCD_OT_use_preset(bpy.types.Operator):

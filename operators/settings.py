@@ -10,11 +10,13 @@ from typing import Any, cast
 import bpy
 import numpy as np
 
-from ..core.parameters.choices import LOOKS, MESHES
-from ..core.parameters.hulls import HullParameters
-from ..core.parameters.parameter import Choice, ParameterInfo, info_of
+from ..core.parameters.hulls import RELATIVE_ERRORS, HullParameters
+from ..core.parameters.parameter import ParameterInfo, info_of
 from ..core.parameters.parts import Parameters
-from .bridge.views.colors import CHOICES
+from .bridge.hulls import looks
+from .bridge.read.extents import half_side_of
+from .bridge.stored.record import MESHES
+from .bridge.views import colors
 
 ALL = tuple(field.name for field in fields(Parameters))
 FRONT = tuple(f.name for f in fields(Parameters) if not info_of(f).advanced)
@@ -25,12 +27,14 @@ _FIELDS = {f.name: f for kind in (Parameters, HullParameters) for f in fields(ki
 # Settings of runs on objects of Blender; the core does not know of them.
 _OF_RUNS = ("keep_edits", "mesh", "colors")
 _OF_HULLS = ("mesh", "look")
-_COLORS = [Choice(*each) for each in CHOICES]
 _CHOICES = {
-    "colors": ("Colors", "How runs show the colors of the parts", _COLORS),
+    "colors": ("Colors", "How runs show the colors of the parts", colors.CHOICES),
     "mesh": ("Mesh", "Mesh of the object that is read", MESHES),
-    "look": ("Display", "How hulls are seen in the viewport", LOOKS),
+    "look": ("Display", "How hulls are seen in the viewport", looks.CHOICES),
 }
+# What sliders have of their own. A click of an arrow changes the value by a hundredth
+# of the step; lengths in the scene below the smallest relative error can be typed.
+_SLIDERS = {"max_error": {"step": 1, "soft_min": RELATIVE_ERRORS[0]}}
 RUN = (*ALL, *_OF_RUNS)
 HULL_RUN = (*HULLS, *_OF_HULLS)
 MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
@@ -62,8 +66,7 @@ def _of_runs(name: str, **more: Any) -> Any:
             **more,
         )
     label, text, choices = _CHOICES[name]
-    items = [(each.identifier, each.label, each.help) for each in choices]
-    return bpy.props.EnumProperty(name=label, description=text, items=items, **more)
+    return bpy.props.EnumProperty(name=label, description=text, items=choices, **more)
 
 
 def parameters_from(owner: Any, names: Iterable[str] = ALL) -> Parameters:
@@ -95,9 +98,10 @@ def is_used(owner: Any, name: str) -> bool:
 
 def other_error(settings: Any, obj: bpy.types.Object) -> tuple[str, str] | None:
     """Return the largest error of hulls in the other unit, with its name, as text."""
-    extents = np.ptp(np.array(obj.bound_box), axis=0)
-    half = float((extents * np.abs(obj.matrix_world.to_scale())).max()) / 2
-    if half <= 0 or settings.pieces != "BY_ERROR":
+    if settings.pieces != "BY_ERROR":
+        return None
+    half = half_side_of(obj, settings.mesh)
+    if not half:
         return None
     if settings.error_unit == "SCENE":
         return "Relative Error", f"{settings.max_error / half:.3g}"
@@ -121,6 +125,7 @@ def _property(field: Field[Any], **more: Any) -> Any:
         "name": info.label,
         "description": info.help,
         "default": field.default,
+        **_SLIDERS.get(field.name, {}),
         **more,
     }
     if info.choices:
@@ -132,10 +137,8 @@ def _property(field: Field[Any], **more: Any) -> Any:
     described |= _bounds(info, int if whole else float)
     if whole:
         return bpy.props.IntProperty(**described)
-    step = 100 if info.subtype == "ANGLE" else 10
-    return bpy.props.FloatProperty(
-        subtype=info.subtype, precision=3, step=step, **described
-    )
+    described.setdefault("step", 100 if info.subtype == "ANGLE" else 10)
+    return bpy.props.FloatProperty(subtype=info.subtype, precision=3, **described)
 
 
 def _bounds(info: ParameterInfo, number: type) -> dict[str, Any]:

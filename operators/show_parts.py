@@ -9,7 +9,12 @@ import numpy as np
 
 from .bridge.mesh.corners import boundary_edges
 from .bridge.mesh.seams import mark_seams, unmark_seams
-from .bridge.mesh.selection import hide_faces, select_edges, select_faces
+from .bridge.mesh.selection import (
+    isolate_parts,
+    select_edges,
+    select_faces,
+    show_all,
+)
 from .bridge.mesh.viewing import frame_points, points_of_parts
 from .bridge.parts.present_parts import present_parts
 from .bridge.parts.rows import chosen_numbers, chosen_parts
@@ -74,9 +79,10 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
         return cls.bl_description if properties.hide else "Show all hidden faces again"
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-        if obj.mode == "EDIT":
-            members = _members(obj)
-            hide_faces(obj, ~members if self.hide else np.zeros_like(members))
+        if obj.mode == "EDIT" and self.hide:
+            isolate_parts(obj, present_parts(obj).labels, chosen_parts(obj))
+        elif obj.mode == "EDIT":
+            show_all(obj)
         elif self.hide:
             bring_in_step(obj)
             present_parts(obj)  # or an error

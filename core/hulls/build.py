@@ -22,18 +22,14 @@ from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
 from ..steps.memo import digest
 from ..steps.progress import Progress, Steps, within
-from .convex_hull import THIN, convex_hull
+from .convex_solid import exact_error, hull_of_convex
 from .cutting.cell import whole
 from .cutting.close_pieces import close_pieces
 from .fitting import Fit, fit_for
 from .joining import join_pieces
-from .measure.uncovered import uncovered
 from .notes import notes_on
 from .piece import Piece, piece_of_part
 from .solid import Solid, solid_of
-
-# Shapes whose volumes differ by less, as a share, are the same if one is in the other.
-_SAME_VOLUME = 1e-9
 
 
 def build_hulls_in_steps(
@@ -163,21 +159,12 @@ def _find(
 
 
 def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | None:
-    """Return the one shape around a convex solid, None if its error must be measured.
-
-    A shape as large as the solid is the solid. A hull within the solid adds nothing:
-    its error is what it leaves uncovered.
-    """
-    assert prepared.solid is not None  # None for point clouds only
-    mesh = prepared.solid
-    used = np.unique(mesh.triangles)  # other vertices are in no face
-    hull = convex_hull(mesh.vertices[used] * scale, THIN)
+    """Return the shape around a convex solid, None if it must be cut or measured."""
+    hull = hull_of_convex(prepared, scale)
     shape = fit.of_part(0).shape(hull)
-    error = uncovered(shape, hull)
-    within = shape.kind == "HULL" and fit.margin <= 0
-    same = abs(shape.volume - hull.volume) <= _SAME_VOLUME * hull.volume
+    error = exact_error(shape, hull, fit)
     by_error = fit.parameters.pieces != "PARTS"
-    if not (within or (same and error <= THIN)) or (by_error and error > fit.max_error):
+    if error is None or (by_error and error > fit.max_error):
         return None
     errors, row = np.array([error]), np.zeros(1, dtype=np.int64)
     return _Found([shape], errors, [hull], row, hull.volume)
@@ -211,7 +198,7 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
     if fit.parameters.pieces == "PARTS":
         start = []
         for row in np.unique(parts).tolist():
-            yield Progress("Hulls", 0.0)
+            yield Progress("Solid", 0.0)
             start.append(piece_of_part(solid, fit.of_part(row), parts, row))
         return (yield from join_pieces(start, most, {}, close=False))
     if not fit.has_room:  # cuts cannot make up for the margin

@@ -7,6 +7,8 @@ from typing import Any, ClassVar
 import bpy
 
 from ...core.errors import DecompositionError
+from ...core.parameters.parameter import field_of, info_of
+from ...core.parameters.parts import Parameters
 from ...core.steps.progress import Steps
 from ..bridge.mesh.selection import selected_faces
 from ..bridge.parts.read import part_identities
@@ -110,7 +112,7 @@ WCD_OT_split_parts.__annotations__ = {
         " number",
         default=2,
         min=0,
-        max=256,
+        max=int(info_of(field_of(Parameters, "parts")).high),
     )
 }
 

@@ -11,6 +11,7 @@ from ...parameters.hulls import HullParameters
 from ...results.hulls import HullDecomposition
 from ...steps.progress import Progress, Steps, within
 from ..convex_hull import THIN, convex_hull
+from ..convex_solid import exact_error, has_volume_of, hull_of_convex
 from ..fitting import fit_for
 from ..solid import solid_of
 from .error_bound import ErrorBound
@@ -49,7 +50,11 @@ def refit_in_steps(
     yield Progress("Measuring", 0.8)
     hull = convex_hull((points - mesh.center) / fit.unit, THIN)
     shape = fit.shape(hull)
-    error = ErrorBound(solid, shape, hull, fit.max_error).value
+    error = None
+    if prepared.convex and has_volume_of(hull, hull_of_convex(prepared, scale)):
+        error = exact_error(shape, hull, fit)
+    if error is None:
+        error = ErrorBound(solid, shape, hull, fit.max_error).value
     volume = solid.true_volume
     ratio = shape.volume / volume if volume > 0 else np.inf
     return HullDecomposition(

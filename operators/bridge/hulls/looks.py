@@ -11,7 +11,17 @@ from numpy.typing import NDArray
 from ..parts.materials import discard_unused, is_ours
 from ..stored.names import PIECE_TAG
 
+# The choices, with their labels and tooltips.
 TRANSPARENT, SOLID, WIRE = "TRANSPARENT", "SOLID", "WIRE"
+CHOICES = (
+    (
+        TRANSPARENT,
+        "Transparent",
+        "Solids that are seen through, in the colors of the parts",
+    ),
+    (SOLID, "Solid", "Solids in the colors of the parts"),
+    (WIRE, "Wire", "Edges only"),
+)
 # Opacity of hulls that are seen through.
 _OPACITY = 0.35
 

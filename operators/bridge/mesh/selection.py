@@ -11,6 +11,7 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from .attributes import BoolArray, IntArray, read_flags, read_ints, write_flags
 from .corners import corner_edges
@@ -57,14 +58,38 @@ def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     show_flags(mesh)
 
 
-def hide_faces(obj: bpy.types.Object, hidden: BoolArray) -> None:
-    """Hide these faces of a mesh in Edit Mode, and show all others."""
+def isolate_parts(
+    obj: bpy.types.Object, labels: NDArray[np.int64], chosen: list[int]
+) -> None:
+    """Hide the faces of all parts but the chosen ones, in Edit Mode.
+
+    What is hidden stays so. But a chosen part is shown if none of its faces is: then it
+    was hidden with others, when other parts were isolated.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    labels : (P,) int
+        The part of each face.
+    chosen : list of int
+    """
+    bm = bmesh.from_edit_mesh(obj.data)
+    seen = np.array([not face.hide for face in bm.faces], dtype=bool)
+    others = ~np.isin(labels, chosen)
+    back = ~others & ~np.isin(labels, labels[seen])
+    for face, is_other, is_back in zip(
+        bm.faces, others.tolist(), back.tolist(), strict=True
+    ):
+        if is_other or is_back:
+            face.hide_set(is_other)
+    show_flags(obj.data)
+
+
+def show_all(obj: bpy.types.Object) -> None:
+    """Show all faces, edges and vertices of a mesh in Edit Mode."""
     bm = bmesh.from_edit_mesh(obj.data)
     for element in (*bm.verts, *bm.edges, *bm.faces):
         element.hide_set(False)
-    for face, hide in zip(bm.faces, hidden.tolist(), strict=True):
-        if hide:
-            face.hide_set(True)
     show_flags(obj.data)
 
 

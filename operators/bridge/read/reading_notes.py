@@ -7,8 +7,13 @@ import bpy
 from .carrier import is_waiting
 from .shown_mesh import shown_modifiers, shows_keys
 
+# How the window names the choice to read what is seen.
+WHAT_IS_SEEN = "Mesh: Evaluated"
 
-def reading_notes(obj: bpy.types.Object, for_parts: bool = True) -> tuple[str, ...]:
+
+def reading_notes(
+    obj: bpy.types.Object, for_parts: bool = True, has_choice: bool = False
+) -> tuple[str, ...]:
     """Return sentences to the user about what was read of an object.
 
     Parameters
@@ -16,6 +21,8 @@ def reading_notes(obj: bpy.types.Object, for_parts: bool = True) -> tuple[str, .
     obj : bpy.types.Object
     for_parts : bool, optional
         Whether it was read to write parts to it, which objects may share.
+    has_choice : bool, optional
+        Whether what is seen of the object could have been read in place of its mesh.
     """
     if is_waiting(obj):
         curve = obj.parent.name
@@ -26,11 +33,10 @@ def reading_notes(obj: bpy.types.Object, for_parts: bool = True) -> tuple[str, .
     notes = []
     modifiers = [modifier.name for modifier in shown_modifiers(obj)]
     if modifiers:
-        notes.append(
-            "The mesh was read without its modifiers"
-            f" ({', '.join(modifiers)}); apply them, or choose the evaluated mesh"
-            " (--apply-modifiers on the command line), to include them."
-        )
+        names = ", ".join(modifiers)
+        notes.append(f"The mesh was read without its modifiers ({names}).")
+    if modifiers and has_choice:  # a note of its own: panels show equal ones once
+        notes.append(f"To include modifiers, apply them, or choose {WHAT_IS_SEEN}.")
     if shows_keys(obj):
         notes.append("The mesh was read in its Basis shape, without shape keys.")
     if for_parts and obj.data.users > 1:  # else not counted: files have thousands

@@ -20,7 +20,16 @@ def shown_modifiers(obj: bpy.types.Object) -> list[bpy.types.Modifier]:
 def shows_keys(obj: bpy.types.Object) -> bool:
     """Return whether shape keys move the vertices of an object."""
     keys = getattr(obj.data, "shape_keys", None)  # point clouds have none
-    return keys is not None and any(key.value for key in keys.key_blocks)
+    if keys is None:
+        return False
+    # The mesh itself has the shape of the first one, whose value counts for nothing.
+    others = [key for key in keys.key_blocks if key != keys.reference_key]
+    if obj.show_only_shape_key:
+        pinned = obj.active_shape_key
+        return pinned in others and not pinned.mute
+    if not keys.use_relative:  # they follow each other in time
+        return bool(others)
+    return any(key.value and not key.mute for key in others)
 
 
 def differs(obj: bpy.types.Object | None) -> bool:

@@ -20,7 +20,17 @@ from .notes import parameters_in, parse_json, read_note, version, write_note
 from .restore import has_parts, read_restore, sharers
 
 # The meshes of an object that parts can be found on: its own, or as it is seen.
+# The choices, with their labels and tooltips.
 ORIGINAL, EVALUATED = "ORIGINAL", "EVALUATED"
+MESHES = (
+    (ORIGINAL, "Original", "The mesh itself, as in Edit Mode"),
+    (
+        EVALUATED,
+        "Evaluated",
+        "The mesh as it is seen: with modifiers, shape keys and poses. Parts go to the"
+        " faces that it comes from; if there are none, to a new object",
+    ),
+)
 # Key of what is noted of hulls, and in that of each one.
 HULLS = "hulls"
 

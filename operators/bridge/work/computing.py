@@ -68,7 +68,12 @@ def read_seen(
     """
     if seen is not None:
         return seen.notes, as_steps(seen.shape)
-    return reading_notes(obj, for_parts), shape_in_steps(obj)
+    return reading_notes(obj, for_parts, has_choice=True), shape_in_steps(obj)
+
+
+def _read_own(obj: bpy.types.Object) -> tuple[Notes, Steps[Shape]]:
+    """Return what `read_seen` does, of the mesh itself: nothing else can be read."""
+    return reading_notes(obj, for_parts=False), shape_in_steps(obj)
 
 
 def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
@@ -80,7 +85,7 @@ def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measu
         At once, if the object cannot be read.
     """
     check_records(obj)
-    notes, reading = read_seen(obj, None, for_parts=False)
+    notes, reading = _read_own(obj)
 
     def work() -> Steps[Measurement]:
         shape = yield from reading
@@ -100,7 +105,7 @@ def measure_selection_of(
         At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
-    notes, reading = read_seen(obj, None, for_parts=False)
+    notes, reading = _read_own(obj)
     faces = selected_faces(obj)
     if not faces.any():
         raise DecompositionError(
@@ -124,7 +129,7 @@ def point_viewer_of(
     DecompositionError
         At once, if the object cannot be read.
     """
-    notes, reading = read_seen(obj, None, for_parts=False)
+    notes, reading = _read_own(obj)
 
     def work() -> Steps[core.PointViewer]:
         shape = yield from reading

@@ -69,7 +69,9 @@ def decompose_whole_faces(
         At once, if the object cannot be read or written to.
     """
     check_writable(obj)
-    notes, factors, mesh = reading_notes(obj), stretch(obj), whole_mesh_of(obj)
+    # Faces are cut of the mesh itself only: see `gets_new_faces`.
+    notes = reading_notes(obj, has_choice=parameters.seams != "CUT")
+    factors, mesh = stretch(obj), whole_mesh_of(obj)
     shape, made = read_mesh(mesh, factors), CutMesh(mesh, factors)
 
     def work() -> Steps[Edited]:

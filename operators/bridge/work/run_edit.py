@@ -26,7 +26,7 @@ from ..read.reading_notes import reading_notes
 from ..read.shape import shape_in_steps
 from ..read.target import Target
 from ..stored.identity import Identity
-from ..stored.record import EVALUATED, ORIGINAL, note_mesh
+from ..stored.record import EVALUATED, ORIGINAL, note_mesh, noted_mesh
 from .libraries import load_libraries
 from .session_cache import session_cache
 
@@ -78,6 +78,9 @@ class Edited:
         obj : bpy.types.Object
             The object that they were computed for.
         """
+        mesh = EVALUATED if self.seen else ORIGINAL
+        if self.identities is not None:  # an edit finds no parts
+            mesh = noted_mesh(obj)
         write_parts(
             obj,
             self.decomposition,
@@ -87,7 +90,7 @@ class Edited:
             self.faces,
             self.ready,
         )
-        note_mesh(obj, EVALUATED if self.seen else ORIGINAL)
+        note_mesh(obj, mesh)
         let_undo_see_all(obj)
 
 

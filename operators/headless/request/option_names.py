@@ -10,6 +10,7 @@ from ....core.parameters.bodies import BodyParameters
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parameter import info_of
 from ....core.parameters.parts import Parameters
+from ...bridge.read.reading_notes import WHAT_IS_SEEN
 
 # The kinds of settings that have an option each.
 SETTINGS = (Parameters, HullParameters, BodyParameters)
@@ -50,8 +51,9 @@ def _options_of_labels() -> dict[str, str]:
         for kind in SETTINGS
         for each in fields(kind)
     ]
-    return {
+    differing = {
         label: flag
         for label, flag in pairs
         if option(label.lower().replace(" ", "_")) != flag
     }
+    return {**differing, WHAT_IS_SEEN: option("apply_modifiers")}

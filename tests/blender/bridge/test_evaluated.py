@@ -176,6 +176,18 @@ def test_figures_are_out_of_date_once_the_mesh_changes(dumbbell):
     dumbbell.data.transform(Matrix.Diagonal((1, 2, 1, 1)))
     bpy.ops.wcd.refresh_parts()
     check_in_step(dumbbell)
+    assert record_of(dumbbell)["mesh"] == "EVALUATED"  # where they were found
+
+
+def test_an_edit_keeps_the_mesh_that_the_parts_were_found_on(dumbbell):
+    dumbbell.modifiers.new("Finer", "SUBSURF").levels = 1
+    decompose(parts=3)
+    for row in dumbbell.wcd_parts[:2]:
+        row.chosen = True
+    bpy.ops.wcd.merge_parts()
+    record = record_of(dumbbell)
+    assert (record["k"], record["mesh"]) == (2, "EVALUATED")
+    bpy.ops.wcd.decompose(**FAST, parts=3)
     assert record_of(dumbbell)["mesh"] == "ORIGINAL"
 
 

@@ -17,8 +17,9 @@ def mirrored(suzanne):
 
 def test_notes_on_reading_and_on_the_result_are_recorded(mirrored):
     bpy.ops.wcd.decompose(samples=16, parts=16, smallest_part=0.5)
-    reading, counting = json.loads(mirrored["wcd"])["notes"]
+    reading, choosing, counting = json.loads(mirrored["wcd"])["notes"]
     assert "without its modifiers (Mirror)" in reading
+    assert "choose Mesh: Evaluated" in choosing
     assert "of the 16 parts could be made" in counting
 
 
@@ -33,8 +34,25 @@ def test_the_sidebar_gets_each_note_once(mirrored):
     bpy.ops.wcd.measure(**FAST)
     assert len(notes_of(mirrored)) == 1
     bpy.ops.wcd.decompose(**FAST)
-    (note,) = notes_of(mirrored)
+    note, advice = notes_of(mirrored)
     assert note.startswith("The mesh was read without its modifiers")
+    assert advice.startswith("To include modifiers")
+
+
+@pytest.mark.parametrize("work", ["measure", "merge_parts", "seams"])
+def test_what_is_seen_is_not_advised_where_it_cannot_be_read(mirrored, work):
+    if work == "seams":
+        bpy.ops.wcd.decompose(**FAST, seams="CUT")
+    elif work == "measure":
+        bpy.ops.wcd.measure(**FAST)
+    else:
+        bpy.ops.wcd.decompose(**FAST, parts=3)
+        for row in mirrored.wcd_parts[:2]:
+            row.chosen = True
+        bpy.ops.wcd.merge_parts()
+    notes = " ".join(notes_of(mirrored))
+    assert "without its modifiers (Mirror)" in notes
+    assert "Evaluated" not in notes
 
 
 def test_a_record_without_notes_is_read(suzanne):

@@ -12,6 +12,7 @@ from weak_convex_decomposition.operators.bridge.read.shape import (
     read_shape,
     shape_in_steps,
 )
+from weak_convex_decomposition.operators.bridge.read.shown_mesh import shows_keys
 
 HEXAGON = [(np.cos(a), np.sin(a), 0.0) for a in np.linspace(0, 2 * np.pi, 7)[:-1]]
 
@@ -60,6 +61,41 @@ def test_shared_meshes_and_shape_keys_are_noted(suzanne):
     assert "Basis" in shape
     assert "2 objects share this mesh" in shared
     assert reading_notes(suzanne, for_parts=False) == (shape,)
+
+
+def keyed(obj):
+    """Give an object a Basis and a second shape, which has no value."""
+    obj.shape_key_add(name="Basis")
+    other = obj.shape_key_add(name="smile")
+    other.value = 0.0  # from Blender 5.0 on it is new with 1
+    return other
+
+
+def test_a_basis_alone_moves_nothing(suzanne):
+    suzanne.shape_key_add(name="Basis").value = 1.0
+    assert not shows_keys(suzanne)
+    other = keyed(suzanne)
+    suzanne.active_shape_key_index = 0
+    suzanne.show_only_shape_key = True
+    other.value = 1.0
+    assert not shows_keys(suzanne)  # the Basis is pinned
+
+
+@pytest.mark.parametrize("how", ["value", "pin", "time"])
+def test_shapes_are_shown_by_value_by_pin_or_in_time(suzanne, how):
+    other = keyed(suzanne)
+    assert not shows_keys(suzanne)
+    if how == "value":
+        other.value = 0.5
+    elif how == "pin":
+        suzanne.active_shape_key_index = 1
+        suzanne.show_only_shape_key = True
+    else:
+        suzanne.data.shape_keys.use_relative = False
+    assert shows_keys(suzanne)
+    if how != "time":  # where Blender does not ask for this
+        other.mute = True
+        assert not shows_keys(suzanne)
 
 
 def test_non_uniform_scale_stretches_the_copy_alone(suzanne):

@@ -107,10 +107,25 @@ def test_another_file_and_unregistering_free_it(suzanne):
     assert not is_seen(bpy.context.active_object)
 
 
-def test_a_script_that_ends_leaves_no_memory_to_blender():
+# Parts that a slider did not wait for, half found.
+_HALF_FOUND = """
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.steps.job import Job
+from weak_convex_decomposition.operators import recut
+from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
+job = Job(decompose_object(bpy.context.active_object, Parameters(samples=150)))
+while job.progress.stage != "Lines of sight":
+    job.advance(0.0)
+recut._begun = "key", job
+"""
+
+
+@pytest.mark.parametrize("more", ["", _HALF_FOUND])
+def test_a_script_that_ends_leaves_no_memory_to_blender(more):
     script = (
         "import checkout, bpy; import weak_convex_decomposition as wcd; wcd.register();"
         "bpy.ops.mesh.primitive_monkey_add(); bpy.ops.wcd.decompose(samples=100)"
+        f"{more}"
     )
     done = subprocess.run(
         [sys.executable, "-c", script],

@@ -13,6 +13,9 @@ from weak_convex_decomposition.core.parameters.parameter import info_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import preset
 from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.request.option_names import (
+    with_options,
+)
 from weak_convex_decomposition.operators.headless.request.options import parse
 
 ROOT = Path(__file__).parents[3]
@@ -102,6 +105,19 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
         assert err.endswith("All options: blender --command wcd --help\n"), arguments
         assert err.count("\n") == 2, arguments
         assert list(tmp_path.iterdir()) == [], arguments
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("Detail is 11; choose a value from 0 to 10.", " (Detail is --alpha.)"),
+        ("Details are found.", ""),
+        ("Detail.obj cannot be read.", ""),
+        ("models/Detail/a.obj cannot be read.", ""),
+    ],
+)
+def test_options_are_named_for_settings_not_for_files(text, hint):
+    assert with_options(text) == text + hint
 
 
 def test_one_input_all_results(tmp_path, model, capfd):

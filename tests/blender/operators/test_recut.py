@@ -4,13 +4,15 @@ import json
 
 import bpy
 import pytest
+import weak_convex_decomposition as package
 from edited import check_in_step, faces_by_name, needless_change
 from hand_made import face_values
 from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.seams import cutter
+from weak_convex_decomposition.core.steps.job import Job
 from weak_convex_decomposition.operators import recut
-from weak_convex_decomposition.operators.bridge.work import session_cache
+from weak_convex_decomposition.operators.bridge.work import run_edit, session_cache
 from weak_convex_decomposition.operators.running import ahead
 from weak_convex_decomposition.operators.settings import RECUT
 
@@ -101,11 +103,25 @@ def test_settings_that_contradict_each_other_change_nothing(suzanne, settings):
     assert snapshot(suzanne) == before
 
 
-def test_a_preset_cuts_once(suzanne, settings):
+def counted(monkeypatch, owner, name):
+    """Return a list that gets an entry with each call of a function."""
+    calls, function = [], getattr(owner, name)
+
+    def call(*args):
+        calls.append(name)
+        return function(*args)
+
+    monkeypatch.setattr(owner, name, call)
+    return calls
+
+
+def test_a_preset_cuts_once(suzanne, settings, monkeypatch):
     settings.parts = 3
     settings.alpha = 1.0
+    calls = counted(monkeypatch, recut.WCD_OT_recut, "_cut")
     bpy.ops.wcd.use_preset(preset="DEFAULT")
     assert settings.live
+    assert len(calls) == 1
     settings.samples = 200
     settings.parts = 4
     assert record(suzanne)["parameters"]["alpha"] == 2.0
@@ -121,6 +137,31 @@ def test_the_chart_chooses_a_number(suzanne, settings):
         assert (chosen["k"], len(chosen["parts"])) == (k, k)
         assert chosen["psi_by_k"] == first["psi_by_k"]
         assert chosen["best_k"] == first["best_k"] == first["k"]
+
+
+@pytest.mark.parametrize("live", [True, False])
+def test_the_chart_writes_once(suzanne, settings, monkeypatch, live):
+    settings.live = live
+    calls = counted(monkeypatch, run_edit, "write_parts")
+    bpy.ops.wcd.choose_part_count(parts=3)
+    assert (settings.parts, record(suzanne)["k"], len(calls)) == (3, 3, 1)
+
+
+def test_live_needs_no_window(suzanne, settings, capfd):
+    with bpy.context.temp_override(window=None):
+        settings.parts = 3
+        bpy.ops.wcd.choose_part_count(parts=4)
+        settings.auto_parts = False
+    assert record(suzanne)["k"] == 4
+    assert "Traceback" not in "".join(capfd.readouterr())
+
+
+def test_work_that_waits_for_a_window_ends_with_its_file(suzanne, settings):
+    for end in (lambda: bpy.ops.wm.read_homefile(use_empty=True), package.unregister):
+        recut._begun = "key", Job(iter(()))
+        end()
+        assert recut._begun is None
+    package.register()
 
 
 def test_the_chart_needs_parts(suzanne):

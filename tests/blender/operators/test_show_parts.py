@@ -74,6 +74,21 @@ def test_other_parts_are_hidden_and_shown_again(suzanne, labels):
     assert not flags(suzanne, "polygons", "hide").any()
 
 
+def test_faces_that_the_user_hid_stay_hidden(suzanne, labels):
+    own = np.flatnonzero(labels == 1)[:5]
+    for row in own:
+        suzanne.data.polygons[row].hide = True
+    in_mode(suzanne, "EDIT")
+    bpy.ops.wcd.isolate_parts()
+    hidden = labels != 1
+    hidden[own] = True
+    assert (flags(suzanne, "polygons", "hide") == hidden).all()
+    in_mode(suzanne, "EDIT")
+    bpy.ops.wcd.isolate_parts(hide=False)
+    for elements in ("polygons", "edges", "vertices"):
+        assert not flags(suzanne, elements, "hide").any()
+
+
 @pytest.mark.parametrize("name", ["select_parts", "select_boundary", "mark_seams"])
 def test_showing_is_one_undo_step(suzanne, labels, name):
     before = snapshot(suzanne)

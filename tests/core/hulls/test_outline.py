@@ -60,3 +60,12 @@ def test_another_shape_is_the_one_that_would_have_been_built(unit):
         found = run(refit_in_steps(mesh, points, parameters, cache))
         assert found.shapes[0].volume == pytest.approx(shape.volume, rel=1e-6)
         assert found.errors[0] == pytest.approx(expected.errors[row], rel=0.1)
+
+
+@pytest.mark.parametrize("kind", ["HULL", "BOX", "SPHERE"])
+def test_another_shape_of_a_convex_solid_has_the_error_of_a_built_one(kind):
+    mesh, parameters = shapes.box(), HullParameters(shape=kind, max_hulls=1)
+    expected = build_hulls(mesh, parameters)
+    steps = refit_in_steps(mesh, mesh.vertices, parameters, ShapeCache(BruteCaster))
+    assert run(steps).errors == pytest.approx(expected.errors, rel=0.05, abs=1e-9)
+    assert (expected.errors.max() < 1e-9) == (kind != "SPHERE")

@@ -57,7 +57,9 @@ def test_without_the_option_modifiers_stay(tmp_path, capsys):
     path = tmp_path / "a.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     assert main([str(path), *QUICK]) == 0
-    assert "The mesh was read without its modifiers (Finer)" in capsys.readouterr().err
+    err = capsys.readouterr().err
+    assert "The mesh was read without its modifiers (Finer)" in err
+    assert "(Mesh: Evaluated is --apply-modifiers.)" in err
 
 
 def test_shape_keys_and_armatures_are_applied_as_shown(tmp_path):
