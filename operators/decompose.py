@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Callable
+from functools import partial
+from typing import Any, ClassVar
 
 import bpy
 
 from ..core.steps.progress import Steps
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
+from .bridge.hulls.lost_hulls import hulls_to_clear
 from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
@@ -98,6 +101,11 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return clear_refusal(obj)
+
+    @classmethod
+    def _refusals(cls) -> Callable[[Any], str | None]:
+        """Return `_refusal`, which looks for hulls once for all objects."""
+        return partial(clear_refusal, has_hulls=hulls_to_clear())
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         in_object_mode = obj.mode == "OBJECT"

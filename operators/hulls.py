@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 import bpy
 
 from ..core.results.hulls import HullDecomposition
 from ..core.steps.progress import Steps
 from .bridge.hulls.hull_objects import erase_hulls, write_hulls
-from .bridge.hulls.listed import hulls_of
+from .bridge.hulls.listed import hulls_of, owners_of_hulls
 from .bridge.hulls.looks import look_like
 from .bridge.hulls.one_hull import refit, remove_hull, write_refit
 from .bridge.hulls.rigid_bodies import make_rigid
@@ -73,6 +74,12 @@ class _OnHulls(OnEach):
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return rigid_refusal(obj)
+
+    @classmethod
+    def _refusals(cls) -> Callable[[Any], str | None]:
+        """Return `_refusal`, which looks for hulls once for all objects."""
+        owners = owners_of_hulls()
+        return lambda obj: rigid_refusal(obj, lambda: owners)
 
 
 class WCD_OT_make_rigid(_OnHulls, bpy.types.Operator):

@@ -11,6 +11,7 @@ from ..core.errors import DecompositionError
 from ..core.parameters.parts import Parameters
 from ..core.results.parts import Measurement
 from ..core.steps.progress import Steps
+from .bridge.mesh.layers import let_undo_see_all
 from .bridge.mesh.selection import selected_faces
 from .bridge.refusals import measure_refusal, selection_refusal
 from .bridge.stored.record import record_if_ours, write_measurement
@@ -44,6 +45,7 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
 
     def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
         write_measurement(obj, value, _used(self._parameters, MEASURE))
+        let_undo_see_all(obj)
         return _figures(value)
 
 
@@ -82,6 +84,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
     def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
         n_faces = self._n_faces[obj.session_uid]
         write_measurement(obj, value, _used(self._parameters, SELECTION), n_faces)
+        let_undo_see_all(obj)
         return f"{_figures(value)} of {n_faces:,} faces"
 
 

@@ -60,8 +60,8 @@ class _Recut(Replacement):
         return recut_refusal(obj)
 
     @classmethod
-    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        return [_active(context)]
+    def _active(cls, context: bpy.types.Context) -> Any:
+        return _active(context)
 
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         """Return the parameters of the new parts."""

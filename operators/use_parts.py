@@ -7,7 +7,7 @@ from typing import ClassVar
 import bpy
 
 from .bridge.parts.present_parts import present_parts
-from .bridge.parts.separating import replace, separate
+from .bridge.parts.separating import area_of, replace, separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .bridge.views.colors import CHOICES, show_colors_as
 from .bridge.views.exploding import DISTANCE_HELP, FARTHEST, explode, exploding, implode
@@ -41,7 +41,7 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
         was_active = context.active_object == obj
         pieces = separate(obj)
         if self.original == "REMOVE":
-            replace(obj, pieces[0])
+            replace(obj, max(pieces, key=area_of))
         else:
             obj.select_set(False)
             obj.hide_set(True)
@@ -106,9 +106,11 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
         """Return why there is no exploded view to end."""
         reason = super()._obstacle(context)
-        if reason is None and not any(map(exploding, cls._chosen(context))):
-            return "There is no exploded view; press Exploded View first"
-        return reason
+        there = {*cls._candidates(context), cls._active(context)} - {None}
+        exploded = {obj for obj in there if reason is None and exploding(obj)}
+        if exploded and not exploded.isdisjoint(cls._chosen(context)):
+            return None
+        return reason or "There is no exploded view; press Exploded View first"
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         implode(obj)
@@ -168,16 +170,28 @@ class WCD_OT_show_colors(_OnParts, bpy.types.Operator):
         return next(help for name, _, help in CHOICES if name == properties.colors)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Let runs from now on do the same."""
-        context.scene.wcd.colors = self.colors
+        """Show them as a button does."""
+        self.from_now_on = True
         return self.execute(context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Show them; let later runs do the same if a button was pressed.
+
+        Adjust Last Operation takes that back, and calls this again.
+        """
+        if self.from_now_on:
+            context.scene.wcd.colors = self.colors
+        return super().execute(context)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         bring_in_step(obj)
         show_colors_as(obj, self.colors)
 
 
-WCD_OT_show_colors.__annotations__ = properties_for(("colors",))
+WCD_OT_show_colors.__annotations__ = {
+    **properties_for(("colors",)),
+    "from_now_on": bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"}),
+}
 
 CLASSES = (
     WCD_OT_separate,

@@ -6,7 +6,14 @@ from . import menus, part_drawing, shown_figures, sight_drawing
 from .chart import WCD_PT_chart
 from .edit_panel import WCD_PT_edit
 from .hulls_panel import WCD_PT_hulls
-from .menus import WCD_MT_parts, WCD_MT_pick
+from .menus import (
+    WCD_MT_edit,
+    WCD_MT_hulls,
+    WCD_MT_parts,
+    WCD_MT_pick,
+    WCD_MT_use,
+    WCD_MT_view,
+)
 from .panels import WCD_PT_advanced, WCD_PT_main, WCD_PT_parts
 from .parts_table import WCD_UL_parts
 from .use_panel import WCD_PT_use, WCD_PT_why
@@ -21,6 +28,10 @@ CLASSES = (
     WCD_PT_why,
     WCD_PT_hulls,
     WCD_PT_advanced,
+    WCD_MT_edit,
+    WCD_MT_view,
+    WCD_MT_use,
+    WCD_MT_hulls,
     WCD_MT_parts,
     WCD_MT_pick,
 )

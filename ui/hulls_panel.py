@@ -21,6 +21,9 @@ from .sidebar import (
     result_of,
 )
 
+# Share of the width of a row, without its buttons, for the color.
+_SWATCH = 0.14
+
 
 class WCD_PT_hulls(Sidebar, bpy.types.Panel):
     """Collision hulls: settings, button and result."""
@@ -58,21 +61,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
         draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
         layout.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
-        box = layout.box().column(align=True)
-        _columns(box.row(align=True), None, "Hull", "Verts", "Error")
-        names = [hull["name"] for hull in hulls]
-        for hull, name in zip(hulls, endings(names), strict=True):
-            obj = bpy.data.objects[hull["name"]]
-            material = obj.data.materials[0] if obj.data.materials else None
-            error = f"{hull['error']:.3g}" if current else "–"
-            row = box.row(align=True)
-            _columns(row, material, name, str(hull["vertices"]), error)
-            shape = row.operator_menu_enum(
-                "wcd.refit_hull", "shape", text="", icon="MESH_CUBE"
-            )
-            shape.hull = hull["name"]
-            remove = row.operator("wcd.remove_hull", text="", icon="X", emboss=False)
-            remove.hull = hull["name"]
+        _list_hulls(layout, hulls, current)
 
 
 def _shapes_of_parts(
@@ -82,7 +71,40 @@ def _shapes_of_parts(
     column = layout.column(align=True)
     for row in obj.wcd_parts:
         if row.number in here:
-            column.prop(row, "hull_shape", text=row.name)
+            column.prop(row, "hull_shape", text=row.name, translate=False)
+
+
+def _list_hulls(
+    layout: bpy.types.UILayout, hulls: Sequence[dict[str, Any]], current: bool
+) -> None:
+    """Draw the list of hulls; their errors only if these are `current`."""
+    box = layout.box().column(align=True)
+    heading = box.row(align=True)
+    _columns(heading.split(factor=_SWATCH), "Hull", "Verts", "Error")
+    for _ in range(2):  # room for the buttons of the rows below
+        heading.label(text="", icon="BLANK1")
+    names = [hull["name"] for hull in hulls]
+    for hull, name in zip(hulls, endings(names), strict=True):
+        error = f"{hull['error']:.3g}" if current else "–"
+        row = box.row(align=True)
+        _columns(
+            row.split(factor=_SWATCH),
+            name,
+            str(hull["vertices"]),
+            error,
+            worn(hull["object"]),
+        )
+        shape = row.operator_menu_enum(
+            "wcd.refit_hull", "shape", text="", icon="MESH_CUBE"
+        )
+        shape.hull = hull["name"]
+        remove = row.operator("wcd.remove_hull", text="", icon="X", emboss=False)
+        remove.hull = hull["name"]
+
+
+def worn(hull: bpy.types.Object) -> bpy.types.Material | None:
+    """Return the material that a hull is seen in, None if it has none."""
+    return next((slot.material for slot in hull.material_slots), None)
 
 
 def endings(names: Sequence[str]) -> list[str]:
@@ -95,21 +117,27 @@ def endings(names: Sequence[str]) -> list[str]:
 
 
 def _columns(
-    row: bpy.types.UILayout, material: Any, name: str, vertices: str, error: str
+    split: bpy.types.UILayout,
+    name: str,
+    vertices: str,
+    error: str,
+    material: bpy.types.Material | None = None,
 ) -> None:
-    """Draw a row of the list of hulls, or its heading."""
-    split = row.split(factor=0.14)
-    if material:
-        split.prop(material, "diffuse_color", text="")
+    """Draw the columns of a row of the list of hulls, or of its heading.
+
+    The color is only shown: other things may have the same material, and a part gets
+    its color in the list of parts.
+    """
+    swatch = split.row()
+    swatch.enabled = False
+    if material is None:
+        swatch.label(text="")
     else:
-        split.label(text="")
+        swatch.prop(material, "diffuse_color", text="")
     split = split.split(factor=0.34)
-    split.label(text=name)
+    split.label(text=name, translate=False)
     numbers = split.split(factor=0.46)
     for text in (vertices, error):
         cell = numbers.row()
         cell.alignment = "RIGHT"
         cell.label(text=text)
-    if not material:  # room for the buttons of the rows below
-        row.label(text="", icon="BLANK1")
-        row.label(text="", icon="BLANK1")

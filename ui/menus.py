@@ -1,6 +1,8 @@
-"""The submenu Convex Parts of the menus Object and, in Edit Mode, Mesh."""
+"""The submenu Convex Parts of the menus Object and, in Edit Mode, Mesh; the pie."""
 
 from __future__ import annotations
+
+from typing import Any, TypeAlias
 
 import bpy
 
@@ -8,21 +10,22 @@ from ..operators.bridge.views.isolating import isolating
 from ..operators.settings import HULL_RUN, MEASURE, RUN, SELECTION, hand_over
 from .sidebar import draw_choices
 
-# Operators in the order of the menu, each with the settings that it takes from the
-# scene, or with the property that its submenu offers. None is a line between groups.
-_ENTRIES = (
+# How an operator is drawn, and what a menu holds: see below.
+_How: TypeAlias = tuple[str, ...] | str | dict[str, Any]
+_Entries: TypeAlias = tuple[tuple[str, _How] | str | None, ...]
+
+# What each menu holds, in its order: operators with the settings that they take from
+# the scene, with the property that their submenu offers, or with a text and the values
+# of properties; names of submenus; and None for a line between groups.
+_PARTS: _Entries = (
     ("wcd.decompose", RUN),
     ("wcd.measure", MEASURE),
     ("wcd.measure_selection", SELECTION),
     None,
-    ("wcd.rename_parts", ()),
-    ("wcd.separate", "original"),
-    ("wcd.explode", ()),
-    ("wcd.implode", ()),
-    ("wcd.face_sets", ()),
-    ("wcd.color_attribute", ()),
-    ("wcd.build_hulls", HULL_RUN),
-    ("wcd.make_rigid", "kind"),
+    "WCD_MT_edit",
+    "WCD_MT_view",
+    "WCD_MT_use",
+    "WCD_MT_hulls",
     None,
     ("wcd.show_sight", SELECTION),
     ("wcd.hide_sight", ()),
@@ -30,28 +33,105 @@ _ENTRIES = (
     None,
     ("wcd.clear", ()),
 )
+_EDIT: _Entries = (
+    ("wcd.merge_parts", ()),
+    ("wcd.split_parts", {"text": "Split Convex Parts in Two", "parts": 2}),
+    ("wcd.split_parts", {"text": "Split Convex Parts by ψ", "parts": 0}),
+    ("wcd.assign_faces", ()),
+    ("wcd.smooth_seams", ()),
+    ("wcd.mirror_parts", "direction"),
+    None,
+    ("wcd.rename_part", ()),
+    ("wcd.rename_parts", {"text": "Rename All Convex Parts"}),
+    ("wcd.lock_parts", ()),
+    None,
+    ("wcd.refresh_parts", ()),
+)
+_VIEW: _Entries = (
+    ("wcd.pick_parts", ()),
+    ("wcd.select_parts", ()),
+    ("wcd.select_boundary", ()),
+    ("wcd.frame_parts", ()),
+    None,
+    ("wcd.isolate_parts", {"hide": True}),
+    ("wcd.isolate_parts", {"text": "Show All Convex Parts", "hide": False}),
+    None,
+    ("wcd.mark_seams", ()),
+    ("wcd.unmark_seams", ()),
+)
+_USE: _Entries = (
+    ("wcd.separate", "original"),
+    ("wcd.explode", ()),
+    ("wcd.implode", ()),
+    None,
+    ("wcd.show_colors", "colors"),
+    ("wcd.face_sets", ()),
+    ("wcd.color_attribute", ()),
+)
+_HULLS: _Entries = (
+    ("wcd.build_hulls", HULL_RUN),
+    ("wcd.make_rigid", "kind"),
+    ("wcd.show_hulls", "look"),
+    None,
+    ("wcd.remove_hulls", ()),
+)
 
 # The menus of Blender that get the submenu at their end.
 _HOMES = ("VIEW3D_MT_object", "VIEW3D_MT_edit_mesh")
 
 
-class WCD_MT_parts(bpy.types.Menu):
-    """All operators on convex parts."""
+class _Entered:
+    """Half a menu that draws its entries; F3 finds them."""
 
-    bl_label = "Convex Parts"
+    layout: Any
+    _entries: _Entries
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the menu."""
         layout = self.layout
         layout.operator_context = "INVOKE_DEFAULT"
-        for entry in _ENTRIES:
+        for entry in self._entries:
             if entry is None:
                 layout.separator()
-            elif isinstance(entry[1], str):
-                draw_choices(layout, *entry)
+            elif isinstance(entry, str):
+                layout.menu(entry)
             else:
-                button = layout.operator(entry[0])
-                hand_over(context.scene.wcd, button, entry[1])
+                _draw_entry(layout, context.scene.wcd, *entry)
+
+
+class WCD_MT_parts(_Entered, bpy.types.Menu):
+    """All operators on convex parts."""
+
+    bl_label = "Convex Parts"
+    _entries = _PARTS
+
+
+class WCD_MT_edit(_Entered, bpy.types.Menu):
+    """The operators that change parts by hand."""
+
+    bl_label = "Edit Parts"
+    _entries = _EDIT
+
+
+class WCD_MT_view(_Entered, bpy.types.Menu):
+    """The operators that select and show parts, and mark their seams."""
+
+    bl_label = "Pick, Select and View"
+    _entries = _VIEW
+
+
+class WCD_MT_use(_Entered, bpy.types.Menu):
+    """The operators that make something of parts."""
+
+    bl_label = "Use the Parts"
+    _entries = _USE
+
+
+class WCD_MT_hulls(_Entered, bpy.types.Menu):
+    """The operators on collision hulls."""
+
+    bl_label = "Collision Hulls"
+    _entries = _HULLS
 
 
 class WCD_MT_pick(bpy.types.Menu):
@@ -81,6 +161,21 @@ class WCD_MT_pick(bpy.types.Menu):
         pie.operator(
             "wcd.select_parts", text="Select Faces", icon="RESTRICT_SELECT_OFF"
         )
+
+
+def _draw_entry(
+    layout: bpy.types.UILayout, settings: bpy.types.AnyType, name: str, how: _How
+) -> None:
+    """Draw the button of an operator, or the submenu of its choices."""
+    if isinstance(how, str):
+        draw_choices(layout, name, how)
+    elif isinstance(how, dict):
+        text = {key: value for key, value in how.items() if key == "text"}
+        button = layout.operator(name, **text)
+        for key in how.keys() - {"text"}:
+            setattr(button, key, how[key])
+    else:
+        hand_over(settings, layout.operator(name), how)
 
 
 def _draw_submenu(menu: bpy.types.Menu, context: bpy.types.Context) -> None:

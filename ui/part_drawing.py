@@ -70,7 +70,7 @@ def _draw() -> None:
     overlaid = [each for each in context.visible_objects if is_overlaid(each)]
     _draw_colors(context, overlaid)
     _draw_chosen(context)
-    _draw_hovered()
+    _draw_hovered(context)
     if overlaid or _shows_chosen(context):
         hulls = transparent_hulls(context)
         if hulls:
@@ -99,7 +99,7 @@ def _draw_on_white(context: bpy.types.Context) -> None:
     _draw_colors(context, context.visible_objects)
     gpu.state.blend_set("ALPHA")
     _draw_chosen(context)
-    _draw_hovered()
+    _draw_hovered(context)
 
 
 def _shows_chosen(context: bpy.types.Context) -> bool:
@@ -138,11 +138,13 @@ def _draw_chosen(context: bpy.types.Context) -> None:
         _outline(obj, shown, number, (*color, 1.0), _CHOSEN_WIDTH)
 
 
-def _draw_hovered() -> None:
-    """Draw the part under the cursor."""
+def _draw_hovered(context: bpy.types.Context) -> None:
+    """Draw the part under the cursor, if the viewport shows its object."""
     picked = picking.current
     obj = None if picked is None else picked.object()
-    shown = None if obj is None else shown_parts(obj)
+    if obj is None or not obj.visible_get(viewport=context.space_data):
+        return
+    shown = shown_parts(obj)
     if picked is not None and shown is not None:
         number = picked.number
         _fill(obj, shown, number, _HOVERED, 3)
@@ -213,13 +215,12 @@ def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> 
 
 
 def _draw_name() -> None:
-    """Draw the name of the part under the cursor beside it."""
+    """Draw the name of the part under the cursor beside it, in its window alone."""
     picked, region = picking.current, bpy.context.region
-    part = None if picked is None else picked.part()
-    if picked is None or part is None:
+    if picked is None or picked.window != bpy.context.window.as_pointer():
         return
-    x, y = picked.place[0] - region.x, picked.place[1] - region.y
-    if not (0 <= x < region.width and 0 <= y < region.height):
+    part, x, y = picked.part(), picked.place[0] - region.x, picked.place[1] - region.y
+    if part is None or not (0 <= x < region.width and 0 <= y < region.height):
         return
     scale = bpy.context.preferences.system.ui_scale
     colors = bpy.context.preferences.themes[0].user_interface.wcol_tooltip

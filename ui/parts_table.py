@@ -67,17 +67,23 @@ class WCD_UL_parts(bpy.types.UIList):
     def filter_items(
         self, context: bpy.types.Context, obj: bpy.types.Object, name: str
     ) -> tuple[list[int], list[int]]:
-        """Hide the rows of parts that have no faces now; keep Blender's search."""
-        there = places_of(shown_figures(obj))
-        rows = getattr(obj, name)
-        wanted = self.filter_name.lower()
-        shown = [
-            self.bitflag_filter_item
-            if row.number in there and wanted in row.name.lower()
-            else 0
-            for row in rows
+        """Hide the rows of parts that have no faces now; else do as Blender's lists.
+
+        Where the search is inverted, Blender shows the rows that are not marked.
+        """
+        there, rows = places_of(shown_figures(obj)), getattr(obj, name)
+        blenders, marked = bpy.types.UI_UL_list, self.bitflag_filter_item
+        inverted = self.use_filter_invert
+        found = blenders.filter_items_by_name(self.filter_name, marked, rows)
+        if not found:  # nothing is searched for
+            found = [0 if inverted else marked] * len(rows)
+        hidden = marked if inverted else 0
+        found = [
+            flag if row.number in there else hidden
+            for row, flag in zip(rows, found, strict=True)
         ]
-        return shown, []
+        by_name = self.use_filter_sort_alpha
+        return found, blenders.sort_items_by_name(rows) if by_name else []
 
 
 def places_of(figures: PartFigures | None) -> dict[int, int]:

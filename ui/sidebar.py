@@ -41,11 +41,11 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
 def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
     """Return what is noted of an object's hulls, without those that were deleted.
 
-    Hulls that the user renamed have their new names.
+    Hulls that the user renamed have their new names. "object" is the hull itself.
     """
     noted = noted_hulls(result_of(obj))
     return [
-        {**noted[row], "name": hull.name}
+        {**noted[row], "name": hull.name, "object": hull}
         for row, hull in listed_hulls(obj, noted).items()
     ]
 

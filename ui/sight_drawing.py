@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..core.geometry.frames import frames
 from ..core.results.views import View
+from ..operators.bridge.read.target import object_with
 from ..operators.viewport import sight_overlay
 
 _SEEN = (0.1, 0.85, 0.25, 1.0)
@@ -50,8 +51,7 @@ def _draw() -> None:
     overlay = sight_overlay.current
     if overlay is None or overlay.view is None:
         return
-    uid = overlay.object_uid
-    obj = next((o for o in bpy.data.objects if o.session_uid == uid), None)
+    obj = object_with(overlay.object_uid)
     space = bpy.context.space_data
     if (
         obj is None

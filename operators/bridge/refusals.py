@@ -6,13 +6,14 @@ wrong and what to do about it. They have no full stop: whoever shows them adds o
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Container, Iterable
 from typing import Any, TypeAlias
 
+from .hulls.listed import owners_of_hulls
 from .hulls.lost_hulls import has_hulls_to_clear
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
-from .stored.names import CARRIER_TAG, HULL_TAG, LONGEST_NAME, WHOLE_MESH
+from .stored.names import CARRIER_TAG, LONGEST_NAME, WHOLE_MESH
 from .stored.notes import or_not_ours
 from .stored.record import (
     beside_parts,
@@ -93,7 +94,9 @@ def recut_refusal(obj: Candidate) -> str | None:
 
 
 @or_not_ours
-def clear_refusal(obj: Candidate) -> str | None:
+def clear_refusal(
+    obj: Candidate, has_hulls: Callable[[Candidate], bool] = has_hulls_to_clear
+) -> str | None:
     """Return why nothing can be cleared from an object."""
     reason = refusal(obj, writes_mesh=False)
     if reason is None and has_parts(obj) and not beside_parts(obj):
@@ -101,7 +104,7 @@ def clear_refusal(obj: Candidate) -> str | None:
     cut = reason is None and WHOLE_MESH in obj.data
     marked = reason is None and obj.type == "MESH" and has_marked_seams(obj.data)
     ours = cut or marked or (reason is None and has_record(obj))
-    if reason is None and not (ours or has_hulls_to_clear(obj)):
+    if reason is None and not (ours or has_hulls(obj)):
         return f"{obj.name} has no parts to clear"
     if cut and obj.data.is_editmode:
         return (
@@ -236,9 +239,11 @@ def hull_refusal(obj: Candidate) -> str | None:
     return reason
 
 
-def rigid_refusal(obj: Candidate) -> str | None:
+def rigid_refusal(
+    obj: Candidate, owners: Callable[[], Container[Candidate]] = owners_of_hulls
+) -> str | None:
     """Return why an object cannot become a rigid body of its hulls."""
     reason = hull_refusal(obj)
-    if reason is None and not any(HULL_TAG in child for child in obj.children):
+    if reason is None and obj not in owners():
         return f"{obj.name} has no hulls; build them first"
     return reason

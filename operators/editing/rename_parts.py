@@ -78,12 +78,12 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
         for place, (row, base) in enumerate(zip(rows, bases, strict=True)):
             split = flow.split(factor=0.42)
             sides = "  .L .R" if len(row.endings) > 1 else ""
-            split.label(text=row.base + sides)
+            split.label(text=row.base + sides, translate=False)
             if self.way == "TYPE" and place < len(self.names):
                 split.activate_init = not place  # the first name is ready to be typed
                 split.prop(self.names[place], "new", text="")
             else:
-                split.label(text=base)
+                split.label(text=base, translate=False)
 
     def _rows(self, obj: bpy.types.Object) -> list[EditableName]:
         """Return the names to edit."""

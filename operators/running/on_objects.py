@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -32,17 +32,49 @@ class OnObjects(Operator):
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
-        """Return why nothing can be done now, None if something can."""
-        chosen = cls._chosen(context)
-        reason: str | None = cls._refusal(chosen[0])
-        if reason is None and cls._needs_seams:
-            reason = next(filter(None, map(rough_refusal, chosen)), None)
-        return reason
+        """Return why nothing can be done now, None if something can.
+
+        Panels ask for it many times a second, while thousands of objects may be
+        selected. So it looks no further than to the first that can be worked on.
+        """
+        refusal, there = cls._refusals(), cls._candidates(context)
+        if all(map(refusal, there)):
+            there = [cls._active(context)]
+            reason = refusal(there[0])
+            if reason:
+                return reason
+        for obj in there if cls._needs_seams else ():
+            reason = rough_refusal(obj)
+            if reason and refusal(obj) is None:
+                return reason
+        return None
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the objects to work on, the active one first."""
-        return chosen_objects(context, cls._refusal)
+        """Return the objects to work on, the active one first.
+
+        They are the candidates that can be worked on. If there is none, it is the
+        active one, so that the user is told why.
+        """
+        refusal = cls._refusals()
+        fit = [obj for obj in cls._candidates(context) if refusal(obj) is None]
+        return fit or [cls._active(context)]
+
+    @classmethod
+    def _refusals(cls) -> Callable[[Any], str | None]:
+        """Return `_refusal`, or what looks at the file once for many objects."""
+        refusal: Callable[[Any], str | None] = cls._refusal
+        return refusal
+
+    @classmethod
+    def _candidates(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Return the objects that are worked on as far as that is possible."""
+        return candidates(context)
+
+    @classmethod
+    def _active(cls, context: bpy.types.Context) -> Any:
+        """Return the active object, None if there is none."""
+        return context.active_object
 
     def _conclude(
         self, failures: Sequence[str], n_objects: int, late: bool = False
@@ -63,9 +95,9 @@ class OnActive(Operator):
     """Half an operator on the active object only; comes before `OnObjects`."""
 
     @classmethod
-    def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
+    def _candidates(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Return the active object."""
-        return [context.active_object]
+        return [cls._active(context)]
 
 
 class OnEach(OnObjects):
@@ -93,20 +125,14 @@ def is_free(operator: type[Operator], obstacle: str | None) -> bool:
     return obstacle is None
 
 
-def chosen_objects(
-    context: bpy.types.Context, refusal: Callable[[bpy.types.Object], str | None]
-) -> list[bpy.types.Object]:
-    """Return the selected objects, or those in Edit Mode, that `refusal` lets pass.
+def candidates(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Return the selected objects, or those in Edit Mode; the active one comes first.
 
-    The active object comes first. If no object passes, it is the only one, so that the
-    user is told why. In other modes it is, too: no other object is in them.
+    In other modes it is the only one: no other object is in them.
     """
     active = context.active_object
-    if active and active.mode == "EDIT":
-        there = context.objects_in_mode
-    elif active and active.mode != "OBJECT":
-        there = [active]
-    else:
-        there = context.selected_objects
-    fit = [obj for obj in there if refusal(obj) is None]
-    return sorted(fit, key=lambda obj: bool(obj != active)) or [active]
+    if active and active.mode not in {"OBJECT", "EDIT"}:
+        return [active]
+    in_edit_mode = active and active.mode == "EDIT"
+    there = context.objects_in_mode if in_edit_mode else context.selected_objects
+    return sorted(there, key=lambda obj: bool(obj != active))

@@ -59,7 +59,7 @@ class _OnRows(OnActive, OnEach):
         return edit_refusal(obj)
 
 
-class WCD_OT_choose_part(_OnRows, bpy.types.Operator):
+class WCD_OT_choose_part(bpy.types.Operator):
     """Highlight a part in the table, or add it to the ticked ones."""
 
     bl_idname = "wcd.choose_part"
@@ -67,15 +67,10 @@ class WCD_OT_choose_part(_OnRows, bpy.types.Operator):
     bl_description = "Highlight a part in the table, or tick it besides others"
     bl_options: ClassVar[set[str]] = {"UNDO", "INTERNAL"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return True: another object than the active one may be meant."""
-        return True
-
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Choose the part, on the object that has it."""
         obj = bpy.data.objects.get(self.object) or context.active_object
-        reason = edit_refusal(obj)
+        reason = edit_refusal(obj) or _absence(context, obj)
         if reason:
             self.report({"ERROR"}, f"{reason}.")
             return {"CANCELLED"}
@@ -147,5 +142,13 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
 WCD_OT_rename_part.__annotations__ = {
     "name": bpy.props.StringProperty(name="Name", options={"SKIP_SAVE"})
 }
+
+
+def _absence(context: bpy.types.Context, obj: bpy.types.Object) -> str | None:
+    """Return why an object cannot become the active one."""
+    if context.view_layer.objects.get(obj.name) == obj:
+        return None
+    return f"{obj.name} is not in the view layer; link it to a collection that is"
+
 
 CLASSES: tuple[Any, ...] = (WCD_OT_choose_part, WCD_OT_lock_parts, WCD_OT_rename_part)

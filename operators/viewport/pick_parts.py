@@ -6,6 +6,8 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ...core.parameters.parameter import field_of, info_of
+from ...core.parameters.parts import Parameters
 from ..bridge.parts.rows import chosen_numbers
 from ..bridge.refusals import edit_refusal, faces_refusal
 from ..bridge.stored.names import RESULT
@@ -16,14 +18,15 @@ from .choose_parts import choose_too
 from .part_at import make_tree, part_at
 from .shown_parts import n_parts_of
 from .turning import Turning, keeps
-from .viewports import viewport_at
+from .viewports import navigates, viewport_at
 
 # The pie menu, which `ui` draws.
 _MENU = "WCD_MT_pick"
 # What each key adds to the number of parts; wheels do with Alt.
 _WHEELS = {"WHEELUPMOUSE": 1, "WHEELDOWNMOUSE": -1}
 _PAGES = {"PAGE_UP": 1, "PAGE_DOWN": -1}
-_FEWEST, _MOST = 2, 256
+_FEWEST = int(info_of(field_of(Parameters, "min_parts")).low)
+_MOST = int(info_of(field_of(Parameters, "parts")).high)
 _ENTER = {"RET", "NUMPAD_ENTER"}
 
 
@@ -101,7 +104,8 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         """Take a pressed key or button."""
         if event.type == "ESC":
             return self._escape(context)
-        if viewport_at(context, event.mouse_x, event.mouse_y) is None:
+        there = viewport_at(context, event.mouse_x, event.mouse_y)
+        if there is None or navigates(event):
             return {"PASS_THROUGH"}
         if event.type == "LEFTMOUSE":
             self._click(context, event.shift)

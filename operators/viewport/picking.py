@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..bridge.read.target import object_with
 from ..bridge.stored.identity import Identity
 from ..running import modal
 from .shown_parts import n_parts_of, shown_identities
@@ -30,10 +31,14 @@ class Picking:
     ----------
     workspace : str
         Name of the workspace whose status bar shows the keys.
+    window : int
+        The address of the window in which they are picked.
     hovered : (int, int) or None
         The `session_uid` of the object under the cursor, and the number of its part.
+    name : str
+        The name of the object that was under the cursor latest.
     place : (int, int)
-        Where the cursor is in its window.
+        Where the cursor is in that window.
     merging : bool
         Whether the next part that is clicked is merged with the chosen ones.
     turning : Turning or None
@@ -41,7 +46,9 @@ class Picking:
     """
 
     workspace: str
+    window: int
     hovered: tuple[int, int] | None = None
+    name: str = ""
     place: tuple[int, int] = (0, 0)
     merging: bool = False
     turning: Turning | None = None
@@ -60,8 +67,9 @@ class Picking:
         """Return the object under the cursor, None if there is none."""
         if self.hovered is None:
             return None
-        uid = self.hovered[0]
-        return next((o for o in bpy.data.objects if o.session_uid == uid), None)
+        obj = object_with(self.hovered[0], self.name)
+        self.name = "" if obj is None else obj.name
+        return obj
 
 
 # The one picking that is on.
@@ -71,7 +79,7 @@ current: Picking | None = None
 def start(context: bpy.types.Context) -> Picking:
     """Begin to pick."""
     global current
-    current = Picking(context.workspace.name)
+    current = Picking(context.workspace.name, context.window.as_pointer())
     tell(context)
     return current
 

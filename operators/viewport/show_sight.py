@@ -23,9 +23,12 @@ from ..running.watching import changed_objects, unwatch, watch
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
 from .sight_overlay import Overlay
-from .viewports import ray_at, viewport_at
+from .viewports import navigates, ray_at, viewport_at
 
-_HINT = "Click a point of the surface to see what it sees. Enter: keep, Esc: hide"
+_HINT = (
+    "Click a point of the surface to see what it sees. Enter: keep, Esc or Right-Click:"
+    " hide"
+)
 
 
 class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
@@ -65,16 +68,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             return {"FINISHED", "PASS_THROUGH"}
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
-        if event.type in {"ESC", "RIGHTMOUSE"}:
-            stop()
-            return {"FINISHED"}
-        if event.type in {"RET", "NUMPAD_ENTER"}:
-            modal.show_status(self._overlay.workspace, None)
-            return {"FINISHED"}
-        place = viewport_at(context, event.mouse_x, event.mouse_y)
-        if event.type != "LEFTMOUSE" or place is None:
-            return {"PASS_THROUGH"}
-        return self._clicked(*place)
+        return self._press(context, event)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Stop, and hide what is shown: nothing takes clicks any more."""
@@ -106,6 +100,20 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         """Wait for clicks."""
         modal.show_status(self._overlay.workspace, _HINT)
         return {"RUNNING_MODAL"}
+
+    def _press(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Take a pressed key or button; all that is not ours passes."""
+        place = viewport_at(context, event.mouse_x, event.mouse_y)
+        ours = place is not None and not navigates(event)
+        if event.type == "ESC" or (event.type == "RIGHTMOUSE" and ours):
+            stop()
+            return {"FINISHED"}
+        if event.type in {"RET", "NUMPAD_ENTER"}:
+            modal.show_status(self._overlay.workspace, None)
+            return {"FINISHED"}
+        if event.type != "LEFTMOUSE" or place is None or not ours:
+            return {"PASS_THROUGH"}
+        return self._clicked(*place)
 
     def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:
         """Show what the point under the cursor sees."""

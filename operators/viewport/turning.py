@@ -13,6 +13,7 @@ import bpy
 
 from ..bridge.stored.record import noted_parameters, record_of
 from .shown_parts import n_parts_of
+from .viewports import navigates
 
 # Buttons and keys beside the wheel that neither keep nor take back a number: they turn
 # the view, or are held while the wheel turns.
@@ -67,10 +68,9 @@ class Turning:
 
 def keeps(event: bpy.types.Event) -> bool:
     """Return whether a press keeps the number that the wheel asked for."""
-    looking = event.type in _LOOKING or (
-        event.type.startswith("NUMPAD_") and event.type != "NUMPAD_ENTER"
-    )
-    return not looking and event.type not in _TAKES_BACK
+    if event.type in _LOOKING | _TAKES_BACK or navigates(event):
+        return False
+    return event.type == "NUMPAD_ENTER" or not event.type.startswith("NUMPAD_")
 
 
 def _state(obj: bpy.types.Object) -> Any:

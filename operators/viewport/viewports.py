@@ -30,6 +30,14 @@ def ray_at(region: bpy.types.Region, x: int, y: int) -> tuple[Vector, Vector]:
     )
 
 
+def navigates(event: bpy.types.Event) -> bool:
+    """Return whether a mouse button is pressed as some turn the view or box-select.
+
+    Alt makes it the middle one where that is emulated.
+    """
+    return event.type in {"LEFTMOUSE", "RIGHTMOUSE"} and (event.alt or event.ctrl)
+
+
 def redraw() -> None:
     """Let Blender draw the viewports and their sidebars again."""
     for window in bpy.context.window_manager.windows:

@@ -24,6 +24,11 @@ def hulls_of(obj: bpy.types.Object) -> list[bpy.types.Object]:
     return sorted((c for c in obj.children if HULL_TAG in c), key=lambda c: c.name)
 
 
+def owners_of_hulls() -> set[bpy.types.Object]:
+    """Return the objects that have hulls: one look at the file tells of all."""
+    return {each.parent for each in bpy.data.objects if is_hull(each)}
+
+
 def listed_hulls(
     obj: bpy.types.Object, noted: Sequence[dict[str, Any]]
 ) -> dict[int, bpy.types.Object]:

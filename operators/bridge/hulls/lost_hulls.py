@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import bpy
 
@@ -31,16 +31,19 @@ def lost_hulls() -> list[bpy.types.Object]:
 
 
 def has_hulls_to_clear(obj: bpy.types.Object) -> bool:
-    """Return whether our collections hold hulls of an object, or lost ones.
+    """Return whether our collections hold hulls of an object, or lost ones."""
+    return hulls_to_clear()(obj)
+
+
+def hulls_to_clear() -> Callable[[bpy.types.Object], bool]:
+    """Return `has_hulls_to_clear` for many objects, after one look at the file.
 
     Panels ask for it many times a second, and files have thousands of objects.
     """
-    if HULL_TAG in obj:
-        return False
     there = (each for c in _hull_collections() for each in c.objects)
-    return any(each.parent == obj and HULL_TAG in each for each in there) or bool(
-        lost_hulls()
-    )
+    owners = {each.parent for each in there if HULL_TAG in each}
+    some_are_lost = bool(lost_hulls())
+    return lambda obj: HULL_TAG not in obj and (some_are_lost or obj in owners)
 
 
 def leave_to_user(obj: bpy.types.Object) -> None:

@@ -28,7 +28,8 @@ def let_undo_see_all(obj: bpy.types.Object) -> None:
     or went. Groups, slots and notes come back with the file alone.
     """
     if obj.mode == "EDIT":
-        bpy.data.materials.remove(bpy.data.materials.new("undo"))
+        # Nothing uses it, so Blender need not look for users in the whole file.
+        bpy.data.materials.remove(bpy.data.materials.new("undo"), do_unlink=False)
 
 
 class ObjectModeLayers:

@@ -14,6 +14,7 @@ from typing import Any
 import bpy
 
 from ....core.parameters.hulls import SHAPES
+from ..mesh.layers import let_undo_see_all
 from ..stored.identity import Identity
 from .read import part_identities
 from .renaming import color_of_part, recolor_part, rename_part
@@ -39,11 +40,19 @@ def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     name, reason = rename_part(obj, row.number, row.name.strip())
     if name != row.name:
         row.name = name  # this asks for the name that the part has, which is no news
+    let_undo_see_all(obj)
     _refused = (obj.session_uid, row.number, reason) if reason else None
+
+
+def _set(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Let undo take back what was set, in Edit Mode too."""
+    if row.number != _NO_NUMBER:  # it is not being made
+        let_undo_see_all(row.id_data)
 
 
 def _tick(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Keep the highlight on a ticked row, as long as there is one."""
+    _set(row, context)
     obj = row.id_data
     active = active_row(obj)
     ticked = [place for place, each in enumerate(obj.wcd_parts) if each.chosen]
@@ -56,6 +65,7 @@ def _highlight(obj: bpy.types.Object, context: bpy.types.Context) -> None:
     """Take all ticks away when a row is highlighted that is not ticked."""
     global _looked
     _looked = obj.session_uid, time.monotonic()
+    let_undo_see_all(obj)
     active = active_row(obj)
     for row in obj.wcd_parts if active and not active.chosen else ():
         if row.chosen:
@@ -67,8 +77,8 @@ def _color(row: bpy.types.PropertyGroup) -> tuple[float, float, float]:
 
 
 def _recolor(row: bpy.types.PropertyGroup, color: Sequence[float]) -> None:
-    red, green, blue = color
-    recolor_part(row.id_data, row.number, (red, green, blue))
+    recolor_part(row.id_data, row.number, (color[0], color[1], color[2]))
+    _set(row, bpy.context)
 
 
 class WCD_PG_part(bpy.types.PropertyGroup):
@@ -101,6 +111,7 @@ WCD_PG_part.__annotations__ = {
         name="Lock",
         description="Keep this part when the object is decomposed again. Locked parts"
         " count towards the number of Parts",
+        update=_set,
     ),
     "hull_shape": bpy.props.EnumProperty(
         name="Hull Shape",
@@ -109,6 +120,7 @@ WCD_PG_part.__annotations__ = {
             (AS_SET, "As Set", "The shape that is set for all"),
             *((each.identifier, each.label, each.help) for each in SHAPES),
         ),
+        update=_set,
     ),
 }
 
@@ -141,11 +153,11 @@ def write_rows(
     active = 0
     for place, identity in enumerate(identities):
         row = obj.wcd_parts.add()
-        row.name = identity.name  # before the number: it is no news
-        row.number = identity.number
         before = kept.get(identity.number, Row(False, False, False, AS_SET))
         row.chosen, row.locked = before.chosen, before.locked
         row.hull_shape = before.hull_shape
+        row.name = identity.name
+        row.number = identity.number  # last: the others are no news
         active = place if before.active else active
     obj.wcd_active_part = active  # last, because ticks move it
     _looked = None  # nobody has clicked it
@@ -162,8 +174,7 @@ def chosen_numbers(obj: bpy.types.Object) -> set[int]:
 
     They are those of the ticked rows, or of the highlighted row if none is ticked. A
     click on a row that is not ticked takes all ticks away, and a tick highlights its
-    row, so that the highlighted row is always one of them. Faces are not looked at, so
-    it is quick enough for each time a viewport is drawn.
+    row, so that the highlighted row is always one of them. Faces are not looked at.
     """
     active = active_row(obj)
     if active is None:

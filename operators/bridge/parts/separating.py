@@ -11,6 +11,7 @@ from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
 from ..homes import new_collection
 from ..hulls.rigid_bodies import soften
+from ..mesh.known import face_areas
 from ..views.node_modifiers import remove_views
 from .erase import clear
 from .materials import discard, none_missing
@@ -54,6 +55,11 @@ def replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
     for child in obj.children:
         child.parent = piece
     discard([obj])
+
+
+def area_of(obj: bpy.types.Object) -> float:
+    """Return the area of an object's faces, in its own space."""
+    return float(face_areas(obj.data).sum())
 
 
 def _copy(obj: bpy.types.Object) -> bpy.types.Object:

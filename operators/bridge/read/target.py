@@ -1,4 +1,4 @@
-"""Find the object of a computation again when the computation is done."""
+"""Find an object again, as when the computation on it is done."""
 
 from __future__ import annotations
 
@@ -11,6 +11,18 @@ from ..mesh.layers import flush_edits
 from ..mesh.points import count_points, is_cloud
 from ..refusals import CONVERTIBLE, WORKED_ON
 from .converting import fingerprint
+
+
+def object_with(uid: int, name: str = "") -> bpy.types.Object | None:
+    """Return the object with a `session_uid`, None if it is gone.
+
+    Files have thousands of objects, so it is looked up first by the name that it has
+    probably.
+    """
+    obj = bpy.data.objects.get(name)
+    if obj is not None and obj.session_uid == uid:
+        return obj
+    return next((each for each in bpy.data.objects if each.session_uid == uid), None)
 
 
 @dataclass(frozen=True)
@@ -38,14 +50,13 @@ class Target:
 
     def find(self) -> bpy.types.Object:
         """Return the object, or raise if it is gone or has changed."""
-        for obj in bpy.data.objects:
-            if obj.session_uid == self.object_uid:
-                if obj.type in WORKED_ON | CONVERTIBLE and Target.of(obj) == self:
-                    return obj
-                break
-        raise DecompositionError(
-            "The mesh was changed or deleted meanwhile; start again."
-        )
+        obj = object_with(self.object_uid)
+        known = obj is not None and obj.type in WORKED_ON | CONVERTIBLE
+        if obj is None or not known or Target.of(obj) != self:
+            raise DecompositionError(
+                "The mesh was changed or deleted meanwhile; start again."
+            )
+        return obj
 
 
 def _state(obj: bpy.types.Object) -> tuple[int, int] | str:

@@ -69,6 +69,8 @@ ISOLATE_TAG = "wcd_isolate"
 REALIZE_TAG = "wcd_realize"
 # Custom property of our images: the name of the object that they show.
 IMAGE_TAG = "wcd_picture"
+# And what they show of it: the label of a kind of picture.
+PICTURE_TAG = "wcd_picture_kind"
 # Custom property of mesh objects with the parts of a curve: the name of the curve.
 CARRIER_TAG = "wcd_parts_of"
 # Custom property of such an object: how the curve was shown before we hid it.

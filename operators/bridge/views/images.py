@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..stored.names import IMAGE_TAG
+from ..stored.names import IMAGE_TAG, PICTURE_TAG
 
 
 def write_image(
@@ -14,21 +14,24 @@ def write_image(
 ) -> bpy.types.Image:
     """Make an image, in place of the former one with that label.
 
+    It is known by our tags: Blender may have changed its name, if that was taken or is
+    too long.
+
     Parameters
     ----------
     obj : bpy.types.Object
         The object that the image shows.
     label : str
-        What the image shows of it, for the image's name.
+        What the image shows of it, for the image's name and to know it again.
     pixels : (H, W, 3) float
         sRGB in 0…1; the first row is the upper one.
     """
     height, width, _ = pixels.shape
-    name = f"{obj.name} {label}"
-    image = next((each for each in images_of(obj) if each.name == name), None)
+    former = (each for each in images_of(obj) if each.library is None)
+    image = next((each for each in former if each.get(PICTURE_TAG) == label), None)
     if image is None:
-        image = bpy.data.images.new(name, width, height)
-        image[IMAGE_TAG] = obj.name
+        image = bpy.data.images.new(f"{obj.name} {label}", width, height)
+        image[IMAGE_TAG], image[PICTURE_TAG] = obj.name, label
         image.use_fake_user = True  # images without users are not saved
     elif tuple(image.size) != (width, height):
         image.scale(width, height)

@@ -74,15 +74,19 @@ def test_what_the_user_had_comes_along(suzanne):
     assert groups == 1
 
 
-def test_the_original_can_be_removed_and_leaves_its_children(suzanne):
-    decompose_by_hand(suzanne, 2)
+def test_the_original_can_be_removed_and_the_largest_part_gets_its_children(suzanne):
+    labels = decompose_by_hand(suzanne, 2)
+    for vertex in suzanne.data.vertices:  # make the second part the larger one
+        vertex.co.x *= 1 if vertex.co.x < 0 else 3
+    sizes = np.bincount(labels, weights=areas(suzanne.data))
+    assert sizes.argmax() == 1
     bpy.ops.object.empty_add(location=(1, 2, 3))
     child = bpy.context.active_object
     child.parent = suzanne
     activate(suzanne)
     call("separate", original="REMOVE")
     assert "Suzanne" not in bpy.data.objects
-    assert child.parent.name == "Suzanne Part 01"
+    assert child.parent.name == "Suzanne Part 02"
     assert {mesh.name for mesh in bpy.data.meshes} == {
         "Suzanne Part 01",
         "Suzanne Part 02",

@@ -5,8 +5,10 @@ What has changed is said, and the star of the chart is on the best number of par
 
 from dataclasses import replace
 from itertools import product
+from types import SimpleNamespace
 
 import bpy
+import numpy as np
 import pytest
 from edited import FAST
 from hand_made import bands, decompose_by_hand, decomposition_of
@@ -63,6 +65,39 @@ def test_columns_go_before_figures_are_cut(suzanne, n_parts, hulls):
     assert layout.natural() + 0.35 * ICON <= room  # and the color
     assert list(layout.cut_off(room)) == []
     assert any("." in text for text in layout.texts() if text != row.name)
+
+
+@pytest.mark.parametrize(
+    ("search", "inverted", "by_name", "expected"),
+    [
+        ("", False, False, ["Tail", "Leg.R", "leg 2 R", "Arm"]),
+        ("", True, False, ["Tail", "Leg.R", "leg 2 R", "Arm"]),
+        ("Leg*R", False, False, ["Leg.R", "leg 2 R"]),
+        ("Leg*R", True, False, ["Tail", "Arm"]),
+        ("", False, True, ["Arm", "leg 2 R", "Leg.R", "Tail"]),
+        ("a", False, True, ["Arm", "Tail"]),
+    ],
+)
+def test_the_table_is_searched_and_sorted(suzanne, search, inverted, by_name, expected):
+    labels = bands(suzanne, 5)
+    write_parts(suzanne, decomposition_of(labels), Parameters(**FAST))
+    for row, name in zip(
+        suzanne.wcd_parts, ("Tail", "Leg.R", "leg 2 R", "Gone.R", "Arm"), strict=True
+    ):
+        row.name = name
+    layer = suzanne.data.attributes["wcd_part"].data
+    layer.foreach_set("value", np.where(labels == 3, 4, labels).astype(np.int32))
+    table = SimpleNamespace(
+        filter_name=search,
+        bitflag_filter_item=4,
+        use_filter_invert=inverted,
+        use_filter_sort_alpha=by_name,
+    )
+    flags, order = WCD_UL_parts.filter_items(table, bpy.context, suzanne, "wcd_parts")
+    order = order or range(5)
+    shown = [bool(flag & 4) != inverted for flag in flags]
+    names = {order[n]: suzanne.wcd_parts[n].name for n in range(5) if shown[n]}
+    assert [names[place] for place in sorted(names)] == expected
 
 
 def test_usual_names_have_room_on_buttons(decomposed):

@@ -18,6 +18,7 @@ class Layout:
 
     def __init__(self, kind="column", parent=None, factor=None):
         self.kind, self.factor, self.parts = kind, factor, []
+        self.enabled, self.drawn, self.verbatim = True, [], set()
         self.use_property_split = bool(parent and parent.use_property_split)
         self.ui_units_x = 0.0
 
@@ -29,6 +30,9 @@ class Layout:
         return self._child("row")
 
     def column(self, align=False):
+        return self._child("column")
+
+    def column_flow(self, columns):
         return self._child("column")
 
     def box(self):
@@ -43,10 +47,12 @@ class Layout:
         self.parts.append((text, width + (icon != "NONE") * ICON, icon))
         return SimpleNamespace()
 
-    def label(self, text="", icon="NONE"):
+    def label(self, text="", icon="NONE", translate=True):
+        self.verbatim |= set() if translate else {text}
         self._text(text, icon, 4)
 
-    def operator(self, name, text="", icon="NONE", **look):
+    def operator(self, name, text="", icon="NONE", translate=True, **look):
+        self.verbatim |= set() if translate else {text}
         return self._text(text, icon)
 
     def operator_menu_enum(self, name, choice, text="", icon="NONE"):
@@ -55,7 +61,9 @@ class Layout:
     def progress(self, factor, text):
         self._text(text, "NONE")
 
-    def prop(self, owner, name, text=None, icon="NONE", **look):
+    def prop(self, owner, name, text=None, icon="NONE", translate=True, **look):
+        self.drawn.append((owner, name))
+        self.verbatim |= set() if translate else {text}
         info = owner.bl_rna.properties[name]
         shown = info.name if text is None else text
         if self.use_property_split and text is None and info.type != "BOOLEAN":
@@ -100,6 +108,18 @@ class Layout:
 
     def texts(self):
         return [text for text, _ in self.icons()]
+
+    def properties(self):
+        """Yield the owner and name of each property, and whether it can be changed."""
+        yield from ((*each, self.enabled) for each in self.drawn)
+        for part in self.parts:
+            for *each, enabled in () if isinstance(part, tuple) else part.properties():
+                yield *each, enabled and self.enabled
+
+    def untranslated(self):
+        """Return the texts that are drawn as they are in all languages."""
+        below = [p.untranslated() for p in self.parts if not isinstance(p, tuple)]
+        return self.verbatim.union(*below)
 
     def icons(self):
         """Yield each text with its icon."""

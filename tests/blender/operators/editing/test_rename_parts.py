@@ -1,11 +1,17 @@
 """Names: which are refused and why, and all of them at once."""
 
+from types import SimpleNamespace
+
 import bpy
 import pytest
 from edited import check_in_step, parts_of
 from hand_made import decompose_by_hand
 from snapshot import snapshot
+from stand_ins.layout import Layout, drawn
 from weak_convex_decomposition.operators.bridge.parts.rows import noted_refusal
+from weak_convex_decomposition.operators.editing.rename_parts import WCD_OT_rename_parts
+from weak_convex_decomposition.ui.hulls_panel import WCD_PT_hulls, endings
+from weak_convex_decomposition.ui.sidebar import hulls_of
 
 NAMES = ["Head", "Ear.L", "Ear.R", "Jaw"]
 LONG = "an ear that is much too long for the name of a vertex group, as it is"
@@ -105,3 +111,17 @@ def test_renaming_all_is_one_undo_step(pair):
     bpy.ops.wcd.rename_parts("EXEC_DEFAULT", True, way="NUMBER", pattern="P#")
     bpy.ops.ed.undo()
     assert snapshot(bpy.context.active_object) == before
+
+
+def test_names_are_drawn_as_they_are_in_all_languages(pair):
+    dialog, layout = WCD_OT_rename_parts, Layout()
+    asked = SimpleNamespace(layout=layout, way="REPLACE", find="", replace="")
+    asked.scope, asked.bl_rna = "ALL", bpy.ops.wcd.rename_parts.get_rna_type()
+    asked._rows = lambda obj: dialog._rows(asked, obj)
+    asked._bases = lambda rows: dialog._bases(asked, rows)
+    dialog.draw(asked, bpy.context)
+    assert layout.untranslated() == {"Head", "Ear", "Ear  .L .R", "Jaw"}
+    bpy.context.scene.wcd.pieces = "PARTS"
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
+    hulls = set(endings([hull["name"] for hull in hulls_of(pair)]))
+    assert {*NAMES, *hulls} <= drawn(WCD_PT_hulls).untranslated()

@@ -1,11 +1,14 @@
-"""The materials of hulls that are of no part."""
+"""The materials of hulls, and what the list of hulls shows of them."""
 
 import json
 
 import bpy
 import pytest
+from edited import FAST
 from hand_made import decompose_by_hand
+from stand_ins.layout import drawn
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
+from weak_convex_decomposition.ui.hulls_panel import WCD_PT_hulls
 
 
 def build():
@@ -72,3 +75,42 @@ def test_a_mesh_that_hulls_were_joined_to_has_no_parts_of_theirs(suzanne):
     assert [slot.name for slot in suzanne.material_slots] == slots + parts
     bpy.ops.wcd.clear()
     assert [slot.name for slot in suzanne.material_slots] == slots
+
+
+def swatches():
+    """Return whose colors the list of hulls shows, and whether it edits any."""
+    shown = [
+        (owner, enabled)
+        for owner, name, enabled in drawn(WCD_PT_hulls).properties()
+        if name == "diffuse_color"
+    ]
+    return [owner for owner, _ in shown], any(enabled for _, enabled in shown)
+
+
+@pytest.mark.parametrize("look", ["TRANSPARENT", "SOLID"])
+def test_the_list_shows_the_colors_that_hulls_are_seen_in_and_edits_none(suzanne, look):
+    decompose_by_hand(suzanne, 3, **FAST)
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX", look=look)
+    first = hulls_of(suzanne)[0]
+    first.material_slots[0].material = mine = bpy.data.materials.new("Mine")
+    seen = [hull.material_slots[0].material for hull in hulls_of(suzanne)]
+    assert swatches() == (seen, False)
+    assert mine in seen
+
+
+def test_the_list_finds_linked_hulls_beside_objects_of_their_names(suzanne, tmp_path):
+    build()
+    hulls, path = hulls_of(suzanne), str(tmp_path / "hulls.blend")
+    names = [hull.name for hull in hulls]
+    bpy.data.libraries.write(path, {suzanne, *hulls})
+    for obj in (suzanne, *hulls):
+        bpy.data.objects.remove(obj)
+    for name in names:
+        assert bpy.data.objects.new(name, None).name == name
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Suzanne", *names]
+    linked = bpy.data.objects["Suzanne"]
+    bpy.context.collection.objects.link(linked)
+    bpy.context.view_layer.objects.active = linked
+    seen, _ = swatches()
+    assert seen == [hull.material_slots[0].material for hull in hulls_of(linked)]

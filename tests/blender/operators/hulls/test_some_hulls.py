@@ -117,7 +117,11 @@ def test_a_renamed_hull_is_listed_and_keeps_its_name(built):
     hull = hulls_of(built)[0]
     figures = noted(built)[hull.name]
     hull.name = "Mine"
-    assert sidebar.hulls_of(built)[0] == {**figures, "name": "Mine"}
+    assert sidebar.hulls_of(built)[0] == {
+        **figures,
+        "name": "Mine",
+        "object": hull,
+    }
     bpy.ops.wcd.refit_hull(hull="Mine", shape="BOX")
     assert len(sidebar.hulls_of(built)) == 3
     assert noted(built)["Mine"]["kind"] == "BOX"

@@ -6,8 +6,16 @@ import bpy
 import pytest
 from hand_made import activate, mesh_object
 from snapshot import snapshot
+from weak_convex_decomposition.operators import hulls
+from weak_convex_decomposition.operators.bridge.hulls import lost_hulls
+from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 
 FAST = {"samples": 300}
+# What looks at all hulls of a file for an operator.
+_LOOKS = {
+    "clear": (lost_hulls, "lost_hulls"),
+    "make_rigid": (hulls, "owners_of_hulls"),
+}
 
 
 def add(x=0.0):
@@ -128,3 +136,24 @@ def test_hulls_go_around_every_selected_object():
     select(first, second)
     bpy.ops.wcd.build_hulls()
     assert all(len(obj.children) == 1 for obj in (first, second))
+
+
+def test_buttons_look_no_further_than_to_the_first_that_can_be_worked_on(monkeypatch):
+    objects, asked = [add(x) for x in range(9)], []
+    select(*objects)
+    refuses_none = staticmethod(asked.append)
+    monkeypatch.setattr(WCD_OT_decompose, "_refusal", refuses_none)
+    assert bpy.ops.wcd.decompose.poll()
+    assert asked == [objects[0]]
+
+
+@pytest.mark.parametrize("name", ["clear", "make_rigid"])
+def test_hulls_are_looked_for_once_for_all_objects(monkeypatch, name):
+    select(*(add(x) for x in range(9)))
+    bpy.ops.wcd.build_hulls(shape="BOX", max_hulls=1, max_error=1.0)
+    select(*(add(x) for x in range(20, 29)))
+    looks, home = [], _LOOKS[name]
+    find = getattr(*home)
+    monkeypatch.setattr(*home, lambda: looks.append(name) or find())
+    assert not getattr(bpy.ops.wcd, name).poll()
+    assert looks == [name]

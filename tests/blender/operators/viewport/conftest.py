@@ -40,6 +40,7 @@ class Viewport:
         return SimpleNamespace(
             active_object=bpy.context.active_object,
             window_manager=self.window,
+            window=SimpleNamespace(as_pointer=lambda: 1),
             workspace=SimpleNamespace(name="Layout"),
             scene=bpy.context.scene,
         )

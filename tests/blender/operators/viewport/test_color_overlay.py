@@ -8,12 +8,14 @@ import pytest
 from edited import check_in_step
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
+from stand_ins.presses import Pressed
 from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
 from weak_convex_decomposition.operators.bridge.parts.materials import name_of
 from weak_convex_decomposition.operators.bridge.parts.read import (
     noted_identities,
     part_identities,
 )
+from weak_convex_decomposition.operators.use_parts import WCD_OT_show_colors
 
 FAST = {"samples": 100, "parts": 3}
 
@@ -33,6 +35,20 @@ def looks(obj):
     """Return the slots of an object, and the material index of each face."""
     slots = [(s.link, s.material and s.material.name) for s in obj.material_slots]
     return slots, [p.material_index for p in obj.data.polygons]
+
+
+def test_later_runs_do_what_a_button_shows_also_once_it_is_adjusted(suzanne):
+    decompose_by_hand(suzanne, 3)
+    settings = bpy.context.scene.wcd
+    show("OVERLAY")  # as scripts do
+    assert settings.colors == "MATERIALS"
+    pressed = Pressed(WCD_OT_show_colors)
+    pressed.colors = "OVERLAY"
+    assert pressed.invoke(bpy.context, None) == {"FINISHED"}
+    assert settings.colors == "OVERLAY"
+    settings.colors = "MATERIALS"  # Adjust Last Operation begins with undo
+    assert pressed.execute(bpy.context) == {"FINISHED"}
+    assert settings.colors == "OVERLAY"
 
 
 def test_decompose_leaves_slots_alone_as_an_overlay(owned):

@@ -111,6 +111,9 @@ def test_what_is_not_ours_passes(viewport, suzanne):
     for kind in ("MIDDLEMOUSE", "NUMPAD_1", "WHEELUPMOUSE", "TAB", "TIMER", "Z"):
         assert viewport.event(kind) == {"PASS_THROUGH"}, kind
     assert viewport.event("W", ctrl=True) == {"PASS_THROUGH"}
+    for key in ("alt", "ctrl"):  # Alt may emulate the middle button
+        assert viewport.event("LEFTMOUSE", **{key: True}) == {"PASS_THROUGH"}
+        assert viewport.event("RIGHTMOUSE", **{key: True}) == {"PASS_THROUGH"}
     assert viewport.event("LEFTMOUSE", "RELEASE") == {"PASS_THROUGH"}
     viewport.inside = False  # over the sidebar
     for kind in ("LEFTMOUSE", "RIGHTMOUSE", "W", "PAGE_UP"):
@@ -179,6 +182,15 @@ def test_picking_ends_with_the_file_and_by_its_button(viewport, suzanne, tmp_pat
 def test_picking_needs_parts_and_a_viewport(suzanne):
     with pytest.raises(RuntimeError, match="There is no 3D viewport here"):
         bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")
+
+
+def test_an_object_outside_the_view_layer_is_refused_in_a_sentence(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.collection.objects.unlink(suzanne)
+    with pytest.raises(RuntimeError, match="Suzanne is not in the view layer; link it"):
+        bpy.ops.wcd.choose_part(object="Suzanne", number=1)
+    assert suzanne.wcd_active_part == 0
 
 
 def test_parts_are_locked_and_renamed(suzanne):

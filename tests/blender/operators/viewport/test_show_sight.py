@@ -14,6 +14,7 @@ from weak_convex_decomposition.operators.bridge.views.images import images_of
 from weak_convex_decomposition.operators.viewport import show_sight, sight_overlay
 
 FAST = {"samples": 100}
+_PICTURES = ("SIGHT", "DISTANCES", "SCATTER")
 
 
 @pytest.fixture
@@ -102,14 +103,15 @@ def clicking(cube):
     """Return the operator as it is while it waits for clicks."""
     bpy.ops.wcd.show_sight(face=0, **FAST)
     own = vars(show_sight.WCD_OT_show_sight)
-    waiting = type("Waiting", (), {"modal": own["modal"]})()
+    waiting = type("Waiting", (), {n: own[n] for n in ("modal", "_press")})()
     waiting._viewer, waiting._overlay = object(), sight_overlay.current
     waiting._clicked = lambda *place: place
     return waiting
 
 
-def event(kind, x=0, y=0):
-    return SimpleNamespace(type=kind, value="PRESS", mouse_x=x, mouse_y=y)
+def event(kind, x=0, y=0, alt=False, ctrl=False):
+    place = {"mouse_x": x, "mouse_y": y}
+    return SimpleNamespace(type=kind, value="PRESS", alt=alt, ctrl=ctrl, **place)
 
 
 def viewport(*extra):
@@ -128,9 +130,15 @@ def test_clicks_in_the_viewport_pick_and_others_pass(cube):
         event("LEFTMOUSE", 470, 70),  # the sidebar lies over the viewport
         event("LEFTMOUSE", 20, 70),
         event("MIDDLEMOUSE", 120, 70),
+        event("LEFTMOUSE", 120, 70, alt=True),  # it may emulate the middle button
+        event("RIGHTMOUSE", 120, 70, ctrl=True),
+        event("RIGHTMOUSE", 470, 70),
+        event("RIGHTMOUSE", 20, 70),
     ):
         assert waiting.modal(context, passed) == {"PASS_THROUGH"}
     assert sight_overlay.current
+    assert waiting.modal(context, event("RIGHTMOUSE", 120, 70)) == {"FINISHED"}
+    assert sight_overlay.current is None
 
 
 @pytest.mark.parametrize(("key", "kept"), [("ESC", False), ("RET", True)])
@@ -180,13 +188,15 @@ def test_a_selection_is_asked_for(suzanne):
 
 
 def test_pictures_are_images_that_clear_removes(suzanne, tmp_path):
-    bpy.data.images.new("Mine", 4, 4).use_fake_user = True
+    for name in ("Mine", "Suzanne Distances"):
+        bpy.data.images.new(name, 4, 4).use_fake_user = True
     before = snapshot(suzanne)
     bpy.ops.wcd.decompose(**FAST)
-    for picture in ("SIGHT", "DISTANCES", "SCATTER", "SIGHT"):
+    for picture in (*_PICTURES, *_PICTURES):
         assert bpy.ops.wcd.show_picture(picture=picture) == {"FINISHED"}
     names = sorted(image.name for image in images_of(suzanne))
-    assert names == ["Suzanne Distances", "Suzanne Embedding", "Suzanne Lines of Sight"]
+    others = ["Suzanne Embedding", "Suzanne Lines of Sight"]
+    assert names == ["Suzanne Distances.001", *others]
     image = bpy.data.images["Suzanne Lines of Sight"]
     pixels = np.empty(len(image.pixels), dtype=np.float32)
     image.pixels.foreach_get(pixels)
@@ -198,7 +208,7 @@ def test_pictures_are_images_that_clear_removes(suzanne, tmp_path):
     bpy.data.images["Suzanne Lines of Sight"].pixels.foreach_get(again)
     assert (again == pixels).all()
     bpy.ops.wcd.clear()
-    assert [image.name for image in bpy.data.images] == ["Mine"]
+    assert [image.name for image in bpy.data.images] == ["Mine", "Suzanne Distances"]
     assert snapshot(bpy.context.active_object) == before
 
 

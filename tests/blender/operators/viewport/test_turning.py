@@ -26,6 +26,8 @@ def test_esc_and_right_click_go_back_to_the_number_before(viewport, by, mode):
     assert viewport.status.startswith("Click or Enter: keep 6 parts, Esc")
     for kind in ("MIDDLEMOUSE", "NUMPAD_1", "WHEELUPMOUSE", "LEFT_ALT"):
         viewport.event(kind)  # to look at them from another side
+    viewport.event("LEFTMOUSE", alt=True)
+    assert viewport.status.startswith("Click or Enter: keep 6 parts, Esc")
     viewport.event(by)
     viewport.event(by, "RELEASE")
     suzanne = bpy.context.active_object
