@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import time
 from dataclasses import replace
 from typing import Any, ClassVar
@@ -18,6 +17,7 @@ from .bridge.read.target import Target
 from .bridge.refusals import recut_refusal
 from .bridge.stored.noted_parts import n_faces_of
 from .bridge.stored.record import noted_mesh, noted_parameters, record_of
+from .bridge.work.file_end import call_at_end, call_now_instead
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
@@ -211,16 +211,13 @@ def stop(*_: object) -> None:
 
 
 def register() -> None:
-    """Stop whenever a file is loaded, and when Python ends: see `session_cache`."""
-    atexit.register(stop)
-    bpy.app.handlers.load_pre.append(stop)
+    """Stop whenever a file is loaded, and when Python ends."""
+    call_at_end(stop)
 
 
 def unregister() -> None:
     """Undo `register`, and stop."""
-    bpy.app.handlers.load_pre.remove(stop)
-    atexit.unregister(stop)
-    stop()
+    call_now_instead(stop)
 
 
 class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):

@@ -6,7 +6,6 @@ once when their number is asked for.
 
 from __future__ import annotations
 
-import atexit
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
@@ -19,6 +18,7 @@ from ...core.parameters.parameter import field_of, info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
+from ..bridge.work.file_end import call_at_end, call_now_instead
 from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
@@ -124,14 +124,11 @@ def stop(*_: object) -> None:
 
 
 def register() -> None:
-    """Stop whenever a file is loaded, and when Python ends: see `session_cache`."""
-    atexit.register(stop)
-    bpy.app.handlers.load_pre.append(stop)
+    """Stop whenever a file is loaded, and when Python ends."""
+    call_at_end(stop)
 
 
 def unregister() -> None:
     """Undo `register`, and stop."""
-    bpy.app.handlers.load_pre.remove(stop)
-    atexit.unregister(stop)
-    stop()
+    call_now_instead(stop)
     stop_timer(go_on)

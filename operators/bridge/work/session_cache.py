@@ -6,7 +6,6 @@ so that no change goes unnoticed. The figures of the latest mesh are forgotten w
 
 from __future__ import annotations
 
-import atexit
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -15,6 +14,7 @@ import bpy
 from .... import core
 from ..mesh import known
 from ..rays.bvh import BvhRayCaster
+from .file_end import call_at_end, call_now_instead
 
 # Most results that are kept while files are worked through.
 _RESULTS = 64
@@ -56,16 +56,10 @@ def forget(*_: object) -> None:
 
 
 def register() -> None:
-    """Empty the cache whenever a file is loaded, and when Python ends.
-
-    Blender counts its memory then, and calls a ray tree that is left over an error.
-    """
-    atexit.register(forget)
-    bpy.app.handlers.load_pre.append(forget)
+    """Empty the cache whenever a file is loaded, and when Python ends."""
+    call_at_end(forget)
 
 
 def unregister() -> None:
     """Undo `register`, and empty the cache."""
-    bpy.app.handlers.load_pre.remove(forget)
-    atexit.unregister(forget)
-    forget()
+    call_now_instead(forget)
