@@ -47,7 +47,6 @@ class HullParameters:
             "Shape",
             "Kind of collision shape that is put around each piece",
             choices=SHAPES,
-            advanced=False,
         ),
     )
     pieces: str = parameter(
@@ -69,7 +68,6 @@ class HullParameters:
                     " than Most Hulls, parts are joined where this adds least volume",
                 ),
             ),
-            advanced=False,
         ),
     )
     max_error: float = parameter(
@@ -82,7 +80,6 @@ class HullParameters:
             low=1e-6,
             high=1e6,
             usual=1.0,
-            advanced=False,
         ),
     )
     error_unit: str = parameter(
@@ -104,7 +101,6 @@ class HullParameters:
                     " arrays have lengths in the unit of the vertices",
                 ),
             ),
-            advanced=False,
         ),
     )
     max_hulls: int = parameter(
@@ -115,7 +111,6 @@ class HullParameters:
             " pieces are joined where this causes the least error",
             low=1,
             high=256,
-            advanced=False,
         ),
     )
     max_vertices: int = parameter(
@@ -148,7 +143,6 @@ class HullParameters:
                 Choice(naming.identifier, naming.label, naming.help)
                 for naming in NAMINGS
             ),
-            advanced=False,
         ),
     )
     template: str = parameter(

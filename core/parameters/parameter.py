@@ -52,7 +52,7 @@ class ParameterInfo:
     subtype : str
         Blender's subtype of the property: 'ANGLE' (radians), 'FACTOR' or 'NONE'.
     advanced : bool
-        Whether the sidebar shows it among the advanced settings.
+        Whether the sidebar shows it among the advanced settings of parts.
     affects_sight : bool
         Whether samples or lines of sight depend on it. If not, a new value needs no new
         rays.
