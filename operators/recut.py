@@ -22,7 +22,7 @@ from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
 from .running.computation import Replacement
-from .running.on_objects import is_free
+from .running.on_objects import active_object, is_free
 from .running.watching import stop_timer
 from .settings import parameters_from, properties_for
 
@@ -52,16 +52,12 @@ class _Recut(Replacement):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to find the parts while the window stays alive."""
-        self._rough = _active(context).mode == "OBJECT"
+        self._rough = active_object(context).mode == "OBJECT"
         return super().invoke(context, event)
 
     @staticmethod
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return recut_refusal(obj)
-
-    @classmethod
-    def _active(cls, context: bpy.types.Context) -> Any:
-        return _active(context)
 
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         """Return the parameters of the new parts."""
@@ -89,11 +85,6 @@ class _Recut(Replacement):
         if value.decomposition.rough:
             refine.start()
         return said
-
-
-def _active(context: bpy.types.Context) -> Any:
-    """Return the active object or None, also where a script set the window to None."""
-    return context.view_layer.objects.active
 
 
 def _taken(key: Any) -> Steps[Edited] | None:
@@ -138,7 +129,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether the active object has parts, also while something runs."""
-        return is_free(cls, cls._refusal(_active(context)))
+        return is_free(cls, cls._refusal(active_object(context)))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Replace the parts at once if that is quick, else start a modal run.
@@ -161,7 +152,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
     def _cut(self, context: bpy.types.Context) -> bool:
         """Replace the parts if they differ; return False if that takes too long."""
         global _begun
-        obj, parameters = _active(context), self._wanted(context)
+        obj, parameters = active_object(context), self._wanted(context)
         _begun = None  # settings have changed since
         mesh = which_mesh(context.scene.wcd.mesh, obj)
         if (noted_parameters(obj), noted_mesh(obj)) == (parameters, mesh):

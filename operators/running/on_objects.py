@@ -74,7 +74,7 @@ class OnObjects(Operator):
     @classmethod
     def _active(cls, context: bpy.types.Context) -> Any:
         """Return the active object, None if there is none."""
-        return context.active_object
+        return active_object(context)
 
     def _conclude(
         self, failures: Sequence[str], n_objects: int, late: bool = False
@@ -125,12 +125,19 @@ def is_free(operator: type[Operator], obstacle: str | None) -> bool:
     return obstacle is None
 
 
+def active_object(context: bpy.types.Context) -> Any:
+    """Return the active object or None, also where a script set the window to None."""
+    if hasattr(context, "active_object"):
+        return context.active_object
+    return context.view_layer.objects.active
+
+
 def candidates(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Return the selected objects, or those in Edit Mode; the active one comes first.
 
     In other modes it is the only one: no other object is in them.
     """
-    active = context.active_object
+    active = active_object(context)
     if active and active.mode not in {"OBJECT", "EDIT"}:
         return [active]
     in_edit_mode = active and active.mode == "EDIT"
