@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, ClassVar
 
 import bpy
@@ -78,8 +79,7 @@ class _OnHulls(OnEach):
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
         """Return `_refusal`, which looks for hulls once for all objects."""
-        owners = owners_of_hulls()
-        return lambda obj: rigid_refusal(obj, lambda: owners)
+        return partial(rigid_refusal, owners=owners_of_hulls())
 
 
 class WCD_OT_make_rigid(_OnHulls, bpy.types.Operator):

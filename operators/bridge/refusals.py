@@ -240,10 +240,13 @@ def hull_refusal(obj: Candidate) -> str | None:
 
 
 def rigid_refusal(
-    obj: Candidate, owners: Callable[[], Container[Candidate]] = owners_of_hulls
+    obj: Candidate, owners: Container[Candidate] | None = None
 ) -> str | None:
-    """Return why an object cannot become a rigid body of its hulls."""
+    """Return why an object cannot become a rigid body of its hulls.
+
+    With many objects, `owners` are those with hulls, which take a look at the file.
+    """
     reason = hull_refusal(obj)
-    if reason is None and obj not in owners():
+    if reason is None and obj not in (owners_of_hulls() if owners is None else owners):
         return f"{obj.name} has no hulls; build them first"
     return reason

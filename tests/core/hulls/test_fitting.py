@@ -31,6 +31,25 @@ def test_shapes_contain_their_part(kind, seed):
     assert heights_above_shape(smaller, points).max() > 0.005
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_a_box_is_the_smallest_flush_with_a_face(seed):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(40, 3)) * (0.2 + rng.random(3))
+    shape = around(points, "BOX")
+    # The smallest rectangle around an outline is flush with one of its edges.
+    corners = shape.hull.corners
+    edges = (np.roll(corners, 1, axis=1) - corners).reshape(-1, 3)
+    sizes = []
+    for normal in shape.hull.planes[:, :3]:
+        first = np.cross(normal, edges)
+        first /= np.linalg.norm(first, axis=1, keepdims=True)
+        widths = [
+            np.ptp(points @ axes.T, axis=0) for axes in (first, np.cross(normal, first))
+        ]
+        sizes.append(np.prod(widths, axis=0).min() * np.ptp(points @ normal))
+    assert shape.volume == pytest.approx(min(sizes), rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("kind", "volume"),
     [
