@@ -69,7 +69,12 @@ class WCD_OT_choose_part(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Choose the part, on the object that has it."""
-        obj = bpy.data.objects.get(self.object) or context.active_object
+        obj = context.active_object
+        if self.object:
+            obj = bpy.data.objects.get(self.object)
+            if obj is None:
+                self.report({"ERROR"}, f"There is no object {self.object}.")
+                return {"CANCELLED"}
         reason = edit_refusal(obj) or _absence(context, obj)
         if reason:
             self.report({"ERROR"}, f"{reason}.")

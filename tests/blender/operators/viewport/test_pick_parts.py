@@ -193,6 +193,13 @@ def test_an_object_outside_the_view_layer_is_refused_in_a_sentence(suzanne):
     assert suzanne.wcd_active_part == 0
 
 
+def test_a_name_that_no_object_has_is_refused(suzanne):
+    decompose_by_hand(suzanne, 3)
+    with pytest.raises(RuntimeError, match="There is no object Nobody"):
+        bpy.ops.wcd.choose_part(object="Nobody", number=1)
+    assert suzanne.wcd_active_part == 0
+
+
 def test_parts_are_locked_and_renamed(suzanne):
     decompose_by_hand(suzanne, 3)
     suzanne.wcd_parts[0].locked = True
