@@ -184,7 +184,7 @@ def merge_refusal(obj: Candidate, n_chosen: int) -> str | None:
     """Return why the chosen parts of an object cannot be merged."""
     reason = edit_refusal(obj)
     if reason is None and n_chosen < 2:
-        return "Tick two or more parts in the table to merge them"
+        return "Tick two or more parts in the list to merge them"
     return reason
 
 
@@ -242,10 +242,7 @@ def hull_refusal(obj: Candidate) -> str | None:
 def rigid_refusal(
     obj: Candidate, owners: Container[Candidate] | None = None
 ) -> str | None:
-    """Return why an object cannot become a rigid body of its hulls.
-
-    With many objects, `owners` are those with hulls, which take a look at the file.
-    """
+    """Return why an object, not among `owners` of hulls, cannot be a rigid body."""
     reason = hull_refusal(obj)
     if reason is None and obj not in (owners_of_hulls() if owners is None else owners):
         return f"{obj.name} has no hulls; build them first"
