@@ -50,7 +50,7 @@ class WCD_OT_select_parts(_Show, bpy.types.Operator):
     bl_idname = "wcd.select_parts"
     bl_label = "Select Convex Parts"
     bl_description = (
-        "Select the faces of the parts that are ticked in the table, or of the"
+        "Select the faces of the parts that are ticked in the list, or of the"
         " highlighted one. The selection shows in Edit Mode"
     )
 
@@ -67,7 +67,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
     bl_idname = "wcd.isolate_parts"
     bl_label = "Isolate Convex Parts"
     bl_description = (
-        "Hide the faces of all other parts. Parts that are ticked in the table stay, or"
+        "Hide the faces of all other parts. Parts that are ticked in the list stay, or"
         " the highlighted one. In Object Mode a modifier hides them, in viewports only"
     )
 
@@ -106,7 +106,7 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
     bl_idname = "wcd.frame_parts"
     bl_label = "Frame Convex Parts"
     bl_description = (
-        "Move the view to the parts that are ticked in the table, or to the highlighted"
+        "Move the view to the parts that are ticked in the list, or to the highlighted"
         " one"
     )
     bl_options: ClassVar[set[str]] = set()

@@ -198,14 +198,14 @@ def _splat_object(cloud: bpy.types.Object) -> bpy.types.Object:
 
 
 def _separated(obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """Return an object for each part, side by side."""
+    """Return an object for each of three parts, side by side in the picture."""
     labels = extension.parts_of_faces(obj)
     found = []
-    for part in range(labels.max() + 1):
+    for part, way in enumerate((-4.3, 0, 3)):
         copy = bpy.data.objects.new("Part", obj.data.copy())
         doomed = np.flatnonzero(labels != part)
         _delete_faces(copy.data, doomed)
-        copy.location = ((part - 1) * 1.7, (part - 1) * 1.2, 0)
+        copy.location = (way * 0.82, way * 0.57, 0)
         found.append(copy)
     return found
 

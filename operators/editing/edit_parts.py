@@ -67,7 +67,7 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
     bl_idname = "wcd.merge_parts"
     bl_label = "Merge Convex Parts"
     bl_description = (
-        "Make one part of the parts that are ticked in the table. It keeps the name and"
+        "Make one part of the parts that are ticked in the list. It keeps the name and"
         " color of the highlighted part if that is ticked, else of the first"
     )
 
@@ -80,7 +80,7 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
     ) -> Steps[Edited]:
         chosen, into = chosen_parts(obj), active_part(obj)
         if len(chosen) < 2:  # other ticked parts have no faces any more
-            raise DecompositionError("Tick two or more parts in the table to merge.")
+            raise DecompositionError("Tick two or more parts in the list to merge.")
         change = edits.merging(chosen, into if into in chosen else chosen[0])
         return edit_object(obj, change)
 

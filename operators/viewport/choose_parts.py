@@ -60,11 +60,11 @@ class _OnRows(OnActive, OnEach):
 
 
 class WCD_OT_choose_part(bpy.types.Operator):
-    """Highlight a part in the table, or add it to the ticked ones."""
+    """Highlight a part in the list, or add it to the ticked ones."""
 
     bl_idname = "wcd.choose_part"
     bl_label = "Choose Convex Part"
-    bl_description = "Highlight a part in the table, or tick it besides others"
+    bl_description = "Highlight a part in the list, or tick it besides others"
     bl_options: ClassVar[set[str]] = {"UNDO", "INTERNAL"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -107,7 +107,7 @@ class WCD_OT_lock_parts(_OnRows, bpy.types.Operator):
     bl_idname = "wcd.lock_parts"
     bl_label = "Lock Convex Parts"
     bl_description = (
-        "Lock the parts that are ticked in the table, or the highlighted one; unlock"
+        "Lock the parts that are ticked in the list, or the highlighted one; unlock"
         " them if all are locked. A new decomposition keeps locked parts"
     )
 
