@@ -18,7 +18,7 @@ PYTHON_HERE := PYTHONDONTWRITEBYTECODE=1 $(VENV)/bin/python
 help: ## List these commands
 	@echo "make COMMAND [BPY=4.2|5.0|5.2] [PYTHON=path of a Python 3.11 or 3.13]"
 	@echo
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-18s %s\n", $$1, $$2}' Makefile
 
 demo: venv ## Decompose Blender's monkey; results in build/demo/
 	@mkdir -p build/demo

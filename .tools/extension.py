@@ -142,14 +142,11 @@ def main() -> None:
     """Run one of the commands."""
     parser = argparse.ArgumentParser(description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    commands.add_parser("fetch", help="fill wheels/")
     commands.add_parser("pins", help="print the requirements for this Python")
     building = commands.add_parser("build", help="make and validate the zips")
-    building.add_argument("--output", type=Path, default=ROOT / "build")
+    building.add_argument("--output", type=Path, required=True)
     arguments = parser.parse_args()
-    if arguments.command == "fetch":
-        fetch()
-    elif arguments.command == "pins":
+    if arguments.command == "pins":
         print_pins()
     else:
         build(arguments.output.resolve())

@@ -55,7 +55,10 @@ class WCD_OT_use_preset(bpy.types.Operator):
 
     bl_idname = "wcd.use_preset"
     bl_label = "Use Convex Parts Preset"
-    bl_description = "Set all settings in the sidebar to those of a preset"
+    bl_description = (
+        "Set all settings of parts to those of a preset, and Parts to Auto; settings of"
+        " hulls and Colors stay"
+    )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     @classmethod
@@ -96,7 +99,7 @@ WCD_PG_settings.__annotations__ = {
     ),
     "highlight": bpy.props.BoolProperty(
         name="Highlight",
-        description="Show in the viewports which parts are chosen in the table",
+        description="Show in the viewports which parts are chosen in the list",
     ),
     "live": bpy.props.BoolProperty(
         name="Live",

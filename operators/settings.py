@@ -81,19 +81,11 @@ def hull_parameters_from(owner: Any) -> HullParameters:
 
 def is_used(owner: Any, name: str) -> bool:
     """Return whether a setting has an effect, given the other settings."""
-    if name in {"psi_pairs", "cone_angle"}:
-        return owner.sight == "CONE"
-    if name in {"min_parts", "max_parts"}:
-        return owner.parts == 0
-    if name == "samples":
-        return owner.sampling == "AREA"
-    if name == "max_error":
-        return owner.pieces == "BY_ERROR"
-    if name == "max_vertices":
-        return owner.shape == "HULL"
-    if name == "template":
-        return owner.naming == "TEMPLATE"
-    return True
+    needed = info_of(_FIELDS[name]).used_with if name in _FIELDS else None
+    if needed is None:
+        return True
+    other, value = needed
+    return bool(getattr(owner, other) == value)
 
 
 def other_error(settings: Any, obj: bpy.types.Object) -> tuple[str, str] | None:

@@ -4,6 +4,7 @@ import importlib.util
 import os
 import signal
 import sys
+from pathlib import Path
 
 import pytest
 from checkout import PACKAGE, ROOT  # noqa: F401  # tests take them from here
@@ -20,6 +21,7 @@ EXIT_STATUS = pytest.StashKey[int]()
 HAS_BLENDER = importlib.util.find_spec("bpy") is not None
 REQUIRE_BLENDER = os.environ.get("WCD_REQUIRE_BLENDER") == "1"
 RINGS_WITH_BLENDER = ("blender", "package")
+TESTS = Path(__file__).parent
 
 # Their modules import bpy at the top, so without it they cannot even be collected.
 collect_ignore_glob = (
@@ -42,7 +44,12 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the tests of the zips, which take longest."""
-    items.sort(key=lambda item: "package" not in item.path.parts)
+    items.sort(key=lambda item: ring_of(item) != "package")
+
+
+def ring_of(item: pytest.Item) -> str:
+    """Return the folder of tests/ that a test is in, wherever the checkout is."""
+    return item.path.relative_to(TESTS).parts[0]
 
 
 @pytest.hookimpl(optionalhook=True)  # where xdist is installed
@@ -67,8 +74,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
 def pytest_runtest_makereport(item: pytest.Item):
     """Turn skips into failures where Blender is required."""
     report = yield
-    in_ring = any(ring in item.path.parts for ring in RINGS_WITH_BLENDER)
-    if REQUIRE_BLENDER and in_ring and report.skipped:
+    if REQUIRE_BLENDER and ring_of(item) in RINGS_WITH_BLENDER and report.skipped:
         report.outcome = "failed"
         report.longrepr = f"skipped under WCD_REQUIRE_BLENDER: {report.longrepr}"
     return report

@@ -19,6 +19,8 @@ OWN_OPTIONS = {
     *("picture", "preset", "processes", "quiet", "report", "up", "version"),
     "with_hulls",
 }
+# What the README says of the example's result, asked of it.
+_LABELS = "print(decompose(vertices, faces).labels)"
 
 
 def section(title):
@@ -60,6 +62,15 @@ def test_every_make_command_exists():
     assert commands <= make_targets()
 
 
+@pytest.mark.skipif(not HAS_BLENDER, reason="the command line imports bpy")
+def test_own_options_are_those_of_the_command_line():
+    from weak_convex_decomposition.operators.headless.request import options
+
+    known = {action.dest for action in options._parser("wcd")._actions}
+    settings = {field.name for kind in options.SETTINGS for field in fields(kind)}
+    assert (known - settings - {"inputs"}) | {"command"} == OWN_OPTIONS
+
+
 def test_every_option_is_one():
     parameters = {f.name for kind in (Parameters, HullParameters) for f in fields(kind)}
     assert options_in(README) <= OWN_OPTIONS | parameters
@@ -93,10 +104,12 @@ def test_the_script_runs_from_a_checkout_and_finds_the_parts_it_promises(tmp_pat
     (script,) = (block for block in blocks("python") if f"from {PACKAGE}" in block)
     (tmp_path / PACKAGE).symlink_to(ROOT, target_is_directory=True)
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", script],
+        [sys.executable, "-W", "error", "-c", script + _LABELS],
         capture_output=True,
         text=True,
         env={**os.environ, "PYTHONPATH": str(tmp_path)},
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.splitlines()[-1].startswith("Decomposition(2 parts, ")
+    result, labels = done.stdout.splitlines()[-2:]
+    assert result.startswith("Decomposition(2 parts, ")
+    assert f"`labels`, here `{labels}`" in README

@@ -80,6 +80,7 @@ class HullParameters:
             low=1e-6,
             high=1e6,
             usual=1.0,
+            used_with=("pieces", "BY_ERROR"),
         ),
     )
     error_unit: str = parameter(
@@ -121,6 +122,7 @@ class HullParameters:
             " hull with fewer vertices lies within the exact hull",
             low=4,
             high=1024,
+            used_with=("shape", "HULL"),
         ),
     )
     margin: float = parameter(
@@ -152,6 +154,7 @@ class HullParameters:
             "Pattern of names, used if Naming is By Template: {name} is the name of the"
             " object, {n} the number of the hull, {kind} its shape, {prefix} Unreal's"
             " prefix",
+            used_with=("naming", "TEMPLATE"),
         ),
     )
 

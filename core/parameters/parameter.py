@@ -56,6 +56,9 @@ class ParameterInfo:
     affects_sight : bool
         Whether samples or lines of sight depend on it. If not, a new value needs no new
         rays.
+    used_with : tuple of str and value, optional
+        Another parameter, and the value that it must have. With others, this one has no
+        effect.
     """
 
     label: str
@@ -67,6 +70,7 @@ class ParameterInfo:
     subtype: str = "NONE"
     advanced: bool = True
     affects_sight: bool = True
+    used_with: tuple[str, Any] | None = None
 
 
 def parameter(default: Any, info: ParameterInfo) -> Any:

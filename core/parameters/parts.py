@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 from ..errors import DecompositionError
 from . import choices
 from .parameter import ParameterInfo, parameter, settle
+
+# A number of parts that bounds the search.
+_searched = partial(ParameterInfo, low=2, high=256, usual=24, affects_sight=False)
 
 
 @dataclass(frozen=True)
@@ -97,6 +101,7 @@ class Parameters:
             " of them, but 400 at least; not used if Sampling is By Faces",
             low=16,
             high=10000,
+            used_with=("sampling", "AREA"),
         ),
     )
     cone_angle: float = parameter(
@@ -108,6 +113,7 @@ class Parameters:
             low=math.radians(1.0),
             high=math.pi,
             subtype="ANGLE",
+            used_with=("sight", "CONE"),
         ),
     )
     psi_pairs: str = parameter(
@@ -117,6 +123,7 @@ class Parameters:
             "Pairs of samples that psi, the score of the parts, is estimated from; only"
             " used if Lines of Sight is Cone, since the other kinds count every pair",
             choices=choices.PSI_PAIRS,
+            used_with=("sight", "CONE"),
         ),
     )
     containers: str = parameter(
@@ -139,24 +146,18 @@ class Parameters:
     )
     min_parts: int = parameter(
         2,
-        ParameterInfo(
+        _searched(
             "Fewest Parts",
             "Smallest number of parts that the search tries",
-            low=2,
-            high=256,
-            usual=24,
-            affects_sight=False,
+            used_with=("parts", 0),
         ),
     )
     max_parts: int = parameter(
         13,
-        ParameterInfo(
+        _searched(
             "Most Parts",
             "Largest number of parts that the search tries: higher values take longer",
-            low=2,
-            high=256,
-            usual=24,
-            affects_sight=False,
+            used_with=("parts", 0),
         ),
     )
     refinement: str = parameter(

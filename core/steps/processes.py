@@ -164,7 +164,8 @@ def _start() -> subprocess.Popen[bytes]:
     """Start a process."""
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     return subprocess.Popen(
-        [sys.executable or "", "-c", _PROGRAM],
+        # -P keeps modules of the current folder out, such as a pickle.py of the user's.
+        [sys.executable or "", "-P", "-c", _PROGRAM],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,

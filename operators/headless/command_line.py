@@ -94,15 +94,13 @@ def _run(
     for note in request.notes:
         screen.warning(note)
     try:
-        run(load_libraries())
+        if not _has_libraries(screen):
+            return _NOTHING_DONE
         for result in _decompose_files(request, screen):
             if result.failed:  # by an interrupt that an operator lost, maybe
                 interrupts.check()
             results.append(result)
             interrupts.check()
-    except DecompositionError as error:  # a library is missing
-        screen.error(str(error))
-        return _NOTHING_DONE
     except KeyboardInterrupt:
         screen.error("Interrupted.")
         interrupted = True
@@ -113,6 +111,16 @@ def _run(
         )
     failed = attempts.errors or any(result.failed for result in results)
     return _INTERRUPTED if interrupted else _FAILED if failed else 0
+
+
+def _has_libraries(screen: Screen) -> bool:
+    """Load SciPy and its like; return whether they are there, and say what is not."""
+    try:
+        run(load_libraries())
+    except DecompositionError as error:
+        screen.error(str(error))
+        return False
+    return True
 
 
 def _decompose_files(request: Request, screen: Screen) -> Iterator[InputResult]:

@@ -37,10 +37,18 @@ HULL_FORMATS = {
 }
 HULL_ENDINGS = tuple(HULL_FORMATS.values())
 # Hull files with masses, whose meshes lie in a folder beside them.
-SIMULATOR_ENDINGS = (".urdf", ".xml")
+SIMULATOR_ENDINGS = tuple(HULL_FORMATS[name] for name in ("urdf", "mjcf"))
 
 # The usual up axis of mesh formats whose files do not state one.
-USUAL_UP = {".obj": "Y", ".off": "Y", ".ply": "Z", ".stl": "Z"}
+USUAL_UP = {
+    ".obj": "Y",
+    ".off": "Y",
+    **dict.fromkeys((".ply", ".stl", ".xyz", ".pwn", ".pts"), "Z"),
+}
+
+# Characters that names in files do not have, within brackets of a regular expression:
+# control characters, halves of characters, and what is none.
+CONTROL_CHARACTERS = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
 
 
 def up_in(ending: str, chosen: str | None) -> str:

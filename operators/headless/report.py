@@ -17,13 +17,12 @@ from ...core.results.psi import good_numbers
 from ..bridge.mesh.fingerprint import MEASURED_ON
 from ..bridge.stored.noted_parts import psi_by_k_of
 from ..bridge.stored.notes import version
-from .atomic import explaining, replacing
+from .files.replacing import explaining, replacing
 from .request.options import Request
 from .request.outputs import STANDARD_STREAM
-from .run.memory import peak_memory
 from .run.results import InputResult, ObjectResult
-from .run.stages import Stage
 from .screen import write
+from .stages import Stage, peak_memory
 
 SCHEMA_VERSION = 1
 
@@ -32,7 +31,7 @@ def save_report(
     path: Path,
     results: Sequence[InputResult],
     request: Request,
-    not_done: Sequence[Path] = (),
+    not_done: Sequence[Path],
 ) -> None:
     """Write the report of a run.
 
@@ -43,7 +42,7 @@ def save_report(
     results : sequence of InputResult
         Of the inputs that are finished.
     request : Request
-    not_done : sequence of Path, optional
+    not_done : sequence of Path
         The inputs that are not, because the run was interrupted.
 
     Raises

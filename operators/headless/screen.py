@@ -5,21 +5,19 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TextIO, TypeVar
 
 from ...core.steps.progress import Progress, Steps, mapped, run
 from .request.option_names import with_options
-from .run.stages import Stages
+from .stages import Stages
 
 T = TypeVar("T")
 
 # Time between two lines of progress at least.
 _TERMINAL_SECONDS = 0.1
 _LOG_SECONDS = 2.0
-# Most names in a sentence.
-_MOST_NAMES = 3
 
 
 class StreamError(Exception):
@@ -66,15 +64,19 @@ class Screen:
             self._wipe()
             write(self._out, f"{text}\n")
 
-    def warning(self, text: str) -> None:
-        """Show a warning."""
-        self._wipe()
-        write(self._err, f"warning: {with_options(text)}\n")
+    def warning(self, sentence: str, title: str = "") -> None:
+        """Show a warning; `title` says what it is about, such as an object's name."""
+        self._say("warning", title, sentence)
 
-    def error(self, text: str) -> None:
-        """Show an error."""
+    def error(self, sentence: str, title: str = "") -> None:
+        """Show an error; `title` says what it is about, such as an object's name."""
+        self._say("error", title, sentence)
+
+    def _say(self, kind: str, title: str, sentence: str) -> None:
+        """Show a sentence; names in the title are not those of settings."""
         self._wipe()
-        write(self._err, f"error: {with_options(text)}\n")
+        about = f"{title}: " if title else ""
+        write(self._err, f"{kind}: {about}{with_options(sentence)}\n")
 
     def follow(self, title: str, steps: Steps[T]) -> T:
         """Finish a computation, show its progress and return its value."""
@@ -169,10 +171,3 @@ def _discard(descriptor: int) -> None:
     if null != descriptor:  # the lowest that is free, so perhaps this one
         os.dup2(null, descriptor)
         os.close(null)
-
-
-def first_of(names: Sequence[str]) -> str:
-    """Return the first names of many, and how many more there are."""
-    more = len(names) - _MOST_NAMES
-    shown = ", ".join(names[:_MOST_NAMES])
-    return f"{shown} and {more} more" if more > 0 else shown

@@ -23,14 +23,9 @@ def pictures(seen, request):
 
 def matrix(pixels):
     """Return the matrix of a picture, and the color of each of its rows."""
-    times = int((pixels[:, 0] != 1).any(axis=1).argmax())
-    size = next(
-        n
-        for n in range(1, 9)
-        if pixels.shape[0] % n == 0 and pixels.shape[0] // n == 162
-    )
-    small = pixels[::size, ::size]
-    assert times > 0
+    times, rest = divmod(len(pixels), 162)  # 150 samples, and 12 for the colors
+    assert rest == 0
+    small = pixels[::times, ::times]
     return small[12:, 12:, 0], small[12:, 0]
 
 

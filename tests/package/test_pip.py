@@ -13,15 +13,6 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PYTHON_BLOCK = re.compile(r"^```python\n(.*?)^```", re.M | re.S)
 IMPORT = "from weak_convex_decomposition import"
-# What is run as long as the README has no such script.
-EXAMPLE = """\
-from weak_convex_decomposition import decompose
-outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
-vertices = [(x, y, z) for z in (0, 1) for x, y in outline]
-walls = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
-faces = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *walls]
-print(decompose(vertices, faces).n_parts, "parts")
-"""
 WITHOUT_NETWORK = ("No matching distribution", "Could not find a version")
 
 
@@ -60,8 +51,8 @@ def environment(tmp_path_factory) -> Environment:
 def readme_script() -> str:
     """Return the README's script for plain Python."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    scripts = [block for block in PYTHON_BLOCK.findall(readme) if IMPORT in block]
-    return scripts[0] if scripts else EXAMPLE
+    (script,) = (block for block in PYTHON_BLOCK.findall(readme) if IMPORT in block)
+    return script
 
 
 def test_the_script_of_the_readme_runs_without_a_warning(environment):
@@ -116,6 +107,6 @@ def test_the_command_says_that_bpy_is_missing(environment, command):
 
 def test_a_missing_ray_caster_is_told_in_a_sentence(environment):
     hide = "import sys; sys.modules['embreex.mesh_construction'] = None\n"
-    done = environment.run("python", "-c", hide + EXAMPLE)
+    done = environment.run("python", "-c", hide + readme_script())
     assert done.returncode == 1
     assert "No ray caster is installed; install Embree with" in done.stderr

@@ -19,6 +19,8 @@ from .converting import mesh_of
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
 _SAME_SCALE = 1e-5
+# Scripts that write an infinite coordinate into a mesh get this one.
+_CLAMPED = np.finfo(np.float32).max
 
 
 def read_shape(obj: bpy.types.Object) -> Shape:
@@ -30,9 +32,9 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     """Return the triangles of an object's mesh, without modifiers, or its points.
 
     Coordinates are in object space, in Blender units. If the object's scale differs by
-    axis, they are multiplied by it, because samples are spread over the shape that the
-    user sees. Mirroring is left out: it changes no line of sight, and would turn the
-    triangles inside out.
+    axis, they are multiplied by its `stretch`, because samples are spread over the
+    shape that the user sees. Mirroring is left out: it changes no line of sight, and
+    would turn the triangles inside out.
 
     All is read at once, so that the object may change before the steps are done.
 
@@ -43,7 +45,7 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     Raises
     ------
     DecompositionError
-        At once, if an object has no usable faces or points, or a scale of zero.
+        At once, if an object has no usable faces or points, or no proper place.
     """
     factors = stretch(obj)
     if is_cloud(obj):
@@ -83,6 +85,7 @@ def _mesh_in_steps(
 ) -> Steps[TriangleMesh]:
     """Return what `read_mesh` returns; the mesh is read and checked at once."""
     places = vertex_positions(mesh)
+    places[np.abs(places) == _CLAMPED] = np.inf
     check_surface(places, len(mesh.polygons))
     read = triangles_in_steps(mesh, places)
 
@@ -97,22 +100,21 @@ def _mesh_in_steps(
 
 
 def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
-    """Return the factor of each axis, (3,); all are 1 if the scale is uniform.
+    """Return the factor of each axis, (3,), that gives a mesh its proportions.
+
+    Their product is 1: they keep volumes, and lengths of 1 are about as long as in
+    object space. All are 1 if the scale is uniform.
 
     Raises
     ------
     DecompositionError
-        If a factor is zero or not finite.
+        If the scale is zero, or the object's place is not finite.
     """
-    scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
-    if not np.isfinite(scale).all() or not scale.all():
-        raise DecompositionError(
-            "The object's scale is zero or not a number along an axis; give it a"
-            " scale in Sidebar > Item."
-        )
+    scale = _scale_of(obj)
     if scale.max() - scale.min() <= _SAME_SCALE * scale.max():
         return np.ones(3)
-    return scale
+    factors: NDArray[np.float64] = scale / np.cbrt(scale.prod())
+    return factors
 
 
 def scene_unit(obj: bpy.types.Object) -> float:
@@ -121,10 +123,30 @@ def scene_unit(obj: bpy.types.Object) -> float:
     Raises
     ------
     DecompositionError
-        If a factor of the scale is zero or not finite.
+        As `stretch` does.
     """
+    return float((_scale_of(obj) / stretch(obj)).max())
+
+
+def has_place(obj: bpy.types.Object) -> bool:
+    """Return whether an object's location, rotation and scale are finite numbers."""
+    return bool(np.isfinite(np.array(obj.matrix_world)).all())
+
+
+def _scale_of(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return the scale of an object, (3,), without signs; raise as `stretch` does."""
+    if not has_place(obj):
+        raise DecompositionError(
+            "The object's location, rotation or scale, or its parent's, is not a"
+            " number; type one in Sidebar > Item."
+        )
     scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
-    return float((scale / stretch(obj)).max())
+    if not scale.all():
+        raise DecompositionError(
+            "The object's scale is zero along an axis; give it a scale in Sidebar >"
+            " Item."
+        )
+    return scale
 
 
 def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
@@ -133,10 +155,9 @@ def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
     Raises
     ------
     DecompositionError
-        If a factor of their scales is zero or not finite.
+        As `stretch` does.
     """
-    factors, others = stretch(obj), stretch(other)
-    return np.allclose(factors / factors.max(), others / others.max(), _SAME_SCALE, 0.0)
+    return np.allclose(stretch(obj), stretch(other), _SAME_SCALE, 0.0)
 
 
 def have_equal_shapes(
@@ -153,11 +174,9 @@ def have_equal_shapes(
     Raises
     ------
     DecompositionError
-        If a factor of their scales is zero or not finite.
+        As `stretch` does.
     """
-    if obj.data != other.data:
-        return False
-    same = np.allclose(stretch(obj), stretch(other), _SAME_SCALE, 0.0)
-    if not of_equal_size:
+    same = obj.data == other.data and has_proportions_of(obj, other)
+    if not (same and of_equal_size):
         return same
-    return same and bool(np.isclose(scene_unit(obj), scene_unit(other), _SAME_SCALE))
+    return bool(np.isclose(scene_unit(obj), scene_unit(other), _SAME_SCALE))

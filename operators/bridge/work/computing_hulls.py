@@ -38,7 +38,8 @@ def build_hulls_of(
 ) -> Steps[HullDecomposition]:
     """Return the steps that build hulls around an object or its parts.
 
-    An object without parts is first decomposed if each part is to get one shape.
+    An object without parts is first decomposed if each part is to get one shape. It
+    does not get these parts, and hulls do not belong to them.
 
     Parameters
     ----------
@@ -87,12 +88,16 @@ def _hulls_here(
 ) -> Steps[HullDecomposition]:
     """Build hulls in this process; find parts for them first if there are none."""
     shape, cache, start = (yield from read), session_cache(), 0.0
-    if labels is None and hull_parameters.pieces == "PARTS":
+    needs_parts = labels is None and hull_parameters.pieces == "PARTS"
+    if needs_parts:
         start = 0.4
         parts = core.decompose_in_steps(shape, parameters, cache)
         labels = (yield from within(parts, 0.0, start)).labels
     steps = core.build_hulls_in_steps(shape, hull_parameters, cache, labels, *rest)
-    return (yield from within(steps, start, 1.0))
+    found = yield from within(steps, start, 1.0)
+    if needs_parts:  # the object does not get them
+        found = replace(found, parts=np.full_like(found.parts, -1))
+    return found
 
 
 def _enlarged(

@@ -9,10 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..atomic import is_stream
-from ..formats import SIMULATOR_ENDINGS
+from ..formats import CONTROL_CHARACTERS, SIMULATOR_ENDINGS
 from .output_folders import folder_of, owned_names
+from .replacing import is_stream
 
+_CONTROL = re.compile(f"[{CONTROL_CHARACTERS}]")
 _MATERIALS_LINE = re.compile(rb"^mtllib (.+?)\r?$", re.MULTILINE)
 
 
@@ -61,15 +62,13 @@ def _check_name(path: Path) -> None:
     Raises
     ------
     DecompositionError
-        If the name is no Unicode; XML holds nothing else.
+        If the name has characters that XML does not hold.
     """
-    try:
-        path.name.encode()
-    except UnicodeEncodeError as error:
+    if _CONTROL.search(path.name):
         raise DecompositionError(
-            f"{path} has a name that is no Unicode, which {path.suffix} files cannot"
-            " hold; rename it."
-        ) from error
+            f"{path} has a name with control characters, or bytes that are no Unicode,"
+            f" which {path.suffix} files cannot hold; rename it."
+        )
 
 
 def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:

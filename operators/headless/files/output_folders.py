@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..atomic import replacing
+from .replacing import replacing
 
 MANIFEST = "wcd_manifest.json"
 # Files of a user with such endings may have a name that we are about to write.

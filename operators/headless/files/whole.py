@@ -16,8 +16,7 @@ import zlib
 from collections.abc import Callable
 from pathlib import Path
 
-from ..read.damage_checks import n_stl_triangles
-from ..read.ply_files import read_header
+from .headers import n_stl_triangles, read_header
 
 _BLOCK = 4096
 _SOME_BLOCKS = 16
@@ -130,7 +129,7 @@ def _ply(data: bytes) -> bool:
 
 def _stl(data: bytes) -> bool:
     """Check binary .stl: the size that its number of triangles makes."""
-    return n_stl_triangles(data[:84], len(data)) is not None
+    return n_stl_triangles(data, len(data)) is not None
 
 
 def _png(data: bytes) -> bool:

@@ -2,5 +2,5 @@
 
 `load` is the entry. It checks a file (`damage_checks`, `finite_checks`) and calls the
 importer of its ending (`importers`): Blender's, or ours for .off (`off_files`) and
-.xyz, .pwn, .pts (`xyz_files`). `ply_files` tells whether a .ply file is whole.
+.xyz, .pwn, .pts (`xyz_files`).
 """

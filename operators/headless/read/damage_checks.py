@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import os
 import re
-import struct
 import zipfile
 from pathlib import Path
 
 from ....core.errors import DecompositionError
+from ..files.headers import MOST_DIGITS, n_stl_triangles, read_header
 from ..formats import READ_ENDINGS
-from .ply_files import read_header
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {
@@ -26,9 +25,6 @@ _SIGNATURES = {
     ".usdz": (b"PK",),
     ".blend": (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b"),
 }
-# Bytes of binary .stl.
-_STL_HEADER = 84
-_STL_TRIANGLE = 50
 # Characters that no number has, not even "1e-5" or "-inf".
 _NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
 # A vertex or a face in an .obj file, and the numbers of the vertices of a face.
@@ -108,23 +104,6 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
 
 
-def n_stl_triangles(head: bytes, size: int) -> int | None:
-    """Return the number of triangles of a binary .stl file, None for one in text form.
-
-    Parameters
-    ----------
-    head : bytes
-        The first 84 bytes or more.
-    size : int
-        Bytes of the whole file.
-    """
-    if size < _STL_HEADER:
-        return None
-    (n_triangles,) = struct.unpack_from("<I", head, _STL_HEADER - 4)
-    whole = size == _STL_HEADER + _STL_TRIANGLE * n_triangles
-    return int(n_triangles) if whole else None
-
-
 def _check_ply(path: Path) -> None:
     """Raise for PLY that Blender would read in part, or crash on."""
     data = path.read_bytes()
@@ -160,9 +139,10 @@ def _check_obj_corners(path: Path) -> None:
         if line[1] == b"v":
             n_vertices += 1
             continue
-        for corner in map(int, _OBJ_CORNER.findall(line[2])):
+        for corner in _OBJ_CORNER.findall(line[2]):
             # Vertices count from 1, or from -1 back from the face.
-            if not 1 <= abs(corner) <= n_vertices:
+            too_long = len(corner) > MOST_DIGITS
+            if too_long or not 1 <= abs(int(corner)) <= n_vertices:
                 raise DecompositionError(
                     f"{path.name} has a face that comes before its vertices or refers"
                     " to some that are missing; export it again."

@@ -1,20 +1,29 @@
-"""Refuses coordinates that are infinite or NaN; Blender's importers make them 0."""
+"""Refuses coordinates that are infinite, NaN or too large for single precision.
+
+Blender's importers make them 0.
+"""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from .damage_checks import n_stl_triangles
-from .ply_files import read_header
+from ..files.headers import STL_HEADER, n_stl_triangles, read_header
 
-# NaN or infinity behind the keyword of a line.
-_WORD = rb"[ \t].*?(?<![\w.])(nan|inf|infinity)\b"
-_IN_OBJ = re.compile(rb"^[ \t]*v" + _WORD, re.IGNORECASE | re.MULTILINE)
-_IN_STL = re.compile(rb"^[ \t]*vertex" + _WORD, re.IGNORECASE | re.MULTILINE)
+_LARGEST = float(np.finfo(np.float32).max)
+# What words have in them that may be no finite numbers: 19 digits and an exponent of 18
+# make a small enough one.
+_SUSPECT = rb"(?:nan|inf|(?<![\d.])\d{20}|e\+?0*(?:19|[2-9]\d|[1-9]\d\d))"
+_ANY_SUSPECT = re.compile(_SUSPECT, re.IGNORECASE)
+# Such a word behind the keyword of a line.
+_BEHIND = rb"[ \t]([^#\n]*?" + _SUSPECT + rb"[^#\n]*)"
+_IN_OBJ = re.compile(rb"^[ \t]*v" + _BEHIND, re.IGNORECASE | re.MULTILINE)
+_IN_STL = re.compile(rb"^[ \t]*vertex" + _BEHIND, re.IGNORECASE | re.MULTILINE)
 _STL_TRIANGLE = np.dtype(
     [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 )
@@ -37,23 +46,42 @@ def check_finite(path: Path) -> None:
 def not_finite(path: Path) -> DecompositionError:
     """Return the error for a file with coordinates that are not finite."""
     return DecompositionError(
-        f"{path.name} has coordinates that are not finite numbers; repair it in the"
-        " program it comes from."
+        f"{path.name} has coordinates that are not finite numbers in single precision;"
+        " repair it in the program it comes from."
     )
+
+
+def all_finite(values: NDArray[Any]) -> bool:
+    """Return whether all coordinates are finite in single precision."""
+    return bool((np.abs(values.astype(np.float64)) <= _LARGEST).all())
+
+
+def _is_finite(word: bytes) -> bool:
+    """Return whether a word is a finite number, or none at all."""
+    try:
+        return abs(float(word)) <= _LARGEST
+    except ValueError:  # such as "-nan(ind)"
+        return not word.lstrip(b"+-").lower().startswith((b"nan", b"inf"))
+
+
+def _lines_are_finite(data: bytes, line: re.Pattern[bytes]) -> bool:
+    """Return whether all words are finite in the lines that a pattern finds."""
+    words = (word for found in line.finditer(data) for word in found[1].split())
+    return all(map(_is_finite, words))
 
 
 def _obj_is_finite(data: bytes) -> bool:
     """Return whether all positions are finite."""
-    return _IN_OBJ.search(data) is None
+    return _lines_are_finite(data.replace(b"\\\n", b" "), _IN_OBJ)
 
 
 def _stl_is_finite(data: bytes) -> bool:
     """Return whether all corners are finite."""
-    n_triangles = n_stl_triangles(data[:84], len(data))
+    n_triangles = n_stl_triangles(data, len(data))
     if n_triangles is not None:
-        triangles = np.frombuffer(data, _STL_TRIANGLE, n_triangles, offset=84)
-        return bool(np.isfinite(triangles["corners"]).all())
-    return _IN_STL.search(data) is None
+        triangles = np.frombuffer(data, _STL_TRIANGLE, n_triangles, STL_HEADER)
+        return all_finite(triangles["corners"])
+    return _lines_are_finite(data, _IN_STL)
 
 
 def _ply_is_finite(data: bytes) -> bool:
@@ -70,18 +98,17 @@ def _ply_is_finite(data: bytes) -> bool:
     codes = vertex.properties.items()
     dtype = np.dtype([(name, header.order + code) for name, code in codes])
     table = np.frombuffer(body, dtype, min(vertex.n_rows, len(body) // dtype.itemsize))
-    return all(np.isfinite(table[axis]).all() for axis in axes)
+    return all(all_finite(table[axis]) for axis in axes)
 
 
 def _rows_are_finite(body: bytes, n_rows: int, names: list[str]) -> bool:
     """Return whether the x, y and z columns of the first lines are finite."""
-    lower = body.lower()
-    if b"nan" not in lower and b"inf" not in lower:
+    if _ANY_SUSPECT.search(body) is None:
         return True
     columns = [names.index(axis) for axis in "xyz" if axis in names]
-    rows = (line.split() for line in lower.splitlines()[:n_rows])
-    return not any(
-        row[column].lstrip(b"+-").startswith((b"nan", b"inf"))
+    rows = (line.split() for line in body.splitlines()[:n_rows])
+    return all(
+        _is_finite(row[column])
         for row in rows
         for column in columns
         if column < len(row)

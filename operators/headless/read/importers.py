@@ -10,20 +10,24 @@ from collections.abc import Callable
 from math import pi
 from pathlib import Path
 
-import addon_utils
 import bpy
 
 from ...bridge.mesh.points import set_points
+from ..addons import FBX, GLTF, enable
 from ..formats import axes
 from .numbering import number_in_order
 from .off_files import read_off
-from .ply_files import import_ply
 from .xyz_files import read_points
 
 
 def _obj(path: Path, up: str) -> set[str]:
     """Import .obj."""
     return set(bpy.ops.wm.obj_import(filepath=str(path), **axes(up)))
+
+
+def _ply(path: Path, up: str) -> set[str]:
+    """Import .ply."""
+    return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))
 
 
 def _stl(path: Path, up: str) -> set[str]:
@@ -54,9 +58,19 @@ def _points(path: Path, up: str) -> set[str]:
 
 def _gltf(path: Path, _up: str) -> set[str]:
     """Import .glb or .gltf."""
-    _enable("io_scene_gltf2")
-    # glTF splits vertices at sharp edges; merging them joins the faces again.
-    return set(bpy.ops.import_scene.gltf(filepath=str(path), merge_vertices=True))
+    enable(GLTF)
+    result = set(
+        bpy.ops.import_scene.gltf(
+            filepath=str(path),
+            # glTF splits vertices at sharp edges; merging them joins the faces again.
+            merge_vertices=True,
+            disable_bone_shape=True,  # a mesh that is not of the file
+        )
+    )
+    # Newer Blenders exclude what is in other scenes than the first, or in none.
+    for child in bpy.context.view_layer.layer_collection.children:
+        child.exclude = False
+    return result
 
 
 def _fbx(path: Path, _up: str) -> set[str]:
@@ -65,7 +79,7 @@ def _fbx(path: Path, _up: str) -> set[str]:
         result = set(bpy.ops.wm.fbx_import(filepath=str(path)))
         _count_users()
         return result
-    _enable("io_scene_fbx")
+    enable(FBX)
     return set(bpy.ops.import_scene.fbx(filepath=str(path)))
 
 
@@ -118,15 +132,9 @@ def _add_object(mesh: bpy.types.Mesh, up: str) -> bpy.types.Object:
     return obj
 
 
-def _enable(addon: str) -> None:
-    """Enable an add-on that comes with Blender, for this session only."""
-    if not addon_utils.check(addon)[1] and addon_utils.enable(addon) is None:
-        raise RuntimeError(f"Blender's add-on {addon} is missing")
-
-
 IMPORTERS: dict[str, Callable[[Path, str], set[str]]] = {
     ".obj": _obj,
-    ".ply": import_ply,
+    ".ply": _ply,
     ".stl": _stl,
     ".off": _off,
     ".xyz": _points,

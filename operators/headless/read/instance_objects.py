@@ -11,12 +11,11 @@ from mathutils import Matrix
 
 from ...bridge.homes import homes_of
 from ...bridge.stored.record import forget_result
+from ..shear import has_shear, put_below
 from .numbering import unnumbered
 
 # Bytes of a name: Blender 4.2 allows 63, and those of hulls get longer.
 _LONGEST_NAME = 48
-# Largest difference between a matrix and its location, rotation and scale, as a share.
-_NO_SHEAR = 1e-5
 
 
 @dataclass(frozen=True)
@@ -97,11 +96,7 @@ def _move(obj: bpy.types.Object, matrix: Matrix, instancer: bpy.types.Object) ->
     obj.delta_location = obj.delta_rotation_euler = (0.0, 0.0, 0.0)
     obj.delta_rotation_quaternion = (1.0, 0.0, 0.0, 0.0)
     obj.delta_scale = (1.0, 1.0, 1.0)
-    obj.matrix_basis = matrix
-    location, rotation, scale = matrix.decompose()
-    rows = zip(Matrix.LocRotScale(location, rotation, scale), matrix, strict=True)
-    shear = max((a.to_3d() - b.to_3d()).length for a, b in rows)
-    if shear > _NO_SHEAR * max(map(abs, scale)):
-        obj.matrix_basis = Matrix()
-        obj.parent = instancer
-        obj.matrix_parent_inverse = instancer.matrix_world.inverted_safe() @ matrix
+    if has_shear(matrix):
+        put_below(obj, instancer, matrix)
+    else:
+        obj.matrix_basis = matrix

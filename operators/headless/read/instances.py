@@ -146,13 +146,11 @@ def _instances(
             continue
         if not each.matrix_world.determinant():
             continue  # a scale of zero: nothing of it shows
-        own = source.evaluated_get(depsgraph).data
-        is_copy = obj.data is None or obj.data == own
+        is_copy = obj.data in (None, source.evaluated_get(depsgraph).data)
         mesh = None
         applied = _kinds(source) if with_modifiers else _kinds(source) & _INSTANCING
         if not is_copy or (obj.type == "MESH" and applied):
-            stands_for_curve = source.type != "MESH" and obj.data.name == own.name
-            if obj.type != "MESH" or stands_for_curve or not obj.data.polygons:
+            if obj.type != "MESH" or _is_surface(obj, source) or not obj.data.polygons:
                 continue
             key = obj.data.as_pointer()
             if key not in meshes:
@@ -169,6 +167,13 @@ def _instances(
             )
         )
     return found
+
+
+def _is_surface(shown: bpy.types.Object, source: bpy.types.Object) -> bool:
+    """Return whether an instance is the surface of a curve, text or metaball itself."""
+    if source.type == "META":
+        return True
+    return source.type != "MESH" and shown.data.name == source.data.name
 
 
 def _kinds(obj: bpy.types.Object) -> set[str]:

@@ -10,7 +10,8 @@ import bpy
 from ....core.parameters.hull_names import UNREAL_PREFIXES
 from ...bridge.hulls.listed import is_hull
 from ...bridge.stored.names import HULL_TAG
-from ..screen import first_of
+from ..current_file import first_of
+from ..shear import put_below
 
 # How Unreal knows hulls: UCX_Name_01, of the mesh called Name.
 _UNREAL = re.compile(rf"(?:{'|'.join(UNREAL_PREFIXES.values())})_(.+?)(_\d+)?")
@@ -29,10 +30,7 @@ def adopt_hulls() -> None:
         owner = None if is_hull(hull) else _owner_of(hull, models)
         if owner is None:
             continue
-        place = hull.matrix_world.copy()
-        hull.parent = owner
-        hull.matrix_parent_inverse = owner.matrix_world.inverted_safe()
-        hull.matrix_basis = place
+        put_below(hull, owner, hull.matrix_world.copy())
         if HULL_TAG not in hull:
             hull[HULL_TAG] = json.dumps({"kind": "HULL"})
 

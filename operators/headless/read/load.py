@@ -9,8 +9,8 @@ from pathlib import Path
 import bpy
 
 from ....core.errors import DecompositionError
-from ..atomic import explaining
 from ..current_file import has_shape, mesh_objects, open_empty_file
+from ..files.replacing import explaining, last_reason
 from ..formats import up_in
 from ..quiet import quiet_blender
 from .damage_checks import check_file
@@ -46,22 +46,20 @@ class LoadedFile:
 
 def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
     """Load `path` and return its mesh objects, by name; see `load_file`."""
-    return load_file(path, up).objects
+    return load_file(path, up, with_modifiers=False).objects
 
 
-def load_file(
-    path: Path, up: str | None = None, with_modifiers: bool = False
-) -> LoadedFile:
+def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
     """Load `path` into an empty scene; instances become objects, links local.
 
     Parameters
     ----------
     path : Path
         File with one of `READ_ENDINGS`.
-    up : {'Y', 'Z'}, optional
+    up : {'Y', 'Z'} or None
         Axis that points up in the file, for formats that do not state it; None for
         the usual one.
-    with_modifiers : bool, optional
+    with_modifiers : bool
         Apply the modifiers and shape keys of all objects.
 
     Raises
@@ -108,11 +106,7 @@ def _objects_with_shape(path: Path) -> list[bpy.types.Object]:
 
 def _unreadable(path: Path, message: str) -> DecompositionError:
     """Return the error for a failed import, with the importer's reason."""
-    lines = [line.strip() for line in message.splitlines() if line.strip()]
-    # Tracebacks of importers in Python end with the place that called bpy.ops.
-    lines = [line for line in lines if not line.startswith("Location:")]
-    reason = lines[-1].removeprefix("Error: ").rstrip(".") if lines else "no reason"
-    reason = reason.removesuffix(", see console for detail")
+    reason = last_reason(message).removesuffix(", see console for detail")
     if path.name in reason:  # the reason itself follows the path
         reason = reason.rpartition(": ")[2].strip("'")
         reason = re.sub(rf"\S*{re.escape(path.name)}", f'"{path.name}', reason)

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from .finite_checks import not_finite
+from ..files.headers import whole_number
+from .finite_checks import all_finite, not_finite
 
 # STOFF, COFF and NOFF add columns after the coordinates. Some writers put no space
 # after the keyword: "OFF490 518 0".
@@ -35,7 +36,7 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
             f" {n_faces} faces, one a line, but has {len(body)} lines of them."
         )
     vertices = _vertices(body[:n_vertices], path.name)
-    if not np.isfinite(vertices).all():
+    if not all_finite(vertices):
         raise not_finite(path)
     rows = body[n_vertices : n_vertices + n_faces]
     return vertices, [_polygon(row, n_vertices, path.name) for row in rows]
@@ -56,13 +57,14 @@ def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
         )
     rest = match.group(2)
     counts, body = (rest, lines[1:]) if rest else ("".join(lines[1:2]), lines[2:])
-    words = counts.split()
-    if len(words) < 2 or not all(word.isdigit() for word in words[:2]):
+    numbers = [whole_number(word) for word in counts.split()[:2]]
+    n_vertices, n_faces = numbers if len(numbers) == 2 else (None, None)
+    if n_vertices is None or n_faces is None:
         raise DecompositionError(
             f"{name} does not state its numbers of vertices and faces; it is"
             " truncated or a binary or other kind of OFF."
         )
-    return int(words[0]), int(words[1]), body
+    return n_vertices, n_faces, body
 
 
 def _vertices(rows: list[str], name: str) -> NDArray[np.float64]:

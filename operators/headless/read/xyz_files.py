@@ -1,7 +1,7 @@
 """Reads .xyz, .pwn and .pts files; Blender has no importers for them.
 
-Each line is a point, x y z or x y z nx ny nz. The first line may state the number of
-points. .pwn files may list all points first and all normals after them.
+Each line is a point, x y z, x y z nx ny nz or x y z r g b. The first line may state the
+number of points. .pwn files may list all points first and all normals after them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from .finite_checks import not_finite
+from ..files.headers import whole_number
+from .finite_checks import all_finite, not_finite
 
 Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 
@@ -21,8 +22,8 @@ Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 def read_points(path: Path) -> Points:
     """Return the points (N, 3) of a file, and their normals (N, 3) or None.
 
-    Only three more columns are normals; any other number of columns holds
-    intensities or colors, and is ignored.
+    Three more columns are normals, unless they are whole numbers from 0 to 255 as of
+    colors. Colors and any other number of columns are ignored.
 
     Raises
     ------
@@ -33,7 +34,7 @@ def read_points(path: Path) -> Points:
     if not text.strip():
         raise DecompositionError(f"{path.name} has no points; it is empty.")
     first, _, rest = text.partition("\n")
-    n_points = int(first) if first.strip().isdigit() else None
+    n_points = whole_number(first)
     try:
         table = np.loadtxt(StringIO(text if n_points is None else rest), ndmin=2)
     except ValueError as error:
@@ -52,7 +53,7 @@ def read_points(path: Path) -> Points:
             f"{path.name} promises {n_points} points but has {len(table)} lines of"
             " them; it is truncated or damaged."
         )
-    if not np.isfinite(points).all():
+    if not all_finite(points):
         raise not_finite(path)
     return points, normals
 
@@ -60,7 +61,14 @@ def read_points(path: Path) -> Points:
 def _split(table: NDArray[np.float64], n_points: int | None) -> Points:
     """Return points and normals: normals on the same lines, or after all points."""
     if table.shape[1] == 6:
-        return table[:, :3], table[:, 3:]
+        points, others = table[:, :3], table[:, 3:]
+        return points, None if _are_colors(others) else others
     if table.shape[1] == 3 and n_points is not None and len(table) == 2 * n_points:
         return table[:n_points], table[n_points:]
     return table[:, :3], None
+
+
+def _are_colors(values: NDArray[np.float64]) -> bool:
+    """Return whether values (N, 3) are red, green and blue in bytes, not normals."""
+    are_bytes = (values >= 0) & (values <= 255) & (values == np.floor(values))
+    return bool(are_bytes.all() and values.max() > 1)

@@ -40,6 +40,11 @@ def _listed() -> list[Path]:
         raise DecompositionError(
             f"Standard input cannot be read ({error.strerror})."
         ) from error
+    if any(b"\0" in line for line in lines):  # of no path, but of "find -print0"
+        raise DecompositionError(
+            "Standard input has a zero byte, which paths cannot have; write one path a"
+            " line, as `find -print` does and `find -print0` does not."
+        )
     paths = [Path(os.fsdecode(line)) for line in lines if line.strip()]
     if not paths:
         raise DecompositionError(

@@ -21,6 +21,11 @@ def option(name: str) -> str:
     return "--" + name.replace("_", "-")
 
 
+def word(identifier: str) -> str:
+    """Return an identifier such as ALL_PAIRS as the user types it: all-pairs."""
+    return identifier.lower().replace("_", "-")
+
+
 def with_options(text: str) -> str:
     """Add the options of the settings that a message names as Blender's window does.
 

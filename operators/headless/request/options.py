@@ -15,13 +15,18 @@ from ....core.parameters.parts import Parameters
 from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ....core.steps.processes import available
 from ...bridge.stored.notes import version
-from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS
 from .asked_hulls import hull_file, useless_options
+from .file_options import add_files
 from .help_text import DESCRIPTION, EPILOG
 from .input_list import all_inputs
 from .option_names import SETTINGS, with_options
 from .outputs import Targets, targets_for
-from .parameter_options import HelpFormatter, add_option
+from .parameter_options import (
+    HelpFormatter,
+    add_option,
+    count,
+    with_negative_numbers,
+)
 
 _DEFAULT_PRESET = PRESETS[0].identifier
 
@@ -93,9 +98,9 @@ def parse(arguments: list[str], program: str) -> Request:
         After --help and --version, and with status 2 if the arguments are wrong.
     """
     parser = _parser(program)
-    options = parser.parse_args(arguments)
-    chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
+    options = parser.parse_args(with_negative_numbers(arguments))
     try:
+        settings = _settings(options)
         inputs = all_inputs(options.inputs)
         hulls = hull_file(options.hulls, options.hulls_format)
         targets = targets_for(
@@ -114,14 +119,26 @@ def parse(arguments: list[str], program: str) -> Request:
             apply_modifiers=options.apply_modifiers,
             with_hulls=options.with_hulls,
             quiet=options.quiet,
-            processes=max(options.processes, 1),
-            parameters=chosen.parameters(**_given(options, Parameters)),
-            hull_parameters=HullParameters(**_given(options, HullParameters)),
-            body_parameters=BodyParameters(**_given(options, BodyParameters)),
-            notes=useless_options(vars(options), targets[0]),
+            processes=getattr(options, "processes", available()),
+            parameters=settings[0],
+            hull_parameters=settings[1],
+            body_parameters=settings[2],
+            notes=useless_options(vars(options), inputs, targets[0], settings),
         )
     except DecompositionError as error:
         parser.error(str(error))
+
+
+def _settings(
+    options: argparse.Namespace,
+) -> tuple[Parameters, HullParameters, BodyParameters]:
+    """Return the settings: those of the preset, and what the user gives."""
+    chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
+    return (
+        chosen.parameters(**_given(options, Parameters)),
+        HullParameters(**_given(options, HullParameters)),
+        BodyParameters(**_given(options, BodyParameters)),
+    )
 
 
 def _given(
@@ -144,10 +161,12 @@ def _parser(program: str) -> _Parser:
         allow_abbrev=False,
         add_help=False,
     )
-    _add_files(parser)
+    add_files(parser)
     method = parser.add_argument_group("how the parts are found")
     add_option(method, "preset", PRESET_INFO, _DEFAULT_PRESET)
-    for_hulls = parser.add_argument_group("how the hulls are built (with --hulls)")
+    for_hulls = parser.add_argument_group(
+        "how the hulls are built (with --hulls or --with-hulls)"
+    )
     simulators = parser.add_argument_group("what simulators get (HULLS is .urdf, .xml)")
     groups = method, for_hulls, simulators
     for group, kind in zip(groups, SETTINGS, strict=True):
@@ -155,65 +174,6 @@ def _parser(program: str) -> _Parser:
             add_option(group, each.name, info_of(each), each.default)
     _add_general(parser)
     return parser
-
-
-def _add_files(parser: argparse.ArgumentParser) -> None:
-    """Add the inputs and how they are read, and the files to write."""
-    files = parser.add_argument_group("files")
-    files.add_argument(
-        "inputs",
-        metavar="INPUT",
-        nargs="+",
-        type=Path,
-        help="models to decompose; - reads their paths from standard input, one a line",
-    )
-    _add_outputs(files)
-    files.add_argument(
-        "--up",
-        type=str.upper,
-        choices=("Y", "Z"),
-        help="axis that points up in .obj .off .ply .stl .xyz .pwn .pts files that are"
-        " read or written (default: Y in .obj and .off, Z in the others; the output"
-        " keeps the axes of the input)",
-    )
-    files.add_argument(
-        "--apply-modifiers",
-        action="store_true",
-        help="decompose, and write, meshes with their modifiers and shape keys applied"
-        " (default: meshes without them)",
-    )
-
-
-def _add_outputs(files: argparse._ArgumentGroup) -> None:
-    """Add the files to write."""
-    files.add_argument(
-        "--output", metavar="OUTPUT", help="write the model with its parts"
-    )
-    files.add_argument(
-        "--picture",
-        metavar="PICTURE.png",
-        help="write a picture of the parts, seen from the front and the back",
-    )
-    files.add_argument("--hulls", metavar="HULLS", help="write collision hulls")
-    files.add_argument(
-        "--hulls-format",
-        type=str.lower,
-        choices=tuple(HULL_FORMATS),
-        help="format of HULLS; its ending is added to HULLS if it is missing"
-        " (default: the format of the ending of HULLS)",
-    )
-    files.add_argument(
-        "--with-hulls",
-        action="store_true",
-        help=f"put collision hulls into OUTPUT, too ({' '.join(HULLS_WITHIN_ENDINGS)})",
-    )
-    files.add_argument(
-        "--report",
-        metavar="FILE.json",
-        type=Path,
-        help="write the parameters and the parts with their areas and convexity ranks"
-        " as JSON; - prints it to standard output, and results to standard error",
-    )
 
 
 def _add_general(parser: argparse.ArgumentParser) -> None:
@@ -225,8 +185,8 @@ def _add_general(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--processes",
         metavar="COUNT",
-        type=int,
-        default=available(),
+        type=count,
+        default=argparse.SUPPRESS,
         help="build the hulls of so many objects at once, if a file has many (default:"
         " as many as there are processors, 8 at most)",
     )

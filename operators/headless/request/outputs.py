@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..atomic import explaining, is_stream
 from ..files.claims import check_companion, check_distinct, companion_of
+from ..files.replacing import explaining, is_stream
 from ..formats import (
     HULL_ENDINGS,
     HULLS_WITHIN_ENDINGS,
@@ -42,8 +42,8 @@ def targets_for(
     output: str | None,
     picture: str | None,
     report: Path | None,
-    hulls: str | None = None,
-    with_hulls: bool = False,
+    hulls: str | None,
+    with_hulls: bool,
 ) -> tuple[Targets, ...]:
     """Return the targets of each input.
 
@@ -54,7 +54,7 @@ def targets_for(
         Files to write; {name} in them stands for the name of the input.
     report : Path or None
         Checked together with the others.
-    with_hulls : bool, optional
+    with_hulls : bool
         Whether hulls belong into the output, too.
 
     Raises

@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from typing import Any
 
 from ....core.parameters.parameter import ParameterInfo
-from .option_names import option
+from .option_names import option, word
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
@@ -45,8 +46,8 @@ def add_option(
     convert: Callable[[str], Any]
     if info.choices:
         convert = _choice(info)
-        metavar = "{" + ",".join(_word(c.identifier) for c in info.choices) + "}"
-        shown = _word(default)
+        metavar = "{" + ",".join(word(c.identifier) for c in info.choices) + "}"
+        shown = word(default)
     elif info.subtype == "ANGLE":
         convert, metavar = _angle(info), "DEGREES"
         shown = f"{math.degrees(default):g}"
@@ -65,29 +66,49 @@ def add_option(
     )
 
 
+def with_negative_numbers(words: Iterable[str]) -> list[str]:
+    """Join each option with the negative number after it, as in --margin=-1e-3.
+
+    Before Python 3.14, argparse takes -1e-3 for an option.
+    """
+    found: list[str] = []
+    for each in words:
+        takes_value = found and found[-1][2:] and found[-1].startswith("--")
+        if takes_value and "=" not in found[-1] and each.startswith("-"):
+            with suppress(ValueError):
+                float(each)
+                found[-1] += f"={each}"
+                continue
+        found.append(each)
+    return found
+
+
 def _help(info: ParameterInfo, default: str) -> str:
     """Return the help of a parameter, and a line for each choice."""
     choices = [
-        f"{_word(c.identifier)}: {c.help[0].lower()}{c.help[1:]}" for c in info.choices
+        f"{word(c.identifier)}: {c.help[0].lower()}{c.help[1:]}" for c in info.choices
     ]
     return "\n".join([f"{info.help} (default: {default})", *choices])
 
 
-def _word(identifier: str) -> str:
-    """Return an identifier such as ALL_PAIRS as the user types it: all-pairs."""
-    return identifier.lower().replace("_", "-")
+def count(text: str) -> int:
+    """Return the number of things in an option, of which there is at least one."""
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text} is less than 1; choose 1 or more")
+    return number
 
 
 def _choice(info: ParameterInfo) -> Callable[[str], str]:
     """Return a converter of words to identifiers; upper and lower case are the same."""
-    by_word = {_word(choice.identifier): choice.identifier for choice in info.choices}
+    by_word = {word(choice.identifier): choice.identifier for choice in info.choices}
 
     def convert(text: str) -> str:
-        if _word(text) not in by_word:
+        if word(text) not in by_word:
             raise argparse.ArgumentTypeError(
                 f"{text!r} is not one of {', '.join(by_word)}"
             )
-        return by_word[_word(text)]
+        return by_word[word(text)]
 
     return convert
 

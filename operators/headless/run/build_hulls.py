@@ -15,6 +15,7 @@ from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ...bridge.hulls.hull_objects import figures_of_hull, write_hulls
 from ...bridge.hulls.placed import placed
+from ...bridge.parts.rows import hull_shapes
 from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing_hulls import hull_summary
@@ -74,7 +75,7 @@ def _build_each(
             hulls += new
             result = replace(result, record=record_of(obj), hulls=figures)
         except DecompositionError as error:
-            screen.error(f"{_title(obj)}: {error}")
+            screen.error(str(error), _title(obj))
             result = replace(result, error=str(error))
         seconds = result.seconds + time.perf_counter() - started
         told.append(replace(result, seconds=seconds))
@@ -94,7 +95,7 @@ def _show(hulls: Sequence[bpy.types.Object]) -> None:
 
 @dataclass(frozen=True)
 class _Built:
-    """The hulls of an object; others with its mesh and scale get the same."""
+    """The hulls of an object; others that would have equal ones get the same."""
 
     owner: bpy.types.Object
     found: HullDecomposition
@@ -103,7 +104,12 @@ class _Built:
 
 def _serves(built: _Built, obj: bpy.types.Object, parameters: HullParameters) -> bool:
     """Return whether an object gets hulls that were built for another one."""
-    return have_equal_shapes(built.owner, obj, parameters.error_unit == "SCENE")
+    of_equal_size = parameters.error_unit == "SCENE"
+    return (
+        have_equal_shapes(built.owner, obj, of_equal_size)
+        # Those chosen for single parts: they are on the object, not on its mesh.
+        and hull_shapes(built.owner) == hull_shapes(obj)
+    )
 
 
 def _title(obj: bpy.types.Object) -> str:
@@ -129,7 +135,7 @@ def _hulls_of(
     if built is None:
         found = screen.follow(progress_title(title, *place), ahead.steps_of(obj))
         for note in found.notes:
-            screen.warning(f"{title}: {note}")
+            screen.warning(note, title)
     else:
         found = built.found
     with screen.stages.during("hulls"):

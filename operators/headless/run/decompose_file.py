@@ -15,6 +15,7 @@ from ..read.load import LoadedFile, load_file
 from ..request.options import Request
 from ..request.outputs import Targets
 from ..screen import Screen
+from ..stages import Stages
 from ..write.hull_files import save_hulls
 from ..write.model_files import save
 from ..write.picture import save_picture
@@ -23,7 +24,6 @@ from .attempts import Attempts
 from .build_hulls import build_hulls
 from .decompose_objects import decompose_objects
 from .results import InputResult, ObjectResult
-from .stages import Stages
 
 _NO_HULLS = (
     "{} was not written, because no object got hulls; leave out --with-hulls for the"
@@ -87,13 +87,11 @@ def _parts_of(
 ) -> tuple[ObjectResult, ...]:
     """Return the result of each object; without parts if only hulls are asked for."""
     if loaded.hull_note:
-        screen.warning(f"{path.name}: {loaded.hull_note}")
+        screen.warning(loaded.hull_note, path.name)
     hulls_alone = not targets.show_parts
     if hulls_alone and request.hull_parameters.pieces != "PARTS":
         return _without_parts(loaded)
-    return decompose_objects(
-        path.name, loaded, request.parameters, screen, kept=hulls_alone
-    )
+    return decompose_objects(path.name, loaded, request.parameters, screen, hulls_alone)
 
 
 def _without_parts(loaded: LoadedFile) -> tuple[ObjectResult, ...]:
@@ -118,4 +116,4 @@ def _write_hulls(
 ) -> None:
     """Write hulls to a file of their own, and show what is to be said of it."""
     for note in save_hulls(file, hulls, up, request.body_parameters):
-        screen.warning(f"{file.name}: {note}")
+        screen.warning(note, file.name)

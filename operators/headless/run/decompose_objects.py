@@ -19,13 +19,17 @@ from ..read.load import LoadedFile
 from ..screen import Screen, progress_title
 from .results import ObjectResult
 
+_USUAL = Parameters()
+_NO_FACES = "It has no faces and was left as it is."
+_KEEPS = "It keeps its parts; options that find parts change nothing."
+
 
 def decompose_objects(
     file_name: str,
     loaded: LoadedFile,
     parameters: Parameters,
     screen: Screen,
-    kept: bool = False,
+    kept: bool,
 ) -> tuple[ObjectResult, ...]:
     """Decompose each object, write its parts to it and show its result.
 
@@ -35,7 +39,7 @@ def decompose_objects(
     loaded : LoadedFile
     parameters : Parameters
     screen : Screen
-    kept : bool, optional
+    kept : bool
         Whether objects that have parts keep them as they are.
 
     Returns
@@ -45,27 +49,39 @@ def decompose_objects(
         are; objects that share a mesh are decomposed once.
     """
     done: dict[bpy.types.ID, tuple[bpy.types.Object, ObjectResult]] = {}
+
+    def result_of(obj: bpy.types.Object, place: int) -> ObjectResult:
+        if not has_shape(obj):
+            return ObjectResult(obj.name_full, notes=(_NO_FACES,))
+        if obj.data in done:
+            return _shared(obj, *done[obj.data])
+        if kept and part_labels(obj) is not None:
+            result = _kept(obj, parameters)
+        else:
+            title = f"{file_name}, {obj.name_full}"
+            title = progress_title(title, place, len(loaded.objects))
+            result = _decompose(title, obj, parameters, screen)
+        done[obj.data] = obj, result
+        return result
+
     results = []
     for place, obj in enumerate(loaded.objects, start=1):
-        if not has_shape(obj):
-            note = "It has no faces and was left as it is."
-            result = ObjectResult(obj.name_full, notes=(note,))
-        elif obj.data in done:
-            result = _shared(obj, *done[obj.data])
-        elif kept and part_labels(obj) is not None:
-            result = ObjectResult(obj.name_full, record_of(obj))
-            done[obj.data] = obj, result
-        else:
-            title = progress_title(
-                f"{file_name}, {obj.name_full}", place, len(loaded.objects)
-            )
-            result = _decompose(title, obj, parameters, screen)
-            if not result.error:
-                done[obj.data] = obj, result
+        try:
+            result = result_of(obj, place)
+        except DecompositionError as error:
+            result = ObjectResult(obj.name_full, error=str(error))
         result = replace(result, notes=(*loaded.notes_of(obj), *result.notes))
         _show(file_name, result, screen)
         results.append(result)
     return tuple(results)
+
+
+def _kept(obj: bpy.types.Object, parameters: Parameters) -> ObjectResult:
+    """Return the result of an object that keeps the parts that it has."""
+    # The seed has an effect: hulls use it.
+    is_usual = replace(parameters, seed=_USUAL.seed) == _USUAL
+    notes = () if is_usual else (_KEEPS,)
+    return ObjectResult(obj.name_full, record_of(obj), notes=notes)
 
 
 def _shared(
@@ -76,15 +92,12 @@ def _shared(
     Parts were found for the proportions of the first object.
     """
     notes: tuple[str, ...] = ()
-    try:
-        if not has_proportions_of(obj, first):
-            notes = (
-                f"It shares the mesh of {first.name_full}, and so its parts, which"
-                " were found for the proportions of that one.",
-            )
-    except DecompositionError as error:
-        return ObjectResult(obj.name_full, error=str(error))
-    summary = f"{result.summary}, with the mesh of {first.name_full}"
+    if not has_proportions_of(obj, first):
+        notes = (
+            f"It shares the mesh of {first.name_full}, and so its parts, which were"
+            " found for the proportions of that one.",
+        )
+    summary = result.summary and f"{result.summary}, with the mesh of {first.name_full}"
     return ObjectResult(obj.name_full, record_of(obj), summary, notes)
 
 
@@ -95,12 +108,10 @@ def _decompose(
     started = time.perf_counter()
     try:
         edited = screen.follow(title, decompose_unlocked(obj, parameters))
-        edited.write(obj)
-        found = edited.decomposition
     except AllPartsStay as stay:
         return ObjectResult(obj.name_full, record_of(obj), notes=(str(stay),))
-    except DecompositionError as error:
-        return ObjectResult(obj.name_full, error=str(error))
+    edited.write(obj)
+    found = edited.decomposition
     return ObjectResult(
         obj.name_full,
         record=record_of(obj),
@@ -114,9 +125,9 @@ def _show(file_name: str, result: ObjectResult, screen: Screen) -> None:
     """Show the result of one object."""
     title = f"{file_name}, {result.name}"
     for note in result.notes:
-        screen.warning(f"{title}: {note}")
+        screen.warning(note, title)
     if result.error:
-        screen.error(f"{title}: {result.error}")
+        screen.error(result.error, title)
     if result.summary:
         # Not every console has the arrow.
         line = result.summary.replace("→", "->")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .stages import Stage
+from ..stages import Stage
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,10 @@ import bpy
 from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
 from ...bridge.stored.noted_hulls import figures_on
+from ..addons import FBX, enable
+from ..shear import shear_in_meshes
+from .names import hulls_by_owner
+from .one_scene import one_scene
 
 # A binary .fbx file begins with words and its version. Then come nodes: end, number of
 # properties, their length, length of the name, name. A property begins with its type.
@@ -41,7 +45,8 @@ def write_fbx(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
     DecompositionError
         If a hull cannot have the name that Unreal needs.
     """
-    with _for_unreal(hulls):
+    enable(FBX)
+    with shear_in_meshes(hulls), _for_unreal(hulls), one_scene():
         bpy.ops.export_scene.fbx(
             filepath=str(path),
             use_custom_props=True,
@@ -82,11 +87,8 @@ def _for_unreal(hulls: Sequence[bpy.types.Object]) -> Iterator[None]:
 
 def _unreal_names(hulls: Sequence[bpy.types.Object]) -> list[str]:
     """Return Unreal's name for each hull with a plain name; others keep theirs."""
-    owned: dict[bpy.types.Object, list[bpy.types.Object]] = {}
-    for hull in hulls:
-        owned.setdefault(hull.parent, []).append(hull)
     names: dict[bpy.types.Object, str] = {}
-    for obj, its_hulls in owned.items():
+    for obj, its_hulls in hulls_by_owner(hulls).items():
         kinds = [figures_on(hull).get("kind", "HULL") for hull in its_hulls]
         plain = hull_names("PLAIN", "", obj.name, kinds)
         unreal = hull_names("UNREAL", "", obj.name, kinds)

@@ -8,10 +8,12 @@ from pathlib import Path
 import bpy
 
 from ....core.parameters.bodies import BodyParameters
-from ..atomic import explaining, replacing
+from ..addons import GLTF, enable
 from ..files.output_folders import replacing_with_folder
+from ..files.replacing import explaining, replacing
 from ..formats import SIMULATOR_ENDINGS, axes, up_in
 from ..quiet import quiet_blender
+from ..shear import shear_in_meshes
 from .collider_marks import mark_glb
 from .obj_files import write_hulls_obj
 from .simulators.bodies import bodies_of, write_meshes
@@ -85,11 +87,13 @@ def _save_bodies(
 def _glb(path: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:
     """Export .glb with colliders."""
     select_only(hulls)
-    with quiet_blender():
+    with quiet_blender(), shear_in_meshes(hulls):
+        enable(GLTF)
         bpy.ops.export_scene.gltf(
             filepath=str(path),
             export_format="GLB",
             use_selection=True,
+            use_active_scene=True,
             export_materials="NONE",
             # Flat normals would copy each vertex for each of its faces.
             export_normals=False,

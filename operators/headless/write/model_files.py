@@ -9,15 +9,16 @@ from pathlib import Path
 
 import bpy
 
-from ..atomic import explaining, replacing
-from ..current_file import mesh_objects
+from ..addons import GLTF, enable
 from ..files.claims import check_companion, companion_of
+from ..files.replacing import explaining, replacing
 from ..files.whole import check_obj
 from ..formats import axes, up_in
 from ..quiet import quiet_blender
 from .collider_marks import mark_glb
 from .fbx_files import write_fbx
 from .obj_files import restore_digits
+from .one_scene import one_scene, written_meshes
 from .ply_copies import ply_copies
 from .usd_files import write_usd
 
@@ -71,10 +72,14 @@ def _blend(path: Path, _hulls: Sequence[bpy.types.Object]) -> None:
 
 def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
     """Export .glb; hulls are marked as colliders."""
+    enable(GLTF)
     # The extras hold the record, which is the custom property "wcd" of each object.
-    with _smooth(hulls):
+    with _smooth(hulls), one_scene():
         bpy.ops.export_scene.gltf(
-            filepath=str(path), export_format="GLB", export_extras=True
+            filepath=str(path),
+            export_format="GLB",
+            export_extras=True,
+            use_active_scene=True,
         )
     if hulls:
         mark_glb(path)
@@ -98,27 +103,23 @@ def _smooth(hulls: Sequence[bpy.types.Object]) -> Iterator[None]:
 
 def _usd(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
     """Write .usd."""
-    write_usd(path, mesh_objects(), hulls)
+    write_usd(path, written_meshes(), hulls)
 
 
 def _obj(path: Path, up: str) -> None:
     """Export .obj."""
-    # Parts belong to the faces without modifiers.
-    bpy.ops.wm.obj_export(
-        filepath=str(path),
-        apply_modifiers=False,
-        export_material_groups=True,
-        **axes(up),
-    )
-    # Others than these are written too, such as curves.
-    check_obj(path, sum(len(obj.data.polygons) for obj in _visible_meshes()))
-    restore_digits(path, up)
-
-
-def _visible_meshes() -> list[bpy.types.Object]:
-    """Return the meshes that exporters take."""
-    objects = bpy.context.view_layer.objects
-    return [obj for obj in objects if obj.type == "MESH" and obj.visible_get()]
+    with one_scene():
+        # Parts belong to the faces without modifiers.
+        bpy.ops.wm.obj_export(
+            filepath=str(path),
+            apply_modifiers=False,
+            export_material_groups=True,
+            **axes(up),
+        )
+        # Others than these are written too, such as curves.
+        meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
+        check_obj(path, sum(len(obj.data.polygons) for obj in meshes))
+        restore_digits(path, up)
 
 
 def _ply(path: Path, up: str) -> None:

@@ -8,14 +8,14 @@ from collections.abc import Sequence
 import bpy
 
 from ...bridge.hulls.listed import is_hull
+from ..formats import CONTROL_CHARACTERS
 
 # What a name may not have in it, by format.
-_CONTROL = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
 _ILLEGAL = {
     # A name ends at a space there.
-    "obj": re.compile(rf"[{_CONTROL}\s]"),
+    "obj": re.compile(rf"[{CONTROL_CHARACTERS}\s]"),
     # Simulators put names into paths and into other files.
-    "xml": re.compile(rf"[{_CONTROL}\\/\"'<>&]"),
+    "xml": re.compile(rf"[{CONTROL_CHARACTERS}\\/\"'<>&]"),
     # Before USD 24.3, identifiers are ASCII.
     "usd": re.compile(r"[^A-Za-z0-9_]"),
 }
@@ -44,11 +44,13 @@ def legal_names(names: Sequence[str], form: str) -> list[str]:
     # Names that stay as they are come first: they keep their name.
     kept = {name for name, old in zip(legal, names, strict=True) if name == old}
     taken: set[str] = set()
+    numbers: dict[str, int] = {}  # the next one to try, by name
     found = []
     for name, old in zip(legal, names, strict=True):
-        free, number = name, 2
+        free = name
         while free in taken or (free in kept and free != old):
-            free, number = f"{name}_{number}", number + 1
+            number = numbers.get(name, 2)
+            free, numbers[name] = f"{name}_{number}", number + 1
         taken.add(free)
         found.append(free)
     return found
@@ -82,6 +84,16 @@ def names_of_hulls(hulls: Sequence[bpy.types.Object], form: str) -> list[str]:
         for hull in hulls
     ]
     return legal_names(own, form)
+
+
+def hulls_by_owner(
+    hulls: Sequence[bpy.types.Object],
+) -> dict[bpy.types.Object, list[bpy.types.Object]]:
+    """Return the hulls of each object, in their order; they are its children."""
+    owned: dict[bpy.types.Object, list[bpy.types.Object]] = {}
+    for hull in hulls:
+        owned.setdefault(hull.parent, []).append(hull)
+    return owned
 
 
 def _legal(name: str, form: str) -> str:

@@ -11,7 +11,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..atomic import explaining, replacing
+from ...bridge.read.shape import has_place
+from ..files.replacing import explaining, replacing
 from ..files.whole import check_whole
 from ..quiet import quiet_blender
 from .picture_scene import aim_camera, face_points, picture_scene, set_up_engine
@@ -54,7 +55,7 @@ def save_picture(
         replacing(path) as unfinished,
         quiet_blender(),
     ):
-        views = _render(objects, engine, size)
+        views = _render(list(filter(has_place, objects)), engine, size)
         _write_png(unfinished, np.concatenate(views, axis=1))
 
 

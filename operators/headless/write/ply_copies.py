@@ -28,7 +28,7 @@ from ...bridge.mesh.points import count_points, is_cloud, positions_of
 from ...bridge.parts.palette import UNPAINTED
 from ...bridge.stored.names import PART_LAYER
 from ...bridge.views.face_sets_and_colors import point_colors
-from ..current_file import mesh_objects
+from .one_scene import written_meshes
 
 # Name of the property that holds part numbers in the file.
 _NUMBER = "part"
@@ -43,7 +43,7 @@ def ply_copies() -> Iterator[bool]:
     """
     copies = [
         _copy_of_cloud(obj) if is_cloud(obj) else _copy_of_mesh(obj)
-        for obj in mesh_objects()
+        for obj in written_meshes()
     ]
     without = [copy for copy in copies if not copy.data.uv_layers]
     with_uv = len(without) < len(copies) and not any(

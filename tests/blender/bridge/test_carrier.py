@@ -4,7 +4,7 @@ from collections import Counter
 
 import bpy
 import pytest
-from hands import hand_curve
+from hand_curves import hand_curve
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.read import (
     carrier,

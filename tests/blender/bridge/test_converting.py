@@ -5,8 +5,8 @@ import json
 import bpy
 import numpy as np
 import pytest
+from hand_curves import check_fingers, hand_curve
 from hand_made import activate, face_values, in_mode
-from hands import check_fingers, hand_curve
 from mathutils import Matrix
 from weak_convex_decomposition.operators.bridge.read.converting import converted
 

@@ -10,6 +10,7 @@ from weak_convex_decomposition.operators.bridge.read.reading_notes import (
 )
 from weak_convex_decomposition.operators.bridge.read.shape import (
     read_shape,
+    scene_unit,
     shape_in_steps,
 )
 from weak_convex_decomposition.operators.bridge.read.shown_mesh import shows_keys
@@ -104,7 +105,8 @@ def test_non_uniform_scale_stretches_the_copy_alone(suzanne):
     suzanne.rotation_euler = (0.3, 0.2, 0.1)
     bpy.context.view_layer.update()
     scaled = read_shape(suzanne)
-    assert np.allclose(scaled.vertices, unscaled.vertices * (1, 2, 3), rtol=1e-5)
+    factors = np.array([1, 2, 3]) / 6 ** (1 / 3)  # they keep the volume
+    assert np.allclose(scaled.vertices, unscaled.vertices * factors, rtol=1e-5)
     suzanne.scale = (1.0, 1.0, 1.0)
     bpy.context.view_layer.update()
     assert (read_shape(suzanne).vertices == unscaled.vertices).all()
@@ -137,6 +139,31 @@ def test_a_scale_of_zero_is_refused(suzanne):
     bpy.context.view_layer.update()
     with pytest.raises(DecompositionError, match="scale is zero"):
         read_shape(suzanne)
+
+
+@pytest.mark.parametrize("name", ["location", "rotation_euler", "scale"])
+def test_a_place_that_is_no_number_is_refused(suzanne, name):
+    getattr(suzanne, name)[0] = np.nan
+    bpy.context.view_layer.update()
+    with pytest.raises(DecompositionError, match="location, rotation or scale, or"):
+        read_shape(suzanne)
+
+
+@pytest.mark.parametrize("x", [np.nan, np.inf])
+def test_a_vertex_without_a_place_is_refused(suzanne, x):
+    suzanne.data.vertices[3].co.x = x  # Blender writes another number than infinity
+    with pytest.raises(DecompositionError, match="are not finite numbers"):
+        read_shape(suzanne)
+
+
+def test_a_scale_that_is_nearly_uniform_is_nearly_one_that_is(suzanne):
+    suzanne.scale = 0.01, 0.01, 0.01
+    bpy.context.view_layer.update()
+    before, unit = read_shape(suzanne), scene_unit(suzanne)
+    suzanne.scale = 0.01, 0.01, 0.0101
+    bpy.context.view_layer.update()
+    assert read_shape(suzanne).vertices == pytest.approx(before.vertices, abs=0.01)
+    assert scene_unit(suzanne) == pytest.approx(unit, rel=0.01)
 
 
 def test_edit_mode_changes_are_read():

@@ -9,7 +9,7 @@ from hand_made import bands, decomposition_of
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
-from weak_convex_decomposition.operators.headless.atomic import explaining
+from weak_convex_decomposition.operators.headless.files.replacing import explaining
 from weak_convex_decomposition.operators.headless.formats import (
     MODEL_ENDINGS,
     READ_ENDINGS,

@@ -12,11 +12,11 @@ from checkout import ROOT
 from mathutils import Euler, Matrix, Quaternion, Vector
 from weak_convex_decomposition.operators.headless import command_line
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.run.memory import peak_memory
-from weak_convex_decomposition.operators.headless.run.stages import (
+from weak_convex_decomposition.operators.headless.stages import (
     STAGE_OF,
     STAGES,
     Stages,
+    peak_memory,
 )
 
 SCHEMA = json.loads((ROOT / "docs/report.schema.json").read_text(encoding="utf-8"))

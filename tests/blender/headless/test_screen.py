@@ -4,7 +4,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from weak_convex_decomposition.core.steps.progress import Progress
+from weak_convex_decomposition.operators.headless.request.option_names import (
+    with_options,
+)
 from weak_convex_decomposition.operators.headless.screen import Screen, progress_title
 
 CHECKOUT = Path(__file__).parents[3]
@@ -45,6 +49,30 @@ def test_what_an_encoding_lacks_is_spelled_out():
     stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii", newline="\n")
     Screen(stream, stream, quiet=False).result("Käse")
     assert stream.buffer.getvalue() == b"K\\xe4se\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("Detail is 11; choose a value from 0 to 10.", " (Detail is --alpha.)"),
+        ("Details are found.", ""),
+        ("Detail.obj cannot be read.", ""),
+        ("models/Detail/a.obj cannot be read.", ""),
+    ],
+)
+def test_options_are_named_for_settings_not_for_files(text, hint):
+    assert with_options(text) == text + hint
+
+
+def test_options_are_named_for_sentences_not_for_titles():
+    err = io.StringIO()
+    screen = Screen(io.StringIO(), err, quiet=True)
+    screen.warning("It has no faces.", "d.blend, Detail")
+    screen.error("Detail is 11.", "Most Hulls")
+    assert err.getvalue() == (
+        "warning: d.blend, Detail: It has no faces.\n"
+        "error: Most Hulls: Detail is 11. (Detail is --alpha.)\n"
+    )
 
 
 def test_follow_shows_progress_and_returns_the_value():

@@ -3,8 +3,8 @@
 import json
 
 import bpy
+from hand_curves import POINTS, check_fingers
 from hand_made import face_values, in_mode, mesh_object
-from hands import POINTS, check_fingers
 
 
 def test_a_single_face_carries_parts_once_it_is_subdivided_as_told():

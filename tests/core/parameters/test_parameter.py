@@ -34,7 +34,7 @@ class Settings:
 COUNT, WEIGHT, COLOR = fields(Settings)
 
 
-def test_a_field_carries_its_default_and_its_knob():
+def test_a_field_carries_its_default_and_its_info():
     assert Settings() == Settings(3, 0.5, "RED")
     assert info_of(WEIGHT).label == "Weight"
     assert [choice.label for choice in info_of(COLOR).choices] == ["Red", "Tan"]

@@ -95,5 +95,14 @@ def test_closing_ends_processes_at_work(processes):
         os.kill(pid, 0)
 
 
+def test_modules_of_the_current_folder_are_left_alone(processes, tmp_path, monkeypatch):
+    mark = tmp_path / "mark"
+    (tmp_path / "pickle.py").write_text(f"open({str(mark)!r}, 'w')")
+    monkeypatch.chdir(tmp_path)
+    mesh = shapes.l_prism()
+    assert_same(run(processes.steps(*task(mesh))), here(mesh))
+    assert not mark.exists()
+
+
 def test_there_is_a_processor():
     assert 1 <= available() <= 8

@@ -15,7 +15,7 @@ from .....core.solids.mass_properties import MassProperties
 from ....bridge.hulls.placed import Solid, solid_of
 from ....bridge.mesh.attributes import read_ints
 from ....bridge.parts.palette import UNPAINTED
-from ..names import legal_names
+from ..names import hulls_by_owner, legal_names
 from ..obj_files import write_obj
 from ..placed_meshes import Float64Array, TriangleArray, matrix_of, placed
 from .masses import mass_notes, mass_of_objects
@@ -89,9 +89,7 @@ def bodies_of(
     notes : tuple of str
         Sentences to the user.
     """
-    owned: dict[bpy.types.Object, list[bpy.types.Object]] = {}
-    for hull in hulls:
-        owned.setdefault(hull.parent, []).append(hull)
+    owned = hulls_by_owner(hulls)
     each = parameters.bodies == "EACH"
     groups = [[obj] for obj in owned] if each else [list(owned)]
     names = [obj.name for obj in owned] if each else [name]

@@ -11,16 +11,16 @@ import pytest
 from headless.command import content
 from headless.full_disk import file_limit, full_disk
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.atomic import replacing
+from weak_convex_decomposition.operators.headless.files.replacing import replacing
 from weak_convex_decomposition.operators.headless.files.swap import Move, swap
 from weak_convex_decomposition.operators.headless.files.whole import check_whole
+from weak_convex_decomposition.operators.headless.formats import (
+    HULL_ENDINGS,
+    MODEL_ENDINGS,
+)
 from weak_convex_decomposition.operators.headless.write.picture import save_picture
 
-OPTIONS = {
-    "output": (".blend", ".glb", ".ply", ".obj"),
-    "hulls": (".glb", ".obj", ".stl", ".usd", ".urdf", ".xml"),
-    "report": (".json",),
-}
+OPTIONS = {"output": MODEL_ENDINGS, "hulls": HULL_ENDINGS, "report": (".json",)}
 # Blender's exporter of .glb leaves a file open that it cannot write.
 pytestmark = pytest.mark.filterwarnings(
     "ignore::pytest.PytestUnraisableExceptionWarning", "ignore::ResourceWarning"

@@ -66,6 +66,7 @@ def test_a_list_of_inputs(tmp_path, model, monkeypatch, capfd):
     assert request.targets[2].output == tmp_path / "ä\udcff.glb"
     for data, given, sentence in (
         (b"\n \n", ["-"], "standard input has no line"),
+        (b"a.ply\0b.ply\0", ["-"], "write one path a line, as `find -print` does"),
         (b"a.ply", ["-", "-"], "INPUT is - twice"),
     ):
         listed(monkeypatch, data)
@@ -115,12 +116,13 @@ def test_places_where_nothing_can_be_written(tmp_path, model, capfd):
 
 
 @pytest.mark.parametrize("ending", ["urdf", "xml"])
+@pytest.mark.parametrize("name", ["a\udcff", "ctl\x01", "a\uffff"])
 def test_a_name_that_xml_cannot_hold_is_refused_beforehand(
-    tmp_path, model, ending, capfd
+    tmp_path, model, ending, name, capfd
 ):
     before = content(tmp_path)
-    assert run(model, "--hulls", tmp_path / f"a\udcff.{ending}") == 2
-    assert "has a name that is no Unicode" in capfd.readouterr().err
+    assert run(model, "--hulls", tmp_path / f"{name}.{ending}") == 2
+    assert "has a name with control characters, or" in capfd.readouterr().err
     assert content(tmp_path) == before
 
 

@@ -103,6 +103,8 @@ def test_bad_off(unexpected):
         ("4OFF\n3 1 0\n", "does not begin like an OFF file"),
         ("OFF BINARY\n", "does not state its numbers"),
         ("OFF\n", "does not state its numbers"),
+        ("OFF\n\u00b3 1 0\n", "does not state its numbers"),
+        (f"OFF\n{'9' * 5000} 1 0\n", "does not state its numbers"),
         ("OFF\n900000000 1 0\n0 0 0\n", "is truncated"),
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", "is truncated"),
         ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "not three numbers"),
@@ -112,7 +114,7 @@ def test_bad_off(unexpected):
         ("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", "not finite"),
     ]
     files = {
-        f"{number}.off": (text.encode(), message)
+        f"{number}.off": (text.encode("latin-1"), message)
         for number, (text, message) in enumerate(cases)
     }
     assert unexpected(files) == {}
@@ -166,6 +168,7 @@ def test_obj_faces_without_their_vertices(tmp_path, unexpected):
         "f 1/1 2/1 9/1",
         "f 1 2 \\\n4",
         "f 1 2 4\nv 0 0 1",
+        f"f 1 2 {'9' * 5000}",
     )
     cases = {
         f"{number}.obj": (f"{triangle}{face}\n".encode(), "has a face that")
@@ -199,9 +202,17 @@ def test_gltf_without_its_buffer(tmp_path):
 TRIANGLE = [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]
 NOT_FINITE = {
     "text.obj": b"v 0 0 0\nv 1 0 -NaN\nv 0 1 0\nf 1 2 3\n",
+    "large.obj": b"v 0 0 0\nv 1 0 1e999\nv 0 1 0\nf 1 2 3\n",
+    "continued.obj": b"v 0 0 0\nv 1 0 \\\n1e39\nv 0 1 0\nf 1 2 3\n",
+    "digits.obj": b"v 0 0 0\nv 1 0 %s\nv 0 1 0\nf 1 2 3\n" % (b"9" * 40),
+    "ind.obj": b"v 0 0 0\nv 1 0 -nan(ind)\nv 0 1 0\nf 1 2 3\n",
     "text.stl": b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf\n"
     b"vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
     "binary.stl": bytes(80) + struct.pack("<I12fH", 1, *TRIANGLE, float("nan"), 0),
+    "large.stl": b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 -1e+999\n"
+    b"vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
+    "large.ply": PLY.format("ascii", XYZ).encode()
+    + b"0 0 0\n1 1E999 0\n0 1 0\n3 0 1 2\n",
     "text.ply": PLY.format("ascii", XYZ).encode() + b"0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
     "binary.ply": PLY.format("binary_big_endian", NORMAL + XYZ).encode()
     + struct.pack(">12f", *TRIANGLE, float("inf"))
@@ -212,6 +223,15 @@ NOT_FINITE = {
 def test_coordinates_that_are_not_numbers(unexpected):
     cases = {name: (data, "not finite") for name, data in NOT_FINITE.items()}
     assert unexpected(cases) == {}
+
+
+def test_large_numbers_words_and_comments_are_no_infinities(tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text(
+        "# info 1e999\no inf 1e999\nv 1e-999 1e20 0.000000000000000000001\n"
+        "v 1 0 1e+18 # nan\nv 0 1 0\nf 1 2 3\n"
+    )
+    assert len(load(path)[0].data.polygons) == 1
 
 
 def test_normals_may_be_no_numbers(tmp_path):

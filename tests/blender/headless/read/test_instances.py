@@ -159,7 +159,7 @@ def test_geometry_nodes_that_scatter_cubes(tmp_path):
     spots = mesh_of([(0, 0, 0), (9, 0, 0), (0, 9, 0)], [(0, 1, 2)], "Spots")
     scatter(add("Bare", spots))
     scatter(add("Floor", spots.copy(), (0, 0, 5)), joined=True)
-    loaded = load_file(saved(tmp_path / "a.blend"))
+    loaded = load_file(saved(tmp_path / "a.blend"), None, False)
     found = boxes(loaded.objects)
     cubes = [f"{name} Mesh {n}" for name in ("Bare", "Floor") for n in (1, 2, 3)]
     assert sorted(found) == sorted(["Floor", *cubes])
@@ -224,3 +224,15 @@ def test_an_earlier_result_is_not_mistaken_for_that_of_an_instance(tmp_path):
     assert [obj["name"] for obj in objects] == ["Rock", "Spot Rock"]
     (hull,) = objects[1]["hulls"]["hulls"]
     assert hull["name"].startswith("Spot Rock")
+
+
+def test_curves_texts_and_metaballs_are_no_models_nor_are_instances_of_them(tmp_path):
+    rocks = collection_with_rock()
+    bpy.ops.object.metaball_add()
+    bpy.ops.object.text_add()
+    bpy.ops.curve.primitive_bezier_circle_add()
+    bpy.context.active_object.data.extrude = 1.0
+    for obj in list(bpy.context.scene.collection.objects):
+        rocks.objects.link(obj)
+    instance_of(rocks, "Spot")
+    assert [obj.name for obj in load(saved(tmp_path / "a.blend"))] == ["Spot Rock"]

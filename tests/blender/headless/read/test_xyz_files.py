@@ -59,6 +59,12 @@ def test_other_columns_are_no_normals(tmp_path):
         (obj,) = load(path, "Z")
         assert positions_of(obj) == pytest.approx(POINTS, abs=1e-5), extra
         assert normals_of(obj) is None, extra
+    colors = np.random.default_rng(0).integers(0, 256, (600, 3))
+    path.write_text(rows(np.c_[POINTS, colors]))
+    assert normals_of(load(path, "Z")[0]) is None
+    along_axes = np.eye(3)[np.arange(600) % 3]
+    path.write_text(rows(np.c_[POINTS, along_axes]))
+    assert normals_of(load(path, "Z")[0]) == pytest.approx(along_axes)
 
 
 def headed(text, header, to):
@@ -72,6 +78,9 @@ BAD_FILES = {
     "ragged.xyz": (b"1 2 3\n1 2\n", "does not have numbers"),
     "two.xyz": (b"1 2\n3 4\n", "three coordinates"),
     "nan.xyz": (b"1 2 3\n1 nan 3\n", "not finite"),
+    "squared.xyz": ("²\n1 2 3\n".encode("latin-1"), "does not have numbers"),
+    "digits.xyz": (b"9" * 5000 + b"\n1 2 3\n", "does not have numbers"),
+    "large.xyz": (b"1 2 3\n1 1e39 3\n", "not finite"),
     "short.pts": (b"9\n1 2 3\n", "promises 9 points"),
     "blank.xyz": (b"\n\n", "has no points"),
     "many.pwn": (f"600\n{rows(TABLE)}{rows(TABLE[:9])}".encode(), "promises 600"),
@@ -124,6 +133,16 @@ def test_bad_points_fail_on_the_command_line(tmp_path, ending, capsys):
         assert match in said, case
         assert "Traceback" not in said, case
         assert output.read_text() == "mine", case
+
+
+def test_points_keep_their_axes(tmp_path):
+    for ending in (".xyz", ".pwn", ".pts"):
+        path, output = tmp_path / f"a{ending}", tmp_path / f"{ending[1:]}.obj"
+        path.write_text(rows(TABLE))
+        assert main([str(path), "--output", str(output), *FAST]) == 0
+        lines = output.read_text().splitlines()
+        written = [line.split()[1:4] for line in lines if line.startswith("v ")]
+        assert np.array(written, float) == pytest.approx(POINTS, abs=1e-5), ending
 
 
 def test_parts_of_points_go_out(tmp_path):

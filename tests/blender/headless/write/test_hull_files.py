@@ -178,12 +178,32 @@ def test_a_format_adds_its_ending(tmp_path):
         ("--hulls=a.xml --density=5 --margin=0 --seed=2", ""),
         ("--hulls=a.xml --parts=5", "--parts changes nothing for hulls without"),
         ("--hulls=a.xml --parts=5 --pieces=parts", ""),
+        ("--output=a.obj --processes=2", "--processes changes nothing without --hulls"),
+        ("--output=a.glb --with-hulls --processes=2", ""),
+        ("--output=a.glb --up=y", ""),
         ("--hulls=a.xml --parts=5 --picture=a.png", ""),
     ],
 )
 def test_options_that_change_nothing_are_named(options, note):
     notes = parse(["a.off", *options.split()], "wcd").notes
     assert [note in each for each in notes] == ([True] if note else [])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "is_of_use"),
+    [
+        ("a.glb --output=b.fbx --up=y", False),
+        ("a.glb --hulls=b.urdf --up=y", False),
+        ("a.glb --hulls=b.stl --up=y", True),
+        ("a.glb b.PTS --up=y", True),
+        ("a.blend --output=b.ply --up=z", True),
+    ],
+)
+def test_an_axis_that_no_file_needs_is_named(arguments, is_of_use):
+    notes = parse(arguments.split(), "wcd").notes
+    assert ["--up changes nothing without a file in .obj" in n for n in notes] == (
+        [] if is_of_use else [True]
+    )
 
 
 def test_wrong_usage(tmp_path, model, capsys):

@@ -215,3 +215,14 @@ def test_errors_in_the_scene_count_the_scale(scale):
     expected = np.linalg.norm(sides) - sides.min()
     assert noted["hulls"][0]["error_unit"] == "SCENE"
     assert noted["largest_error"] == pytest.approx(expected, rel=0.05)
+
+
+@pytest.mark.parametrize("last", [0.01, 0.0101])
+def test_margins_are_lengths_of_the_mesh_where_a_scale_is_nearly_uniform(last):
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    cube.scale = 0.01, 0.01, last
+    bpy.context.view_layer.update()
+    bpy.ops.wcd.build_hulls(margin=0.1)
+    (hull,) = hulls_of(cube)
+    assert hull.dimensions.x == pytest.approx(0.022, rel=0.01)

@@ -114,3 +114,11 @@ def test_the_list_finds_linked_hulls_beside_objects_of_their_names(suzanne, tmp_
     bpy.context.view_layer.objects.active = linked
     seen, _ = swatches()
     assert seen == [hull.material_slots[0].material for hull in hulls_of(linked)]
+
+
+def test_hulls_of_parts_that_the_object_does_not_have_belong_to_none(suzanne):
+    bpy.context.scene.wcd.samples, bpy.context.scene.wcd.parts = 100, 3
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
+    hulls = json.loads(suzanne["wcd"])["hulls"]["hulls"]
+    assert [hull["part"] for hull in hulls] == [None] * 3
+    assert len(suzanne.wcd_parts) == 0

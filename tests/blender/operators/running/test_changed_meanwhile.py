@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 import weak_convex_decomposition as package
-from hands import hand_curve
+from hand_curves import hand_curve
 from snapshot import snapshot
 from stand_ins.presses import (
     ESC,

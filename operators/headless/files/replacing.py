@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ...core.errors import DecompositionError
-from .files.swap import Move, swap
-from .files.whole import check_whole, raise_cause
-from .formats import SIMULATOR_ENDINGS
+from ....core.errors import DecompositionError
+from ..formats import SIMULATOR_ENDINGS
+from .swap import Move, swap
+from .whole import check_whole, raise_cause
 
 # Paths that stand for an open stream, whatever they are when they are looked at.
 _STREAMS = ("/dev/stdout", "/dev/stderr", "/dev/fd/", "/proc/")
@@ -153,14 +153,14 @@ def explaining(path: Path, action: str) -> Iterator[None]:
         yield
     except (RuntimeError, OSError) as error:
         # The text of an OSError would name the unfinished file.
-        reason = getattr(error, "strerror", None) or _last_reason(str(error))
+        reason = getattr(error, "strerror", None) or last_reason(str(error))
         if reason == KeyboardInterrupt.__name__:  # of an exporter in Python
             raise KeyboardInterrupt from error
         raise DecompositionError(f"{path} cannot be {action} ({reason}).") from error
 
 
-def _last_reason(text: str) -> str:
-    """Return the cause in the text of one of Blender's errors.
+def last_reason(text: str) -> str:
+    """Return the cause in the text of one of Blender's errors, without its noise.
 
     Operators in Python give a traceback, and after it the place that called them.
     """

@@ -1,16 +1,19 @@
-"""Reads .ply files: the header tells whether a file is whole, Blender imports it."""
+"""What files say of themselves at their beginning: .ply, binary .stl, and counts.
+
+Readers ask it of what they are given, and writers of what they have written.
+"""
 
 from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
-from pathlib import Path
 
-import bpy
-
-from ..formats import axes
-
-# Codes as in `struct`.
+# Bytes of binary .stl: before the triangles, and of each of them.
+STL_HEADER = 84
+_STL_TRIANGLE = 50
+# No file has as many rows as a number with more digits; Python refuses thousands.
+MOST_DIGITS = 18
+# Codes of the types in .ply, as in `struct`.
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "b"),
     **dict.fromkeys(("uchar", "uint8"), "B"),
@@ -52,7 +55,8 @@ class Element:
         for codes in self.properties.values():
             if len(codes) > 1:  # a list begins with its length
                 length = words[n_words] if n_words < len(words) else b""
-                n_words += int(length) if length.isdigit() else len(words)
+                n_members = whole_number(length.decode("latin-1"))
+                n_words += len(words) if n_members is None else n_members
             n_words += 1
         return n_words <= len(words)
 
@@ -146,6 +150,32 @@ def read_header(data: bytes) -> Header | None:
     return Header(order, tuple(elements), len(text) + len(mark) + newline)
 
 
-def import_ply(path: Path, up: str) -> set[str]:
-    """Add the object in a .ply file to the scene by Blender's importer."""
-    return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))
+def n_stl_triangles(head: bytes, size: int) -> int | None:
+    """Return the number of triangles of a binary .stl file, None for one in text form.
+
+    Parameters
+    ----------
+    head : bytes
+        The first 84 bytes or more.
+    size : int
+        Bytes of the whole file.
+    """
+    if size < STL_HEADER:
+        return None
+    (n_triangles,) = struct.unpack_from("<I", head, STL_HEADER - 4)
+    whole = size == STL_HEADER + _STL_TRIANGLE * n_triangles
+    return int(n_triangles) if whole else None
+
+
+def whole_number(text: str) -> int | None:
+    """Return the count that a text states, None if it is no count.
+
+    Parameters
+    ----------
+    text : str
+        Up to 18 digits from 0 to 9; spaces around them do not matter.
+    """
+    digits = text.strip()
+    if not (digits.isascii() and digits.isdigit() and len(digits) <= MOST_DIGITS):
+        return None
+    return int(digits)

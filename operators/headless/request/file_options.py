@@ -1,0 +1,68 @@
+"""The options for files: the inputs and how they are read, and what is written."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS, USUAL_UP
+
+
+def add_files(parser: argparse.ArgumentParser) -> None:
+    """Add the inputs and how they are read, and the files to write."""
+    y_up = [ending for ending, up in USUAL_UP.items() if up == "Y"]
+    files = parser.add_argument_group("files")
+    files.add_argument(
+        "inputs",
+        metavar="INPUT",
+        nargs="+",
+        type=Path,
+        help="models to decompose; - reads their paths from standard input, one a line",
+    )
+    _add_outputs(files)
+    files.add_argument(
+        "--up",
+        type=str.upper,
+        choices=("Y", "Z"),
+        help=f"axis that points up in {' '.join(USUAL_UP)} files that are read or"
+        f" written (default: Y in {' and '.join(y_up)}, Z in the others; the output"
+        " keeps the axes of the input)",
+    )
+    files.add_argument(
+        "--apply-modifiers",
+        action="store_true",
+        help="decompose, and write, meshes with their modifiers and shape keys applied"
+        " (default: meshes without them)",
+    )
+
+
+def _add_outputs(files: argparse._ArgumentGroup) -> None:
+    """Add the files to write."""
+    files.add_argument(
+        "--output", metavar="OUTPUT", help="write the model with its parts"
+    )
+    files.add_argument(
+        "--picture",
+        metavar="PICTURE.png",
+        help="write a picture of the parts, seen from the front and the back",
+    )
+    files.add_argument("--hulls", metavar="HULLS", help="write collision hulls")
+    files.add_argument(
+        "--hulls-format",
+        type=str.lower,
+        choices=tuple(HULL_FORMATS),
+        help="format of HULLS; its ending is added to HULLS if it is missing"
+        " (default: the format of the ending of HULLS)",
+    )
+    files.add_argument(
+        "--with-hulls",
+        action="store_true",
+        help=f"put collision hulls into OUTPUT, too ({' '.join(HULLS_WITHIN_ENDINGS)})",
+    )
+    files.add_argument(
+        "--report",
+        metavar="FILE.json",
+        type=Path,
+        help="write the parameters and the parts with their areas and convexity ranks"
+        " as JSON; - prints it to standard output, and results to standard error",
+    )

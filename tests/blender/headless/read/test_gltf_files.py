@@ -1,0 +1,48 @@
+"""What Blender's importer of glTF leaves out or adds."""
+
+import json
+
+import bpy
+import pytest
+from weak_convex_decomposition.operators.headless.addons import GLTF, enable
+from weak_convex_decomposition.operators.headless.read.load import load
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Return a function that writes the scene as .gltf; it returns path and content."""
+
+    def write():
+        enable(GLTF)
+        path = tmp_path / "a.gltf"
+        bpy.ops.export_scene.gltf(filepath=str(path), export_format="GLTF_SEPARATE")
+        return path, json.loads(path.read_text())
+
+    return write
+
+
+@pytest.mark.parametrize("first", [0, 1, None])
+def test_objects_of_all_scenes_are_read_and_those_of_none(written, first):
+    for place in range(3):
+        bpy.ops.mesh.primitive_cube_add(location=(3 * place, 0, 0))
+    path, content = written()
+    content["scenes"] = [{"name": "A", "nodes": [0]}, {"name": "B", "nodes": [1]}]
+    content["scene"] = first
+    if first is None:
+        del content["scene"]
+    path.write_text(json.dumps(content))
+    names = [node["name"] for node in content["nodes"]]
+    assert [obj.name for obj in load(path)] == sorted(names)
+
+
+def test_bones_bring_no_models(written):
+    bpy.ops.object.armature_add()
+    rig = bpy.context.active_object
+    bpy.ops.mesh.primitive_cube_add()
+    skin = bpy.context.active_object
+    skin.name, skin.parent = "Skin", rig
+    skin.modifiers.new("Armature", "ARMATURE").object = rig
+    skin.vertex_groups.new(name="Bone").add(range(8), 1, "REPLACE")
+    path, content = written()
+    assert len(content["skins"]) == 1
+    assert [obj.name for obj in load(path)] == ["Skin"]
