@@ -130,7 +130,8 @@ class HullParameters:
         ParameterInfo(
             "Margin",
             "Distance by which the faces of collision shapes move outwards, in units of"
-            " the mesh: higher values make the shapes larger, negative values smaller",
+            " the mesh (in its proportions in the scene, at its own volume): higher"
+            " values make the shapes larger, negative values smaller",
             low=-1000.0,
             high=1000.0,
         ),
