@@ -28,7 +28,7 @@ _OPAQUE = (0.65, 0.3)
 _HOVERED = (1.0, 1.0, 1.0, 0.14)
 _CHOSEN = (1.0, 1.0, 1.0, 0.1)
 _NONE = (1.0, 1.0, 1.0, 0.0)
-# Most faces of an object on which a click in the table shows the part by itself: they
+# Most faces of an object on which a click in the list shows the part by itself: they
 # are read in a tenth of a second.
 _MOST_AT_A_CLICK = 150_000
 # Widths of borders, in points at interface scale 1.

@@ -2,7 +2,7 @@
 
 Hulls that are of no part share theirs with those of other objects: files may have
 thousands. A material is ours if it has our tag and the name that we gave it. A material
-that the user renames becomes the user's, unless it is renamed in the table of parts.
+that the user renames becomes the user's, unless it is renamed in the list of parts.
 """
 
 from __future__ import annotations

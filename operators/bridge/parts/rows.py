@@ -82,7 +82,7 @@ def _recolor(row: bpy.types.PropertyGroup, color: Sequence[float]) -> None:
 
 
 class WCD_PG_part(bpy.types.PropertyGroup):
-    """A part in the table."""
+    """A part in the list."""
 
 
 WCD_PG_part.__annotations__ = {

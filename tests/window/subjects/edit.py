@@ -1,4 +1,4 @@
-"""Parts ticked in the table, merged and split by the buttons, each undone by Ctrl+Z."""
+"""Parts ticked in the list, merged and split by the buttons, each undone by Ctrl+Z."""
 
 import json
 
