@@ -77,7 +77,7 @@ def decompose_in_steps(
     if rough:  # it is as good as what is known
         return (yield from steps())
     key = "parts", parameters, None if members is None else digest(members)
-    return (yield from cache.recall(shape, key, steps))
+    return replace((yield from cache.recall(shape, key, steps)))  # it may be kept
 
 
 def _decompose(

@@ -12,6 +12,8 @@ from scipy import sparse
 from .parameters.parts import Parameters
 from .parts.part_memo import PartMemo
 from .results.views import Picture
+from .steps.one_thread import on_one_thread
+from .steps.progress import Progress, Steps, run
 
 Pixels: TypeAlias = NDArray[np.float64]
 
@@ -56,8 +58,25 @@ def draw_picture(
     """
     visibility = memo.visibility
     of_samples = visibility.shape.labels_of_nodes(labels)[visibility.nodes]
-    pixels = _DRAWN[kind](memo, parameters, of_samples, colors)
-    return Picture(pixels, visibility.shape.notes)
+    steps = _pixels(kind, memo, parameters, of_samples, colors)
+    return Picture(run(steps), visibility.shape.notes)
+
+
+@on_one_thread
+def _pixels(
+    kind: str,
+    memo: PartMemo,
+    parameters: Parameters,
+    labels: NDArray[np.int64],
+    colors: NDArray[np.float64],
+) -> Steps[Pixels]:
+    """Return the pixels of a picture.
+
+    If no parts were found before, `memo` keeps the embedding that the picture makes.
+    Parts are found from it later, so it must not depend on the number of cores.
+    """
+    yield Progress("Picture", 0.0)
+    return _DRAWN[kind](memo, parameters, labels, colors)
 
 
 def _sight(

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .jets import jet_normals
 from .splats import areas_of_points, noise_of, normal_weight, thinned_splats
@@ -31,6 +32,7 @@ _CLEARLY_INWARDS = 0.05
 _FOR_MISSING = 0.25
 
 
+@on_one_thread
 def estimate_normals(
     points: NDArray[np.float64],
 ) -> Steps[tuple[NDArray[np.float64], float]]:
@@ -56,7 +58,8 @@ def estimate_normals(
     kept, _, _ = thinned_splats(points, np.broadcast_to(np.eye(3)[2], points.shape))
     few = points[kept]
     noise = noise_of(few)
-    clean = _FOR_NOISE * noise_of(points) <= _FEWEST
+    noise_of_all = noise if len(few) == len(points) else noise_of(points)
+    clean = _FOR_NOISE * noise_of_all <= _FEWEST
     fitted = points if clean else few
     weight = normal_weight(fitted)
     blur = float(np.clip(_BLUR_OF_NOISE * noise, _LEAST_BLUR, _MOST_BLUR))

@@ -32,7 +32,7 @@ class MoveGains:
     ) -> None:
         self._pairs = pairs
         self._members = members_of(labels, n_labels)
-        # Counts are whole numbers: their float32 sums are exact in any order.
+        # Multiples of a power of 2: their float32 sums are exact in any order.
         self._visible = self._sums(pairs.visible, labels)
         self._own = pairs.visible.diagonal()
         self._sizes = self._members.sum(axis=0)

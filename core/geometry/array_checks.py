@@ -1,4 +1,4 @@
-"""Arguments and arrays of shapes: their checks, and vertices at the same place."""
+"""Arguments and arrays of shapes: what is refused, and why."""
 
 from __future__ import annotations
 
@@ -10,15 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
-from ..steps.progress import Progress, Steps
 
 # Least and largest diagonal of a shape. Single precision lies between them, and their
 # cubes are far from the ends of double precision.
 _SHORTEST, _LONGEST = 1e-50, 1e50
-# Cells of the grid of places along each axis. They span more than two diagonals.
-_CELLS = 2**21
-# About the most vertices that are sorted in one step.
-_MOST_VERTICES = 2**19
 
 
 def real_numbers(values: object) -> NDArray[Any] | None:
@@ -81,7 +76,7 @@ def check_types(**arguments: tuple[object, Any]) -> None:
             raise TypeError(f"`{name}` must be a {names}, not {described(value)}.")
 
 
-def checked_numbers(values: object, name: str, whole: bool = False) -> NDArray[Any]:
+def checked_numbers(values: object, name: str, whole: bool) -> NDArray[Any]:
     """Return values as an array of numbers.
 
     Parameters
@@ -187,53 +182,3 @@ def check_size(low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
             f"The bounding box has a diagonal of {diagonal:.3g}; scale the shape to"
             f" between {_SHORTEST:g} and {_LONGEST:g}."
         )
-
-
-def welded(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int64], step: float
-) -> Steps[NDArray[np.int32]]:
-    """Return the number of the place of each corner of triangles.
-
-    Parameters
-    ----------
-    vertices : (V, 3) float
-    triangles : (T, 3) int
-    step : float
-        Vertices in one cell of a grid of this width are at one place.
-
-    Returns
-    -------
-    Steps of (T, 3) int32
-        Places are numbered along the axes.
-    """
-    counts = np.zeros(len(vertices), dtype=np.int64)
-    at_once = max(len(vertices), _MOST_VERTICES)
-    for start in range(0, len(triangles), at_once):
-        yield Progress("Surface", 0.1 * start / len(triangles))
-        some = triangles[start : start + at_once]
-        counts += np.bincount(some.ravel(), minlength=len(vertices))
-    yield Progress("Surface", 0.1)
-    center = counts @ vertices / triangles.size
-    # One number sorts faster than three. Only vertices that no face uses lie outside
-    # the grid.
-    places = np.zeros(len(vertices), dtype=np.int64)
-    for axis in range(3):
-        yield Progress("Surface", 0.2 + 0.1 * axis)
-        with np.errstate(over="ignore"):
-            cells = np.round((vertices[:, axis] - center[axis]) / step) + _CELLS // 2
-        places = places * _CELLS + np.clip(cells, 0, _CELLS - 1).astype(np.int64)
-    yield Progress("Surface", 0.5)
-    # Ranges of places, of about as many vertices each, one after the other.
-    n_ranges = -(-len(places) // _MOST_VERTICES)
-    few = np.sort(places[:: max(len(places) // (1000 * n_ranges), 1)])
-    bounds = few[np.arange(1, n_ranges) * len(few) // n_ranges]
-    range_of = np.searchsorted(bounds, places, side="right")
-    place_of, n_places = np.empty(len(places), dtype=np.int32), 0
-    for number in range(n_ranges):
-        yield Progress("Surface", 0.5 + 0.4 * number / n_ranges)
-        rows = np.flatnonzero(range_of == number)
-        different, found = np.unique(places[rows], return_inverse=True)
-        place_of[rows] = found.reshape(-1) + n_places
-        n_places += len(different)
-    yield Progress("Surface", 0.9)
-    return place_of[triangles]

@@ -239,6 +239,8 @@ def _order(numbers: NDArray[np.int32]) -> NDArray[np.int32]:
     """Return a stable order of numbers from 0. SciPy's counting sort beats NumPy's."""
     n_rows = len(numbers)
     ones = np.ones(n_rows, dtype=np.int8)
-    rows = sparse.csr_array((ones, numbers, np.arange(n_rows + 1, dtype=np.int32)))
+    starts = np.arange(n_rows + 1, dtype=np.int32)
+    shape = n_rows, int(numbers.max(initial=0)) + 1  # SciPy finds none without rows
+    rows = sparse.csr_array((ones, numbers, starts), shape)
     order: NDArray[np.int32] = rows.tocsc().indices
     return order

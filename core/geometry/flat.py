@@ -81,7 +81,9 @@ class FlatMesh:
             unit((np.roll(places, n, axis=1) - places).reshape(-1, 3)) for n in (-1, 1)
         )
         angles = np.arccos(np.clip((ahead * behind).sum(axis=1), -1.0, 1.0))
-        inner = np.bincount(corners.ravel(), angles)
+        # Where two corners coincide, a triangle turns by no angle at all.
+        same = (corners == np.roll(corners, -1, axis=1)).any(axis=1)
+        inner = np.bincount(corners.ravel(), np.where(same.repeat(3), 0.0, angles))
         turns = inner - np.pi
         turns[inner > 2 * np.pi - 1e-3] = 0.0
         return np.maximum(turns, 0.0)

@@ -18,8 +18,8 @@ from .array_checks import (
     check_surface,
     checked_numbers,
     rows_of_three,
-    welded,
 )
+from .welding import welded
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
 LEAST_AREA = 1e-9
@@ -91,6 +91,13 @@ class TriangleMesh:
     def n_polygons(self) -> int:
         """Number of polygons."""
         return int(self.polygons.max()) + 1
+
+    def with_polygons(self, polygons: NDArray[np.int64]) -> TriangleMesh:
+        """Return the mesh with other numbers of polygons, (T,) int."""
+        mesh = replace(self, polygons=polygons)
+        known = {name: self.__dict__.get(name) for name in ("areas", "normals")}
+        mesh.__dict__.update({name: it for name, it in known.items() if it is not None})
+        return mesh
 
     @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

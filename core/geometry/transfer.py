@@ -35,7 +35,7 @@ class NearestSamples:
     ----------
     samples : Samples
     spacing : float
-        Mean distance of samples.
+        Mean distance of samples, by `spacing_of`.
     """
 
     def __init__(self, samples: Samples, spacing: float) -> None:
@@ -134,7 +134,7 @@ def carry(
 
 
 def spacing_of(samples: Samples, graph: FaceGraph) -> float:
-    """Return the mean distance of samples on a graph."""
+    """Return the mean distance of as many samples spread over the whole area."""
     return float(np.sqrt(graph.areas.sum() / len(samples)))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from ..geometry.frames import HEIGHTS_AT_ONCE, heights_above, principal_axes
@@ -14,6 +15,9 @@ from ..steps.rows import blocks
 THIN = 2e-3
 # Simplified hulls may leave out vertices that are less than this far outside.
 LEFT_OUT = THIN / 10
+# Of thinner hulls, even less: at a sharp edge, a vertex may be close to the planes of
+# both faces, but far from where they meet.
+_THICK = 0.1
 # Less than this share of it is rounding: vertices are in single precision.
 _ROUNDING = 2e-3
 # Least number of vertices added to a simplified hull in each round.
@@ -62,26 +66,27 @@ def hull_volume(points: NDArray[np.float64]) -> float:
         return 0.0
 
 
-def simplified(hull: Hull, max_vertices: int, tolerance: float) -> Hull:
+def simplified(hull: Hull, max_vertices: int) -> Hull:
     """Return a simpler hull, made of some of the vertices of a hull.
 
     Starts with a tetrahedron. Each round adds the vertices that are farthest outside
-    the facets of the hull so far.
+    the facets of the hull so far. Vertices that are less than `LEFT_OUT` outside are
+    left out, even where more are allowed: single precision turns nearly flat faces into
+    creases.
 
     Parameters
     ----------
     hull : Hull
+        The longest side of the whole shape is 2.
     max_vertices : int
         Largest number of vertices, 4 or more.
-    tolerance : float
-        Vertices that are less than this far outside are left out, even where more
-        are allowed: single precision turns nearly flat faces into creases.
 
     Returns
     -------
     Hull
         It lies within `hull`.
     """
+    tolerance = LEFT_OUT * min(_thickness(hull) / _THICK, 1.0)
     chosen = _tetrahedron(hull.vertices)
     coarse = _hull(hull.vertices[chosen])
     while True:
@@ -115,6 +120,8 @@ def offset(hull: Hull, margin: float) -> Hull:
         return hull
     planes = hull.planes - [0, 0, 0, margin]
     inside = hull.vertices.mean(axis=0)
+    if heights_above(planes, inside[None]).max() >= 0:  # near a crowd of vertices
+        inside = _deepest(hull)
     if heights_above(planes, inside[None]).max() >= 0:
         return hull
     try:
@@ -159,7 +166,25 @@ def _is_flat(hull: Hull, thickness: float) -> bool:
     low, high = hull.bounds
     if hull.volume > thickness * float(np.sum(high - low)) ** 2:  # the usual case
         return False
-    return float(np.ptp(hull.vertices @ principal_axes(hull.vertices)[0])) < thickness
+    return _thickness(hull) < thickness
+
+
+def _thickness(hull: Hull) -> float:
+    """Return the width of a hull along its first principal axis, the shortest."""
+    return float(np.ptp(hull.vertices @ principal_axes(hull.vertices)[0]))
+
+
+def _deepest(hull: Hull) -> NDArray[np.float64]:
+    """Return the center (3,) of a largest ball within a hull."""
+    normals, offsets = hull.planes[:, :3], hull.planes[:, 3]
+    found = linprog(
+        (0, 0, 0, -1),
+        np.c_[normals, np.ones(len(normals))],
+        -offsets,
+        bounds=[(None, None)] * 3 + [(0, None)],
+    )
+    center: NDArray[np.float64] = found.x[:3]
+    return center
 
 
 def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:

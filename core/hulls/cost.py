@@ -109,7 +109,7 @@ def error_of_joint(joint: Piece, cost: float, solid_volume: float) -> float:
 
 
 def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
-    """Return a lower bound of `cost_of_joint`, found from volumes alone.
+    """Return a lower bound of `cost_of_joint` of hulls, found from volumes alone.
 
     The other term of the error, the Hausdorff distance, takes far longer to compute.
 

@@ -10,7 +10,7 @@ import numpy as np
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..parameters.hulls import HullParameters
-from .convex_hull import LEFT_OUT, THIN, offset, simplified
+from .convex_hull import THIN, offset, simplified
 from .enclosing.shapes import around, roughly_around
 
 
@@ -71,7 +71,7 @@ class Fit:
         """
         kind, most = self.parameters.shape, self.parameters.max_vertices
         if kind == "HULL":
-            return _as_shape(simplified(offset(hull, self.margin), most, LEFT_OUT))
+            return _as_shape(simplified(offset(hull, self.margin), most))
         return _grown(around(hull, kind), self.margin)
 
     def rough_shape(self, hull: Hull) -> CollisionShape:
@@ -134,7 +134,7 @@ def _as_shape(hull: Hull) -> CollisionShape:
 
 def _grown(shape: CollisionShape, margin: float) -> CollisionShape:
     """Return a box, sphere, cylinder or capsule with its surface moved outwards."""
-    least = np.where(shape.sizes > 0, THIN / 2, 0.0)
+    least = np.minimum(shape.sizes, THIN / 2)
     moving = shape.sizes > 0
     moving[2] &= shape.kind != "CAPSULE"  # its ends move with its radius
     return replace(shape, sizes=np.maximum(shape.sizes + margin * moving, least))

@@ -73,7 +73,7 @@ class Solid:
     def true_volume(self) -> float:
         """Volume of the solid: exact if it is one closed shell, however thin."""
         mass = None
-        if self.closed and self.single and self.volume > 0:
+        if self.closed and self.single:
             mass = mass_of_surface(self.mesh.vertices, self.mesh.triangles, 1.0)
         return mass.mass if mass else self.volume
 

@@ -151,7 +151,10 @@ def _filled(template: str, name: str, n: int, kind: str) -> str:
 def _widest_field(template: str) -> int:
     """Return the largest number in the format specs of a template; 0 if none has any.
 
-    Python would fill a name up to that width, whatever memory it takes.
+    Python would fill a name up to that width, whatever memory it takes. Raise
+    ValueError if a field within a spec says what the width is.
     """
     specs = " ".join(spec or "" for _, _, spec, _ in Formatter().parse(template))
+    if "{" in specs:
+        raise ValueError(specs)
     return max(map(int, re.findall(r"\d+", specs)), default=0)

@@ -16,6 +16,8 @@ from ..parameters.parameter import check, field_of
 class HullDecomposition:
     """Convex collision shapes that together approximate a shape, in its units.
 
+    Its arrays are read-only.
+
     Attributes
     ----------
     shapes : tuple of CollisionShape
@@ -63,6 +65,10 @@ class HullDecomposition:
     notes: tuple[str, ...]
     error_unit: str = "RELATIVE"
     half_side: float = 1.0
+
+    def __post_init__(self) -> None:
+        """Protect what the next result of the same shape may share."""
+        self.errors.flags.writeable = self.parts.flags.writeable = False
 
     def errors_in(self, unit: str) -> NDArray[np.float64]:
         """Return the errors in a unit, (K,) float.

@@ -12,7 +12,7 @@ from .psi import good_numbers
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Decomposition:
-    """The weakly convex parts of a shape.
+    """The weakly convex parts of a shape. Its arrays are read-only.
 
     Attributes
     ----------
@@ -71,6 +71,14 @@ class Decomposition:
     pairs_inferred: int = 0
     pairs: tuple[tuple[int, int], ...] = ()
     rough: bool = False
+
+    def __post_init__(self) -> None:
+        """Protect what the next result of the same shape may share."""
+        for array in (self.labels, self.areas, self.face_counts, self.ranks):
+            array.flags.writeable = False
+        if self.normals is not None:
+            self.normals.flags.writeable = False
+        object.__setattr__(self, "psi_by_k", dict(self.psi_by_k))
 
     @property
     def n_parts(self) -> int:

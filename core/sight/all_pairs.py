@@ -15,9 +15,6 @@ from .viewpoints import Viewpoints
 
 # Pairs of the LoS matrix that are tested at a time.
 _PAIRS_PER_STEP = 65536
-# Number of random pairs that psi is estimated from. The estimate is unbiased; its
-# standard error is about 0.002.
-UNIFORM_PAIRS = 60_000
 
 
 def facing_pairs(
@@ -88,7 +85,7 @@ def see_uniform_pairs(
     samples: Samples,
     views: Viewpoints,
     rng: np.random.Generator,
-    n_pairs: int = UNIFORM_PAIRS,
+    n_pairs: int,
     budget: RayBudget | None = None,
 ) -> Steps[PairVisibility]:
     """Find out whether random pairs of samples see each other.
@@ -103,7 +100,7 @@ def see_uniform_pairs(
         Viewpoints of `samples`.
     rng : numpy.random.Generator
         Draws the pairs uniformly, with replacement.
-    n_pairs : int, optional
+    n_pairs : int
         Number of pairs.
     budget : RayBudget, optional
         Where it ends, the rest of the pairs stay unknown. Unlimited by default.

@@ -80,7 +80,8 @@ class PairVisibility:
     Attributes
     ----------
     visible : (N, N) float32 or sparse
-        How often each pair was tested and visible; 0 or 1 if tested once. Symmetric.
+        How often each pair was tested and visible; 0 or 1 if tested once. Likely pairs
+        hold the probability of one part instead, from 0 to 1. Symmetric.
     known : (N, N) sparse or None
         How often each pair was tested. None if all pairs have one answer.
     n_cast : int

@@ -85,6 +85,8 @@ class PointViewer:
     ) -> Samples | None:
         """Return the first surface point along a ray, as one sample, or None."""
         marcher = self.shape.marcher
+        # Ray casters work in single precision: start shortly before the shape.
+        origin = origin + direction * max(-float(origin @ direction) - 1.0, 0.0)
         reach = np.linalg.norm(origin) + 1.0
         triangles, distances = marcher.caster.first_hit(
             origin[None], direction[None], np.array([reach])

@@ -133,7 +133,7 @@ class PreparedShape:
         polygons = places[np.minimum(self.targets.polygons, self.n_nodes)]
         return replace(
             self,
-            targets=replace(self.targets, polygons=polygons),
+            targets=self.targets.with_polygons(polygons),
             n_nodes=len(kept),
             nodes=places[self.nodes[members]],
             make_graph=lambda: self._part_of_graph(kept),
@@ -169,20 +169,16 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
     if isinstance(shape, PointCloud):
         return (yield from _prepare_cloud(shape, make_caster))
     mesh = yield from within(shape.normalized_in_steps(), 0.0, 0.2)
-    frame = shape.center, shape.diagonal
     yield Progress("Surface", 0.2)
     if flat := flat_mesh(mesh):
-        return _prepare_flat(flat, mesh, make_caster, *frame)
-    return (yield from within(_prepare_mesh(mesh, make_caster, *frame), 0.2, 1.0))
+        return _prepare_flat(shape, mesh, flat, make_caster)
+    return (yield from within(_prepare_mesh(shape, mesh, make_caster), 0.2, 1.0))
 
 
 def _prepare_mesh(
-    mesh: TriangleMesh,
-    make_caster: MakeCaster,
-    center: NDArray[np.float64],
-    diagonal: float,
+    shape: TriangleMesh, mesh: TriangleMesh, make_caster: MakeCaster
 ) -> Steps[PreparedShape]:
-    """Prepare a normalized mesh: shells, orientation, the surface that rays see."""
+    """Prepare a mesh, given normalized, too: shells, orientation, what rays see."""
     nodes = np.arange(mesh.n_polygons)
     edges = yield from within(sort_edges(mesh), 0.0, 0.2)
     shells = yield from within(find_shells(mesh, edges), 0.2, 0.3)
@@ -197,10 +193,12 @@ def _prepare_mesh(
     solid = turned if single is mesh else with_doubles(mesh, turned, rows)
     if solid is not mesh:  # turned triangles have other sides
         edges = yield from within(sort_edges(solid), 0.8, 0.9)
-    convex = yield from within(is_convex(solid, shells, edges), 0.9, 1.0)
+    steps = is_convex(solid, shells, edges)
+    # With doubled triangles, these are not the edges that the shells were found by.
+    convex = single is mesh and (yield from within(steps, 0.9, 1.0))
     return PreparedShape(
-        center,
-        diagonal,
+        shape.center,
+        shape.diagonal,
         targets,
         RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
         len(nodes),
@@ -213,16 +211,12 @@ def _prepare_mesh(
 
 
 def _prepare_flat(
-    flat: FlatMesh,
-    mesh: TriangleMesh,
-    make_caster: MakeCaster,
-    center: NDArray[np.float64],
-    diagonal: float,
+    shape: TriangleMesh, mesh: TriangleMesh, flat: FlatMesh, make_caster: MakeCaster
 ) -> PreparedShape:
     """Prepare a flat mesh: walls along its outline carry the samples."""
     return PreparedShape(
-        center,
-        diagonal,
+        shape.center,
+        shape.diagonal,
         flat.walls,
         RayMarcher(flat.walls, make_caster),
         mesh.n_polygons,

@@ -106,7 +106,8 @@ class RayMarcher:
         Returns
         -------
         exits : (M,) int
-            Triangle through which the ray leaves, −1 if it stays inside.
+            Triangle through which the ray leaves, −1 if it stays inside, or still goes
+            on after it has passed 64 triangles.
         distances : (M,) float
             Distance to the exit, `inf` without one.
         depths : (M,) int

@@ -10,6 +10,7 @@ from ..geometry.connectivity import Edges
 from ..geometry.frames import heights_above
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
+from ..steps.rows import blocks
 from .shells import Shells
 
 # Heights that count as rounding, in diagonals: vertices are in single precision. Rays
@@ -51,7 +52,7 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     yield Progress("Surface", 1.0)
     corners = mesh.vertices[mesh.triangles]
     try:
-        hull = ConvexHull(np.unique(corners.reshape(-1, 3), axis=0))
+        hull = ConvexHull(mesh.vertices[np.unique(mesh.triangles)])
     except QhullError:  # it is flat
         return False
     a, b, c = np.moveaxis(corners - mesh.center, 1, 0)
@@ -59,7 +60,9 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     if abs(volume - hull.volume) > _SAME_VOLUME * hull.volume:
         return False
     within = np.setdiff1d(np.arange(len(hull.points)), hull.vertices)
-    return _on_planes(hull.points[within], hull.equations, _ROUNDING * mesh.diagonal)
+    planes = np.unique(hull.equations, axis=0)  # Qhull gives one for each triangle
+    steps = _on_planes(hull.points[within], planes, _ROUNDING * mesh.diagonal)
+    return (yield from steps)
 
 
 def _has_concave_edge(mesh: TriangleMesh, edges: Edges) -> Steps[bool]:
@@ -84,10 +87,10 @@ def _has_concave_edge(mesh: TriangleMesh, edges: Edges) -> Steps[bool]:
 
 def _on_planes(
     points: NDArray[np.float64], planes: NDArray[np.float64], rounding: float
-) -> bool:
+) -> Steps[bool]:
     """Return whether each point within planes lies on one of them."""
-    step = max(1, _MOST_HEIGHTS // len(planes))
-    return all(
-        bool((heights_above(planes, some).max(axis=1) >= -rounding).all())
-        for some in (points[i : i + step] for i in range(0, len(points), step))
-    )
+    for rows in blocks(len(points), max(1, _MOST_HEIGHTS // len(planes))):
+        yield Progress("Surface", 1.0)
+        if heights_above(planes, points[rows]).max(axis=1).min() < -rounding:
+            return False
+    return True

@@ -77,8 +77,22 @@ def mass_of_mesh(mesh: TriangleMesh, density: float) -> MassProperties | None:
     MassProperties or None
         None if the mesh is not closed, or encloses nothing.
     """
-    shells = run(shells_of(mesh))
-    if not shells.closed.all():
+    turned, _ = run(oriented(mesh, run(shells_of(mesh))))
+    if not _is_balanced(turned):
         return None
-    turned, _ = run(oriented(mesh, shells))
     return mass_of_surface(turned.vertices, turned.triangles, density)
+
+
+def _is_balanced(mesh: TriangleMesh) -> bool:
+    """Return whether as many triangles run along each edge one way as the other way.
+
+    Then the integrals do not depend on the point of the tetrahedra. Solids that touch
+    along faces or edges are balanced, and so are triangles without area.
+    """
+    tails = mesh.welded_triangles.astype(np.int64)
+    heads = np.roll(tails, -1, axis=1)
+    one_way, other_way = (
+        np.sort((some * (tails.max() + 1) + others).ravel())
+        for some, others in ((tails, heads), (heads, tails))
+    )
+    return np.array_equal(one_way, other_way)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
@@ -103,7 +105,6 @@ def _inverted(
     corners = mesh.vertices[mesh.triangles[order]]
     lows = np.minimum.reduceat(corners.min(axis=1), firsts)
     highs = np.maximum.reduceat(corners.max(axis=1), firsts)
-    candidates = np.flatnonzero(solid)
 
     def encloses(outer: int, inner: int) -> bool:
         rows = members[outer]
@@ -112,19 +113,39 @@ def _inverted(
         around = mesh.vertices[mesh.triangles[rows]]
         return abs(_winding_number(point, around, turned)) > 0.5
 
+    around, inside = _nested_boxes(lows, highs, np.flatnonzero(solid))
     inverted: set[int] = set()
     for shell in inward.tolist():
         yield Progress("Surface", 0.6)
-        outer = (lows[candidates] < lows[shell]).all(axis=1)
-        outer &= (highs[candidates] > highs[shell]).all(axis=1)
-        if not any(encloses(other, shell) for other in candidates[outer].tolist()):
+        if not any(encloses(other, shell) for other in around[shell]):
             # Inner shells turn along, so they stay a cavity or a core.
             inverted.add(shell)
-            inner = (lows[candidates] > lows[shell]).all(axis=1)
-            inner &= (highs[candidates] < highs[shell]).all(axis=1)
-            inside = candidates[inner].tolist()
-            inverted |= {other for other in inside if encloses(shell, other)}
+            inverted |= {other for other in inside[shell] if encloses(shell, other)}
     return np.array(sorted(inverted), dtype=np.int64)
+
+
+def _nested_boxes(
+    lows: NDArray[np.float64], highs: NDArray[np.float64], chosen: NDArray[np.int64]
+) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
+    """Return which of the chosen boxes are around each, and which are inside each.
+
+    Boxes without one have no key, but an empty list.
+    """
+    # The middle of a box inside is in the ball around the outer one.
+    middles, radii = (lows + highs)[chosen] / 2, (highs - lows)[chosen] / 2
+    near = cKDTree(middles).query_ball_point(middles, np.linalg.norm(radii, axis=1))
+    outer = np.repeat(chosen, [len(each) for each in near])
+    inner = chosen[np.concatenate(near).astype(np.int64)]
+    within = (lows[outer] < lows[inner]).all(axis=1)
+    within &= (highs[outer] > highs[inner]).all(axis=1)
+    around, inside = (
+        defaultdict[int, list[int]](list),
+        defaultdict[int, list[int]](list),
+    )
+    for one, other in zip(outer[within].tolist(), inner[within].tolist(), strict=True):
+        around[other].append(one)
+        inside[one].append(other)
+    return around, inside
 
 
 def _winding_number(

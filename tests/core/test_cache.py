@@ -49,7 +49,8 @@ def sees_anew(cache, mesh, parameters=BEFORE):
 
 
 def result(found):
-    return found.labels.tolist(), found.psi, found.psi_by_k, found.ranks.tolist()
+    numbers = sorted(found.psi_by_k.items())
+    return found.labels.tolist(), found.psi, numbers, found.ranks.tolist()
 
 
 @pytest.fixture(scope="module")
@@ -162,7 +163,8 @@ def test_results_of_equal_shapes_are_kept_where_that_is_asked_for():
     cache = ShapeCache(WatchedCaster, n_results=2)
     first = run(decompose_in_steps(shapes.comb(), BEFORE, cache))
     run(decompose_in_steps(shapes.l_shape(), BEFORE, cache))
-    assert run(decompose_in_steps(shapes.comb(), BEFORE, cache)) is first
+    again = run(decompose_in_steps(shapes.comb(), BEFORE, cache))
+    assert again.labels is first.labels
     assert not sees_anew(cache, shapes.comb())
     assert sees_anew(cache, shapes.comb(), replace(BEFORE, seed=1))
     run(decompose_in_steps(shapes.plus(), BEFORE, cache))
@@ -189,3 +191,18 @@ def test_forgotten_is_forgotten():
     assert not sees_anew(cache, mesh)
     cache.forget()
     assert sees_anew(cache, mesh)
+
+
+def test_what_a_user_does_to_a_result_stays_out_of_the_next_one():
+    cache = ShapeCache(WatchedCaster, n_results=2)
+    for parts in (0, 3):
+        parameters = replace(BEFORE, parts=parts)
+        found, again = (
+            run(decompose_in_steps(shapes.comb(), parameters, cache)) for _ in range(2)
+        )
+        before = result(again)
+        found.psi_by_k.clear()
+        with pytest.raises(ValueError, match="read-only"):
+            found.labels[0] = 1
+        later = run(decompose_in_steps(shapes.comb(), parameters, cache))
+        assert result(later) == before

@@ -1,1 +1,1 @@
-"""Cuts through large faces, along seams that were found on a finer mesh."""
+"""Polygons cut into triangles, and large faces along seams of a finer mesh."""

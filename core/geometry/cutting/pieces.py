@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import TriangleMesh
-from .refined import RefinedMesh
+from .refined import RefinedMesh, RowsByNumber
 
 # Labels that cover equal areas of a face, but for rounding.
 _EQUAL = 1e-3
@@ -39,7 +39,8 @@ def labels_of_pieces(
         Part of the piece that each polygon of the refined mesh lies in.
     """
     centers, areas = refined.centers()
-    piece = _pieces_at(centers, refined.faces, cut, faces)
+    polygons = RowsByNumber(refined.faces, int(faces.max()) + 1)
+    piece = _pieces_at(centers, refined.faces, polygons, cut, faces)
     votes = np.zeros((len(faces), int(labels.max()) + 1))
     np.add.at(votes, (piece, labels), areas + np.finfo(float).tiny)
     found = votes.argmax(axis=1)
@@ -47,7 +48,7 @@ def labels_of_pieces(
     middles = np.zeros((len(faces), 3))
     middles[cut.polygons] = cut.vertices[cut.triangles].mean(axis=1)
     for sliver in np.flatnonzero(~votes.any(axis=1)).tolist():
-        there = np.flatnonzero(refined.faces == faces[sliver])
+        there = polygons.of(faces[sliver])
         away = np.linalg.norm(centers[there] - middles[sliver], axis=1)
         found[sliver] = found[piece[there[away.argmin()]]]
     return found, found[piece]
@@ -56,20 +57,18 @@ def labels_of_pieces(
 def _pieces_at(
     points: NDArray[np.float64],
     faces_of_points: NDArray[np.int64],
+    points_of_faces: RowsByNumber,
     cut: TriangleMesh,
     faces: NDArray[np.int64],
 ) -> NDArray[np.int64]:
     """Return the piece of its face that each point lies in."""
-    owners = faces[cut.polygons]
-    order = np.argsort(owners, kind="stable")
-    begins = np.searchsorted(owners[order], np.arange(int(faces.max()) + 2))
+    triangles = RowsByNumber(faces[cut.polygons], int(faces.max()) + 1)
     single = np.bincount(faces) == 1
     one_piece = np.zeros(len(single), dtype=np.int64)
     one_piece[faces] = np.arange(len(faces))
     found = one_piece[faces_of_points]
     for face in np.unique(faces_of_points[~single[faces_of_points]]).tolist():
-        rows = order[begins[face] : begins[face + 1]]
-        there = np.flatnonzero(faces_of_points == face)
+        rows, there = triangles.of(face), points_of_faces.of(face)
         inside = _insideness(points[there], cut.vertices[cut.triangles[rows]])
         found[there] = cut.polygons[rows[inside.argmax(axis=1)]]
     return found

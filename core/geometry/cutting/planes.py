@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from ...steps.progress import run
 from ..connectivity import components_at_once, shared_edges, sort_edges
-from .refined import Cut, RefinedMesh
+from ..face_graph import face_graph
+from ..frames import unit
+from .refined import Cut, RefinedMesh, RowsByNumber
 
 # Weight of a piece of the seam along a concave crease, where the seam surely belongs.
 _CREASE_WEIGHT = 25.0
@@ -51,23 +53,28 @@ def find_cuts(refined: RefinedMesh, labels: NDArray[np.int64]) -> list[Cut]:
     """
     seams = _seams_of(refined, labels)
     cuts: list[Cut] = []
-    for seam in range(int(seams.seam.max(initial=-1)) + 1):
-        cuts += _cuts_of_seam(seams, np.flatnonzero(seams.seam == seam), refined.size)
+    n_seams = int(seams.seam.max(initial=-1)) + 1
+    edges = RowsByNumber(seams.seam, n_seams)
+    for seam in range(n_seams):
+        cuts += _cuts_of_seam(seams, edges.of(seam), refined.size)
     return sorted(cuts, key=lambda cut: -len(cut.faces))
 
 
 def _cuts_of_seam(seams: _Seams, rows: NDArray[np.int64], size: float) -> list[Cut]:
     """Return the planes that cut the faces of one connected seam."""
-    if (seams.face[rows] < 0).all():
+    within = rows[seams.face[rows] >= 0]
+    if len(within) == 0:
         return []
     point, normal = _fitted(seams, rows)
-    middles = (seams.starts + seams.ends) / 2
+    faces, numbers = np.unique(seams.face[within], return_inverse=True)
+    edges = RowsByNumber(numbers, len(faces))
     along: list[int] = []
     cuts = []
-    for face in np.unique(seams.face[rows][seams.face[rows] >= 0]).tolist():
-        own = rows[seams.face[rows] == face]
-        lengths = np.linalg.norm(seams.ends[own] - seams.starts[own], axis=1)
-        away = np.abs((middles[own] - point) @ normal)
+    for number, face in enumerate(faces.tolist()):
+        own = within[edges.of(number)]
+        starts, ends = seams.starts[own], seams.ends[own]
+        lengths = np.linalg.norm(ends - starts, axis=1)
+        away = np.abs(((starts + ends) / 2 - point) @ normal)
         if np.average(away, weights=lengths) <= _NEAR * size:
             along.append(face)
         else:
@@ -105,19 +112,11 @@ def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
     first = mesh.triangles[owners, corners]
     last = mesh.triangles[owners, (corners + 1) % 3]
     starts, ends = mesh.vertices[first], mesh.vertices[last]
-    polygon_normals = np.zeros((len(refined.faces), 3))
-    np.add.at(polygon_normals, mesh.polygons, mesh.normals * mesh.areas[:, None])
-    lengths = np.linalg.norm(polygon_normals, axis=1, keepdims=True)
-    polygon_normals /= np.where(lengths > 0, lengths, 1.0)
-    normals = polygon_normals[one] + polygon_normals[other]
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals /= np.where(lengths > 0, lengths, 1.0)
-    centers, _ = refined.centers()
-    rises = ((centers[other] - centers[one]) * polygon_normals[one]).sum(axis=1)
-    cosines = (polygon_normals[one] * polygon_normals[other]).sum(axis=1)
-    creases = (rises > 0) & (cosines < np.cos(_LEAST_CREASE))
-    weights = np.linalg.norm(ends - starts, axis=1)
-    weights = np.where(creases, _CREASE_WEIGHT, 1.0) * weights + np.finfo(float).tiny
+    graph = run(face_graph(mesh, edges))
+    normals = unit(graph.normals[one] + graph.normals[other])
+    creases = graph.bends[kept] > _LEAST_CREASE
+    weights = np.where(creases, _CREASE_WEIGHT, 1.0) * graph.lengths[kept]
+    weights += np.finfo(float).tiny
     inside = refined.faces[one] == refined.faces[other]
     return _Seams(
         starts,

@@ -25,7 +25,7 @@ _TOLD_APART = 0.5
 # Bounds exceed errors by this share at most, where there is time for it; rough ones do
 # by more.
 _TOLERANCE, _ROUGH_TOLERANCE = 0.03, 0.1
-# Longest edge of the first patches; the longest side of the shape is 2.
+# Longest edge of the first patches where the longest side of the shape is 2, or less.
 _COARSE = 0.1
 
 
@@ -138,7 +138,9 @@ class ErrorBound:
         """Return a bound of the distance of points on the shape from the surface."""
         outline, gap = fine_outline(self._shape)
         if self._outer is None:
-            self._outer = PatchSearch(fragments_of(outline, _COARSE)[0])
+            low, high = self._shape.bounds
+            longest = _COARSE * max(1.0, float((high - low).max()) / 2)
+            self._outer = PatchSearch(fragments_of(outline, longest)[0])
 
         def away(corners: NDArray[np.float64], level: float) -> Bounds:
             return _distances(self._solid, self._targets, corners, level, gap == 0)

@@ -36,7 +36,7 @@ def with_bends_kept(
     best_k = left = count_parts(merged)
     tried = range(n_parts, parameters.max_parts + 1) if n_parts else ()
     for turn, k in enumerate(tried):
-        if left >= n_parts:
+        if left == n_parts or (turn and left > n_parts):
             break
         steps = within_turn(given(search, k), turn, len(tried))
         found = yield from within(steps, 0.5, 0.9)

@@ -15,9 +15,9 @@ from ....core.geometry.array_checks import (
     real_numbers,
     rows_of_three,
 )
+from ....core.geometry.cutting.triangulation import triangulate
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
-from ....core.geometry.triangulation import triangulate
 
 _OWN = (TriangleMesh, PointCloud)
 _SHAPES = (

@@ -149,6 +149,16 @@ def test_a_mesh_of_several_objects_is_written_once(suzanne):
     assert "wcd" not in twin
 
 
+def test_objects_that_share_a_mesh_have_locks_of_their_own(suzanne):
+    twin = bpy.data.objects.new("twin", suzanne.data)
+    bpy.context.collection.objects.link(twin)
+    decompose_by_hand(suzanne, 3)
+    suzanne.wcd_parts[0].locked = twin.wcd_parts[2].locked = True
+    decompose_by_hand(suzanne, 3)
+    assert [row.locked for row in suzanne.wcd_parts] == [True, False, False]
+    assert [row.locked for row in twin.wcd_parts] == [False, False, True]
+
+
 def test_each_object_has_materials_of_its_own(suzanne):
     decompose_by_hand(suzanne, 3)
     bpy.ops.mesh.primitive_cube_add()
@@ -184,6 +194,14 @@ def test_a_users_attribute_of_our_name_is_refused(suzanne, domain):
             decompose_by_hand(suzanne, 2)
         assert snapshot(suzanne) == before
         suzanne.data.attributes.remove(suzanne.data.attributes[name])
+
+
+def test_a_users_group_of_our_name_is_refused(suzanne):
+    suzanne.vertex_groups.new(name="wcd_part")
+    before = snapshot(suzanne)
+    with pytest.raises(DecompositionError, match="vertex group wcd_part that"):
+        decompose_by_hand(suzanne, 2)
+    assert snapshot(suzanne) == before
 
 
 @pytest.mark.parametrize("value", ["not JSON", 3, "[1]", '{"parts": [{}]}'])

@@ -159,3 +159,57 @@ def test_a_material_deleted_meanwhile_leaves_no_slot_behind(suzanne):
         bpy.data.materials.remove(bpy.data.materials["Part 01"])
     bpy.ops.wcd.clear()
     assert snapshot(suzanne) == before
+
+
+def test_the_users_group_is_active_again_where_one_of_a_part_was(suzanne):
+    for name in ("hips", "spine"):
+        suzanne.vertex_groups.new(name=name)
+    suzanne.vertex_groups.active_index = 0
+    decompose_by_hand(suzanne, 3)
+    suzanne.vertex_groups.active_index = 3
+    erase.clear(suzanne)
+    assert suzanne.vertex_groups.active.name == "hips"
+
+
+def test_an_empty_slot_that_was_added_to_an_overlay_stays(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.wcd.show_colors(colors="OVERLAY")
+    suzanne.data.materials.append(bpy.data.materials.new("Gold"))
+    suzanne.data.materials.append(None)
+    suzanne.data.polygons[0].material_index = 1
+    erase.clear(suzanne)
+    assert suzanne.data.materials[:] == [bpy.data.materials["Gold"], None]
+    assert suzanne.data.polygons[0].material_index == 1
+
+
+def test_an_object_that_shares_the_mesh_keeps_materials_of_its_own(suzanne):
+    other = bpy.data.objects.new("Other", suzanne.data)
+    bpy.context.collection.objects.link(other)
+    decompose_by_hand(suzanne, 3)
+    suzanne.data.materials.append(bpy.data.materials.new("Late"))
+    other.material_slots[3].link = "OBJECT"
+    other.material_slots[3].material = bpy.data.materials.new("Own")
+    erase.clear(suzanne)
+    assert [(slot.link, slot.name) for slot in other.material_slots] == [
+        ("OBJECT", "Own")
+    ]
+
+
+def test_a_slot_that_was_added_and_chosen_since_stays_the_chosen_one(suzanne):
+    decompose_by_hand(suzanne, 3)
+    for name in ("Late", "Later"):
+        suzanne.data.materials.append(bpy.data.materials.new(name))
+    suzanne.active_material_index = 3
+    erase.clear(suzanne)
+    assert suzanne.active_material.name == "Late"
+
+
+@MODES
+def test_clear_takes_the_color_attribute(suzanne, mode):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.wcd.color_attribute()
+    assert "wcd_color" in suzanne.data.attributes
+    in_mode(suzanne, mode)
+    erase.clear(suzanne)
+    in_mode(suzanne, "OBJECT")
+    assert "wcd_color" not in suzanne.data.attributes

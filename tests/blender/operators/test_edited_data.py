@@ -193,3 +193,14 @@ def test_hulls_of_former_parts_are_not_taken_for_those_of_new_ones(monkey):
     bpy.ops.wcd.merge_parts()
     hulls = record_of(monkey)["hulls"]["hulls"]
     assert [hull["part"] for hull in hulls] == [None] * len(hulls)
+
+
+def test_a_material_that_another_object_uses_keeps_its_color_and_name(monkey):
+    material = monkey.data.materials[0]
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.active_object.data.materials.append(material)
+    before = material.name, tuple(material.diffuse_color)
+    monkey.wcd_parts[0].color = (1, 0, 0)
+    monkey.wcd_parts[0].name = "Ear"
+    assert (material.name, tuple(material.diffuse_color)) == before
+    assert tuple(monkey.wcd_parts[0].color) == (1, 0, 0)

@@ -8,7 +8,16 @@ import bpy
 import numpy as np
 import pytest
 from edited import FAST
-from hand_made import activate, decompose_by_hand, face_values, in_mode, mesh_object
+from hand_made import (
+    activate,
+    bands,
+    decompose_by_hand,
+    decomposition_of,
+    face_values,
+    in_mode,
+    mesh_object,
+)
+from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.bridge.mesh.fingerprint import (
     MEASURED_ON,
@@ -16,6 +25,7 @@ from weak_convex_decomposition.operators.bridge.mesh.fingerprint import (
     to_be_noted,
 )
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
+from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.ui.hulls_panel import WCD_PT_hulls
 from weak_convex_decomposition.ui.panels import WCD_PT_parts, notes_of
 from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
@@ -200,3 +210,19 @@ def test_parts_far_from_the_origin_are_not_out_of_date(suzanne):
     suzanne.data.transform(suzanne.matrix_world.Translation((9876.54, 0, 0)))
     decompose_by_hand(suzanne, 3, **FAST)
     assert figures_of(suzanne).problem is None
+
+
+def test_notes_of_parts_go_with_their_faces(suzanne):
+    found = decomposition_of(bands(suzanne, 3), ["Look twice."])
+    write_parts(suzanne, found, Parameters(**FAST))
+    assert notes_of(suzanne) == ["Look twice."]
+    delete_faces(suzanne, upper_half(suzanne))
+    assert notes_of(suzanne) == []
+
+
+def test_hulls_around_former_parts_are_of_none_of_the_new_ones(suzanne):
+    decompose_by_hand(suzanne, 3, **FAST)
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
+    decompose_by_hand(suzanne, 2, **FAST)
+    hulls = json.loads(suzanne["wcd"])["hulls"]["hulls"]
+    assert [hull["part"] for hull in hulls] == [None] * 3

@@ -8,6 +8,7 @@ from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
+from weak_convex_decomposition.operators.recut import WCD_OT_recut
 from weak_convex_decomposition.operators.settings import (
     hull_parameters_from,
     other_error,
@@ -96,3 +97,14 @@ def test_errors_are_not_shown_where_nodes_may_make_instances(suzanne, settings):
     assert other_error(settings, suzanne) is not None  # of the mesh itself
     settings.mesh = "EVALUATED"
     assert other_error(settings, suzanne) is None
+
+
+def test_a_preset_replaces_live_parts_once(suzanne, settings, monkeypatch):
+    decompose_by_hand(suzanne, 3)
+    cuts = []
+    monkeypatch.setattr(WCD_OT_recut, "_cut", lambda *_: cuts.append(1) or True)
+    settings.live = True
+    cuts.clear()
+    bpy.ops.wcd.use_preset(preset="DEFAULT")
+    assert len(cuts) == 1
+    assert settings.live

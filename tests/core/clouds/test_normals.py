@@ -2,6 +2,7 @@ import clouds
 import numpy as np
 import pytest
 import shapes
+from weak_convex_decomposition.core.clouds import normals as normals_module
 from weak_convex_decomposition.core.clouds import splats as splats_module
 from weak_convex_decomposition.core.clouds.normals import estimate_normals, face_inwards
 from weak_convex_decomposition.core.steps.progress import run
@@ -36,6 +37,22 @@ def test_points_that_are_thinned_out_get_normals_too(monkeypatch):
     points, normals = normalized(shapes.dumbbell(), 1500)
     found = run(estimate_normals(points))[0]
     assert ((found * normals).sum(axis=1) > 0).mean() > 0.97
+
+
+def test_noise_is_measured_once_if_no_point_is_thinned_out(monkeypatch):
+    measured = []
+
+    def noise_of(points):
+        measured.append(len(points))
+        return 0.02
+
+    monkeypatch.setattr(normals_module, "noise_of", noise_of)
+    points, _ = normalized(shapes.dumbbell(), 300)
+    run(estimate_normals(points))
+    assert measured == [300]
+    monkeypatch.setattr(splats_module, "_MOST_SPLATS", 200)
+    run(estimate_normals(points))
+    assert len(measured) == 3
 
 
 def test_inward_normals_are_noticed():

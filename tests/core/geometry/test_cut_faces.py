@@ -4,7 +4,10 @@ import shapes
 from weak_convex_decomposition.core.geometry.connectivity import sort_edges
 from weak_convex_decomposition.core.geometry.cutting.pieces import labels_of_pieces
 from weak_convex_decomposition.core.geometry.cutting.planes import find_cuts
-from weak_convex_decomposition.core.geometry.cutting.refined import refined
+from weak_convex_decomposition.core.geometry.cutting.refined import (
+    RowsByNumber,
+    refined,
+)
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -65,6 +68,14 @@ def test_a_patch_within_a_face_is_crossed_by_a_plane_that_stands_upright(fine_l)
     near = np.linalg.norm(centers - (0.5, 2, 1), axis=1) < 0.3
     (cut,) = find_cuts(fine_l, near.astype(int))
     assert abs(cut.normal[2]) < 0.1
+
+
+def test_rows_are_found_by_their_number():
+    numbers = np.array([2, -1, 0, 2, 4, 0, -1])
+    rows = RowsByNumber(numbers, 5)
+    assert [rows.of(number).tolist() for number in range(5)] == [
+        *([2, 5], [], [0, 3], [], [4]),
+    ]
 
 
 def test_one_part_needs_no_cut(fine_l):

@@ -6,6 +6,7 @@ import pytest
 import shapes
 from computed import graph_of
 from weak_convex_decomposition.core.geometry import connectivity
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def bend_at(surface, place):
@@ -173,3 +174,14 @@ def test_few_pairs_and_many_connect_alike(n_pairs, monkeypatch):
     assert (found[0] == found[1]).all()
     _, first = np.unique(found[0], return_index=True)
     assert (np.diff(first) > 0).all()
+
+
+def test_edges_are_sorted_where_most_vertices_are_at_one_place(monkeypatch):
+    """A speck beside a huge wall: ranges of places are empty."""
+    speck = changes.moved(shapes.sphere(1), 1e-9)
+    wall = changes.moved(shapes.box(), 1e3, offset=(5, 0, 0))
+    mesh = shapes.joined(speck, wall)
+    usual = run(connectivity.sort_edges(mesh))
+    monkeypatch.setattr(connectivity, "_MOST_SIDES", 12)
+    found = run(connectivity.sort_edges(mesh))
+    assert (found.sides == usual.sides).all()

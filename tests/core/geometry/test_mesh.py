@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import changes
 import numpy as np
 import pytest
@@ -140,3 +142,31 @@ def test_loose_vertices_far_away_are_welded_with_nothing():
     far = [[1e300, 0, 0], [-1e300, 1.7e308, 0]]
     loose = TriangleMesh([*box.vertices, *far], box.triangles, box.polygons)
     assert (loose.welded_triangles == box.welded_triangles + 1).all()
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_vertices_that_differ_by_rounding_are_welded_wherever_they_are(seed):
+    rng = np.random.default_rng(seed)
+    split = changes.split(shapes.sphere(2))
+    noise = rng.uniform(-6e-8, 6e-8, split.vertices.shape)
+    shift = rng.uniform(0, 5, 3)
+    mesh = replace(split, vertices=split.vertices + noise + shift)
+    whole = len(shapes.sphere(2).vertices)
+    assert len(np.unique(mesh.welded_triangles)) == whole
+    assert mesh.welded_triangles.max() == whole - 1
+
+
+def test_vertices_a_cell_apart_are_not_welded():
+    fan = [(0, 0, 0), *((2e-6 * i, 1, 0) for i in range(200))]
+    triangles = [(0, i + 1, i) for i in range(1, 200)]
+    mesh = TriangleMesh(fan, triangles, range(199))
+    assert len(np.unique(mesh.welded_triangles)) == 201
+
+
+def test_other_numbers_of_polygons_keep_what_is_known():
+    box = shapes.box()
+    normals = box.normals
+    other = box.with_polygons(np.zeros(12, dtype=int))
+    assert other.n_polygons == 1
+    assert other.normals is normals
+    assert other.areas is box.areas

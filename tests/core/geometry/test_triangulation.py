@@ -1,6 +1,23 @@
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.geometry.triangulation import triangulate
+from weak_convex_decomposition.core.geometry.cutting import triangulation
+from weak_convex_decomposition.core.geometry.cutting.triangulation import triangulate
+from weak_convex_decomposition.core.geometry.frames import cross
+
+
+def toothed(n_teeth):
+    """Return a saw with a tooth at every second corner of its upper side."""
+    saw = [(x, x % 2 + 0.6 + np.sin(x * x) / 2) for x in range(2 * n_teeth)]
+    return [(0, 0), (2 * n_teeth - 1, 0), *saw[::-1]]
+
+
+def spiral(n_corners):
+    """Return a band that winds around the origin four times."""
+    turns = np.linspace(0, 8 * np.pi, n_corners)
+    around = np.column_stack([np.cos(turns), np.sin(turns)])
+    outer, inner = ((turns + start)[:, None] * around for start in (2.5, 1.0))
+    return [*map(tuple, outer), *map(tuple, inner[::-1])]
+
 
 # A hook, a comb with three teeth and a star: none has a corner that sees all of it.
 OUTLINES = {
@@ -24,6 +41,9 @@ OUTLINES = {
         *((0, 0), (4, 0), (4, 4), (0, 4), (0, 0)),
         *((1, 1), (1, 3), (3, 3), (3, 1), (1, 1)),
     ],
+    "long comb": toothed(60),
+    "saw": [(0, 0), (5, 0), (5, 1), (4, 0.1), (3, 1), (2, 0.1), (1, 1), (0, 0.1)],
+    "spiral": spiral(50),
     "corners in a line": [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2)],
 }
 
@@ -86,6 +106,20 @@ def test_a_polygon_that_crosses_itself_gets_as_many_triangles():
     vertices = np.array([(0, 0, 0), (2, 2, 0), (2, 0, 0), (0, 2, 0), (-1, 1, 0)], float)
     triangles, _ = triangulate(vertices, [np.arange(5)])
     assert triangles.shape == (3, 3)
+
+
+@pytest.mark.parametrize("make", [toothed, spiral])
+def test_work_grows_with_the_corners_not_with_their_square(make, monkeypatch):
+    sizes = []
+
+    def counted(a, b):
+        sizes.append(a.size)
+        return cross(a, b)
+
+    monkeypatch.setattr(triangulation, "cross", counted)
+    vertices, _ = in_space(make(300))
+    triangulate(vertices, [np.arange(len(vertices))])
+    assert sum(sizes) < 600 * len(vertices)
 
 
 def test_no_polygons_give_no_triangles():

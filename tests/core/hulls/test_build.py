@@ -215,3 +215,12 @@ def test_parameters_are_checked():
         HullParameters(max_vertices=3)
     with pytest.raises(DecompositionError, match="Shape cannot be 'CONE'"):
         HullParameters(shape="CONE")
+
+
+def test_thin_solids_get_hulls_as_large_as_they_are():
+    for thickness in (1e-3, 1e-4, 1e-5):
+        slab = shapes.box((0, 0, 0), (2, 2, thickness))
+        found = hulls_of(slab)
+        assert len(found.shapes) == 1
+        assert found.volume_ratio == pytest.approx(1, rel=1e-3)
+        assert found.errors[0] < 1e-3

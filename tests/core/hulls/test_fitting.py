@@ -106,3 +106,11 @@ def test_margins_move_faces_outwards():
     assert thick == pytest.approx(np.add(thin, (0.5, 0.5, 0)))
     inside = around(BAR, "BOX", margin=-10)
     assert 0 < inside.volume < 1e-6
+
+
+@pytest.mark.parametrize("kind", ["BOX", "CYLINDER"])
+def test_thin_shapes_are_as_thin_as_what_is_in_them(kind):
+    slab = shapes.box((-1, -1, 0), (1, 1, 1e-3)).vertices
+    shape = Fit(HullParameters(shape=kind), 1.0, 0.05).shape(convex_hull(slab, 1e-5))
+    around_it = {"BOX": 4, "CYLINDER": 2 * np.pi}[kind]
+    assert shape.volume == pytest.approx(around_it * 1e-3, rel=0.01)

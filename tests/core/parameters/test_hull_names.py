@@ -18,3 +18,9 @@ def test_long_names_of_objects_are_no_fault_of_the_template():
         first, second = hull_names(naming, "{name}_{n:03d}", name, ("HULL", "BOX"))
         assert first.startswith(name)
         assert first != second
+
+
+def test_a_field_cannot_say_how_wide_another_one_is():
+    for template in ("{n:{n}000000000}", "{name:>{n}}"):
+        with pytest.raises(DecompositionError, match=r"cannot be filled in; write"):
+            HullParameters(naming="TEMPLATE", template=template)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import changes
 import flats
 import numpy as np
 import pytest
@@ -183,3 +184,19 @@ def test_parts_that_widen_branch_or_meet_beside_a_third_stay(make):
     mesh, parts = make()
     merged = run(LimbMerger(Partitioner(see(mesh, CUT), CUT)).merge(parts))
     assert len(set(merged)) == len(set(parts))
+
+
+def test_more_parts_than_asked_for_are_no_reason_to_cut_a_ring():
+    """The best parts are more than two once bends are kept; later ones are two."""
+    rods = [
+        changes.moved(
+            shapes.box((1.1, -0.12, -0.12), (3.1, 0.12, 0.12), 4),
+            rotation=np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]),
+        )
+        for c, s in ((np.cos(turn), np.sin(turn)) for turn in (0.2, 0.2 + np.pi))
+    ]
+    whole = tube(arc(360, 32), closed=True, around=12)
+    parameters = Parameters(samples=600, parts=2, bends="KEEP")
+    found = decompose(shapes.joined(whole, *rods), parameters)
+    assert found.n_parts == 2
+    assert len(np.unique(found.labels[: whole.n_polygons])) == 1

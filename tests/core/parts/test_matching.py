@@ -67,3 +67,9 @@ def test_settled_polygons_whose_part_is_gone_stay_a_part():
 def test_if_all_is_settled_nothing_changes():
     before, after = np.array([0, 1, 1, 2]), np.zeros(4, int)
     assert settled(before, after, np.ones(4), np.ones(4, bool)).tolist() == [0, 1, 1, 2]
+
+
+def test_a_part_without_area_of_the_one_that_is_left_is_new():
+    before, after = np.array([0, 0, 1, 2]), np.array([0, 1, 2, 2])
+    areas = np.array([2.0, 1.0, 2.0, 1.0])
+    assert match_parts(before, after, areas).tolist() == [0, -1, 1]

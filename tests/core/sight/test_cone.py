@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from computed import lines_of_sight, prepare
+from computed import decompose, lines_of_sight, prepare
 from weak_convex_decomposition import Parameters
 from weak_convex_decomposition.core.geometry.frames import (
     cone_directions,
@@ -139,7 +139,7 @@ def test_rays_out_of_an_open_shape_add_no_entry():
 def test_uniform_pairs_agree_with_all_pairs(l_views, l_los):
     shape, samples, views = l_views
     rng = np.random.default_rng(0)
-    known = run(see_uniform_pairs(shape.marcher, samples, views, rng))
+    known = run(see_uniform_pairs(shape.marcher, samples, views, rng, 60_000))
     looked_up, visible = known.known.toarray(), known.visible.toarray()
     assert (looked_up == looked_up.T).all()
     assert (visible == looked_up * l_los).all()
@@ -175,3 +175,9 @@ def test_no_more_lines_start_than_asked_for(monkeypatch, n_rays):
     assert apart == (n_rays > 1)
     n_pairs = sight.rank_pairs.n_cast if apart else 0
     assert 0.7 * n_rays * 100 < sum(started) + n_pairs <= n_rays * 100
+
+
+def test_pairs_that_rays_tell_of_count_as_cast():
+    parameters = Parameters(samples=100, sight="CONE", psi_pairs="RAYS")
+    found = decompose(shapes.l_prism(), parameters)
+    assert 0 < found.pairs_cast <= 100 * 99 // 2

@@ -111,3 +111,11 @@ def test_faces_without_area_are_told():
     only_last = np.arange(mesh.n_polygons) == mesh.n_polygons - 1
     with pytest.raises(DecompositionError, match="no area"):
         measure(mesh, PARAMETERS, only_last)
+
+
+def test_a_ray_may_come_from_afar():
+    """Views without perspective start rays at the far end of what they show."""
+    viewer = viewer_of(box(divisions=3))
+    for distance in (1e2, 1e5, 1e8):
+        view = viewer.look(np.array([0.5, 0.4, distance]), -np.eye(3)[2])
+        assert view.point == pytest.approx([0.5, 0.4, 1.0], abs=1e-5)

@@ -6,7 +6,8 @@ import large_shapes
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, prepare
+from computed import decompose, measure, prepare
+from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.solids.doubled import (
     with_doubles,
@@ -64,3 +65,11 @@ def test_doubled_faces_hide_nothing():
     assert len(shape.targets.triangles) == 80
     assert shape.n_nodes == 240
     assert shape.marcher.closed.all()
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 12])
+def test_some_triangles_of_a_convex_mesh_may_be_doubled(count):
+    cube = shapes.box()
+    triangles = np.concatenate([cube.triangles, cube.triangles[:count]])
+    mesh = TriangleMesh(cube.vertices, triangles, np.arange(12 + count))
+    assert measure(mesh, Parameters(samples=100)).rank == 1.0

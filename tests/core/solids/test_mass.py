@@ -138,3 +138,22 @@ def test_what_is_open_or_flat_has_none():
         corners, [(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], range(4)
     )
     assert mass_of_mesh(two_sided, 1.0) is None
+
+
+@pytest.mark.parametrize("corners", [(0, 0, 1), (0, 0, 0), (0, 1, 0)])
+def test_triangles_without_area_open_no_solid(corners):
+    box = shapes.box()
+    mesh = TriangleMesh(box.vertices, [*box.triangles, corners], range(13))
+    assert mass_of_mesh(mesh, DENSITY).mass == pytest.approx(DENSITY)
+
+
+def test_solids_that_touch_weigh_as_much_as_both():
+    both = shapes.joined(shapes.box(), shapes.box((1, 0, 0), (2, 1, 1)))
+    found = mass_of_mesh(both, DENSITY)
+    assert_same(found, mass_of_mesh(shapes.box((0, 0, 0), (2, 1, 1)), DENSITY))
+
+
+def test_a_face_too_many_is_no_solid():
+    box = shapes.box()
+    mesh = TriangleMesh(box.vertices, [*box.triangles, box.triangles[0]], range(13))
+    assert mass_of_mesh(mesh, DENSITY) is None

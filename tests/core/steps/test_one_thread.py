@@ -7,7 +7,12 @@ from time import sleep
 import numpy as np
 import pytest
 from scipy.linalg import blas  # noqa: F401  # loads what is limited
+from shapes import dumbbell
 from threadpoolctl import ThreadpoolController, threadpool_limits
+from weak_convex_decomposition.core.clouds import normals
+from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts import part_memo
+from weak_convex_decomposition.core.pictures import draw_picture
 from weak_convex_decomposition.core.steps import one_thread
 from weak_convex_decomposition.core.steps.one_thread import on_one_thread
 from weak_convex_decomposition.core.steps.progress import Progress, run
@@ -38,6 +43,35 @@ def test_steps_work_on_one_thread_and_others_between_them_on_more():
         assert next(steps).fraction == 0.1
         assert threads() == 2
     assert run(steps) == 1
+    assert threads() == 2
+
+
+def test_normals_are_estimated_on_one_thread(monkeypatch):
+    found = []
+
+    def noise_of(points):
+        found.append(threads())
+        return 0.02
+
+    monkeypatch.setattr(normals, "noise_of", noise_of)
+    run(normals.estimate_normals(np.random.default_rng(0).normal(size=(100, 3))))
+    assert found == [1]
+    assert threads() == 2
+
+
+def test_pictures_are_drawn_on_one_thread(seen, monkeypatch):
+    found = []
+
+    def embed(affinity, n_coordinates, stochastic):
+        found.append(threads())
+        return np.random.default_rng(0).normal(size=(affinity.shape[0], n_coordinates))
+
+    monkeypatch.setattr(part_memo, "embed", embed)
+    mesh, parameters = dumbbell(), Parameters()
+    memo = part_memo.PartMemo(seen(dumbbell).visibility)  # without an embedding
+    labels = np.arange(mesh.n_polygons) % 2
+    draw_picture("SCATTER", memo, labels, parameters, np.eye(3)[:2])
+    assert found == [1]
     assert threads() == 2
 
 

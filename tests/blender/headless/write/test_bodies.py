@@ -38,14 +38,15 @@ def scene(tmp_path_factory):
     folder = tmp_path_factory.mktemp("bodies")
     bpy.ops.wm.read_factory_settings(use_empty=True)
     package.register()
-    objects = [add_ring('A "b"/é'), add_block()]
-    hulls = build_hulls(objects, max_error=0.1)
-    for name in FILES:
-        parameters = BodyParameters(DENSITY, Path(name).stem.upper())
-        assert save_hulls(folder / name, hulls, "Z", parameters) == ()
-    solids = [solid_of(obj) for obj in objects]
-    package.unregister()
-    return folder, solids
+    try:
+        objects = [add_ring('A "b"/é'), add_block()]
+        hulls = build_hulls(objects, max_error=0.1)
+        for name in FILES:
+            parameters = BodyParameters(DENSITY, Path(name).stem.upper())
+            assert save_hulls(folder / name, hulls, "Z", parameters) == ()
+        return folder, [solid_of(obj) for obj in objects]
+    finally:  # tests of other files register it, too
+        package.unregister()
 
 
 def solid_of(obj):
@@ -169,3 +170,12 @@ def test_the_command_line_has_density_and_bodies(tmp_path, capsys):
     assert sorted(masses) == pytest.approx([10 * 8 * 0.2 * 0.3 * 0.4, 80], rel=1e-5)
     assert main([*map(str, words), "--density=0"]) == 2
     assert "Density is 0" in capsys.readouterr().err
+
+
+def test_a_face_whose_slot_is_gone_is_seen_too(tmp_path):
+    block = add_block()
+    block.data.materials.append(bpy.data.materials.new("Gold"))
+    block.data.polygons[0].material_index = 3
+    save_hulls(tmp_path / "a.xml", build_hulls([block]), "Z", BodyParameters())
+    seen = trimesh.load(tmp_path / "a_xml" / "visual_001.obj")
+    assert len(seen.faces) == 12

@@ -89,7 +89,9 @@ def test_hulls_come_along_and_are_no_models(tmp_path, built, ending):
     names, expected = [obj.name for obj in objects], places(hulls)
     path = tmp_path / f"both{ending}"
     save(path, None, hulls)
-    assert places(hulls).keys() == expected.keys()
+    still = places(hulls)
+    assert still.keys() == expected.keys()
+    assert all((still[name] == expected[name]).all() for name in still)
     assert all(hull.parent in objects for hull in hulls)
     assert not any(p.use_smooth for hull in hulls for p in hull.data.polygons)
     if ending == ".usd":

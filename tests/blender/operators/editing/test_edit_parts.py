@@ -10,7 +10,9 @@ from hand_made import (
 )
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.mesh.selection import select_faces
+from weak_convex_decomposition.operators.bridge.parts.present_parts import present_parts
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
+from weak_convex_decomposition.operators.bridge.work import locking
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
@@ -150,3 +152,10 @@ def test_colors_in_an_attribute_follow_edits(monkey):
         expected = pytest.approx(tuple(monkey.wcd_parts[part].color[:3]), abs=1e-6)
         for corner in polygon.loop_indices:
             assert tuple(colors[corner].color[:3]) == expected
+
+
+def test_the_most_and_fewest_parts_of_a_run_include_locked_ones(monkey):
+    monkey.wcd_parts[0].locked = monkey.wcd_parts[3].locked = True
+    parts, wanted = present_parts(monkey), Parameters(min_parts=5, max_parts=8)
+    rest = locking._parameters_of_rest(wanted, parts, parts.locked)
+    assert (rest.min_parts, rest.max_parts) == (3, 6)

@@ -226,3 +226,11 @@ def test_margins_are_lengths_of_the_mesh_where_a_scale_is_nearly_uniform(last):
     bpy.ops.wcd.build_hulls(margin=0.1)
     (hull,) = hulls_of(cube)
     assert hull.dimensions.x == pytest.approx(0.022, rel=0.01)
+
+
+def test_another_shape_of_a_hull_has_its_margin_once():
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    build(max_hulls=1, margin=0.1)
+    (hull,) = hulls_of(bpy.context.active_object)
+    bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
+    assert np.ptp(positions(hull), axis=0) == pytest.approx([2.2] * 3, abs=1e-3)

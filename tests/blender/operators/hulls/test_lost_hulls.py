@@ -1,5 +1,6 @@
 """Clear removes hulls whose object is gone from the file, and none of anybody else."""
 
+import bmesh
 import bpy
 import pytest
 from hand_made import activate, build_hulls, decompose_by_hand, mesh_object
@@ -155,6 +156,18 @@ def test_what_was_joined_into_a_hull_stays(joined):
     join_mine_to(hull)
     clear(obj)
     assert hull.name in left()
+
+
+def test_a_hull_without_an_object_that_the_user_deleted_vertices_of_stays(joined):
+    obj, hull = joined
+    before = left()
+    activate(hull)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bm = bmesh.from_edit_mesh(hull.data)
+    bm.verts.remove(next(iter(bm.verts)))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    clear(obj)
+    assert set(left()) == set(before) - {"One hull 01", "One hulls"}
 
 
 def test_what_was_joined_into_the_hull_of_an_object_that_is_there_stays():

@@ -132,3 +132,23 @@ def test_another_scene_takes_the_bodies_back(table):
     assert table.rigid_body is None
     assert scene.rigidbody_world is None
     assert list(bpy.data.objects) == [table]
+
+
+def test_a_simulation_of_the_user_stays_that_has_no_bodies_yet(table):
+    bpy.ops.rigidbody.world_add()
+    world = bpy.context.scene.rigidbody_world
+    world.collection = mine = bpy.data.collections.new("Mine")
+    activate(table)
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    bpy.ops.wcd.make_rigid()
+    bpy.ops.wcd.clear()
+    assert bpy.context.scene.rigidbody_world.collection == mine
+
+
+def test_the_object_falls_on_while_it_has_other_hulls(table):
+    bpy.ops.wcd.build_hulls()
+    bpy.ops.wcd.make_rigid()
+    first, *others = hulls_of(table)
+    bpy.ops.wcd.remove_hull(hull=first.name)
+    assert others
+    assert None not in [each.rigid_body for each in (table, *others)]

@@ -63,6 +63,7 @@ def test_what_changed_meanwhile_is_left_alone(suzanne, window, cls, change, sent
     assert finish(pressed) == {"CANCELLED"}
     (error,) = errors_of(pressed)
     assert sentence in error or "Object Mode only; switch the mode" in error
+    assert ("WARNING", error) in pressed.reports  # an error would open a popup
     assert [(obj.name, snapshot(obj)) for obj in bpy.data.objects] == there
     assert window.is_clean()
 

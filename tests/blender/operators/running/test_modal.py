@@ -124,6 +124,13 @@ def test_esc_leaves_everything_as_it_was(suzanne, window, cls):
     assert bpy.ops.wcd.measure(samples=100) == {"FINISHED"}  # nothing in the way
 
 
+def test_esc_that_is_let_go_stops_nothing(suzanne, window):
+    pressed = press(WCD_OT_decompose, window)
+    let_go = SimpleNamespace(type="ESC", value="RELEASE")
+    assert pressed.modal(None, let_go) == {"PASS_THROUGH"}
+    assert not window.is_clean()
+
+
 def test_the_cancel_button_stops(suzanne, window):
     assert not bpy.ops.wcd.cancel.poll()
     with pytest.raises(RuntimeError, match="Nothing is running"):

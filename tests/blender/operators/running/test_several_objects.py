@@ -108,6 +108,15 @@ def test_objects_that_share_a_mesh_get_one_decomposition():
     assert [row.name for row in twin.wcd_parts] == [row.name for row in cube.wcd_parts]
 
 
+def test_parts_of_a_shared_mesh_are_found_for_the_active_object():
+    cube = add()
+    twin = cube.copy()
+    bpy.context.collection.objects.link(twin)
+    for active, other in ((cube, twin), (twin, cube)):
+        select(active, other)
+        assert WCD_OT_decompose._chosen(bpy.context) == [active]
+
+
 def test_several_meshes_are_edited_at_once():
     first, second, resting = add(0), add(5), add(10)
     select(first, second)

@@ -5,7 +5,12 @@ import numpy as np
 import pytest
 from hand_made import centers, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.views.isolating import isolating
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.views.isolating import (
+    end_isolation,
+    isolate,
+    isolating,
+)
 
 
 @pytest.fixture
@@ -114,3 +119,15 @@ def test_faces_without_their_parts_are_told(suzanne, labels, name):
     with pytest.raises(RuntimeError, match="lost its attribute wcd_part; press Dec"):
         getattr(bpy.ops.wcd, name)()
     assert not suzanne.modifiers
+
+
+def test_a_mesh_in_edit_mode_on_another_object_cannot_take_it_back(suzanne, labels):
+    twin = suzanne.copy()
+    bpy.context.collection.objects.link(twin)
+    isolate(twin, [0])
+    twin.select_set(False)
+    in_mode(suzanne, "EDIT")
+    assert twin.mode == "OBJECT"
+    with pytest.raises(DecompositionError, match="switch to Object Mode first"):
+        end_isolation(twin)
+    assert isolating(twin)

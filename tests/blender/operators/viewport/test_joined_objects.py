@@ -87,3 +87,18 @@ def test_a_part_that_only_a_joined_copy_had_is_shown_as_material(suzanne):
     check_in_step(copy)
     bpy.ops.wcd.clear()
     assert not copy.vertex_groups
+
+
+@pytest.mark.parametrize("colors", ["OVERLAY", "MATERIALS"])
+def test_clear_leaves_a_group_that_was_called_like_a_joined_part(suzanne, colors):
+    suzanne.vertex_groups.new(name="Lid").add([0, 1], 0.5, "REPLACE")
+    cube = cube_beside(suzanne, colors)
+    decompose_by_hand(cube, 2)
+    show(colors)
+    cube.wcd_parts[0].name = "Lid"
+    activate(suzanne)
+    cube.select_set(True)
+    bpy.ops.object.join()
+    bpy.ops.wcd.clear()
+    assert [group.name for group in suzanne.vertex_groups] == ["Lid"]
+    assert suzanne.vertex_groups["Lid"].weight(0) == 0.5
