@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..core.errors import DecompositionError
 from ..core.steps.progress import Steps
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
@@ -16,8 +17,9 @@ from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
 from .bridge.read.evaluated import read_as
-from .bridge.refusals import clear_refusal, decompose_refusal
+from .bridge.refusals import CONVERTIBLE, clear_refusal, decompose_refusal
 from .bridge.stored.names import CARRIER_TAG
+from .bridge.stored.record import EVALUATED
 from .bridge.stored.restore import sharers
 from .bridge.views.colors import show_colors_as
 from .bridge.views.images import erase_images
@@ -48,11 +50,38 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the objects to work on; only the first of those that share a mesh."""
+        """Return the objects to work on; only the first of those that share a mesh.
+
+        Those that share a curve get a mesh each.
+        """
         firsts: dict[bpy.types.ID | None, bpy.types.Object] = {}
         for obj in super()._chosen(context):
-            firsts.setdefault(obj and obj.data, obj)
+            alone = obj is None or obj.type in CONVERTIBLE
+            firsts.setdefault(obj if alone else obj.data, obj)
         return list(firsts.values())
+
+    def _read(
+        self, context: bpy.types.Context
+    ) -> list[Steps[Any] | DecompositionError]:
+        """Read the objects, and those of the same meshes that show other faces."""
+        self._written: set[bpy.types.ID] = set()
+        works = super()._read(context)
+        if self.mesh == EVALUATED:
+            firsts = self._chosen(context)
+            for obj in super()._chosen(context):
+                if obj not in firsts and self._gets_own_parts(obj):
+                    works.append(self._begun(context, obj))
+        return works
+
+    def _gets_own_parts(self, obj: bpy.types.Object) -> bool:
+        """Return whether an object does not get the parts of one with the same mesh."""
+        if obj.data not in self._written:
+            return True
+        try:
+            seen = read_as(self.mesh, obj)
+        except DecompositionError:  # it will be reported as others
+            return True
+        return seen is not None and not seen.corresponds
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings; those at the front of the sidebar come first."""
@@ -65,6 +94,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     ) -> Steps[Edited]:
         parameters, seen = parameters_from(self), read_as(self.mesh, obj)
         target = carrier_for(obj, seen)
+        self._written.add(target.data)
         return decompose_unlocked(target, parameters, self.keep_edits, seen)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ..geometry.frames import cone_directions
+from ..solids.shells import GAP
 from ..steps.progress import Progress, Steps, within
 from .lines import RAYS_PER_STEP
 from .ray_march import PASS, RayMarcher
@@ -122,14 +123,16 @@ class _Hits:
 
     Attributes
     ----------
-    front, back, n_cast : (M,) int
+    front, back, near, n_cast : (M,) int
+        Those near are within the width of a gap between shells.
     """
 
     def __init__(self, marcher: RayMarcher, points: NDArray[np.float64]) -> None:
         self._marcher, self._points = marcher, points
         upwards = np.array([[0.0, 0.0, 1.0]])
         self._directions = cone_directions(upwards, _DIRECTIONS, 2 * np.pi)[0]
-        self.front, self.back, self.n_cast = np.zeros((3, len(points)), dtype=np.int64)
+        counts = np.zeros((4, len(points)), dtype=np.int64)
+        self.front, self.back, self.near, self.n_cast = counts
 
     @property
     def shares(self) -> NDArray[np.float64]:
@@ -138,8 +141,14 @@ class _Hits:
 
     @property
     def outside(self) -> NDArray[np.bool_]:
-        """Which points lie outside. Those without rays count as such."""
-        return self.front >= self.back
+        """Which points lie outside. Those without rays count as such.
+
+        The gap between two shells that were set apart is none of the outside. Beside a
+        single wall, no more than half of the rays meet it near by.
+        """
+        in_gap = 2 * self.near > self.n_cast
+        outside: NDArray[np.bool_] = (self.front >= self.back) & ~in_gap
+        return outside
 
     def hidden(self, share: float) -> NDArray[np.bool_]:
         """Return the points outside from which at least this share hits the shape."""
@@ -172,7 +181,8 @@ class _Hits:
             for start in range(0, len(chosen_rows), RAYS_PER_STEP):
                 yield Progress("Containers", number / len(directions))
                 rows = chosen_rows[start : start + RAYS_PER_STEP]
-                met, facing = _meet(self._marcher, self._points[rows], direction)
+                met, facing, near = _meet(self._marcher, self._points[rows], direction)
+                self.near[rows[near]] += 1
                 self.front[rows[met]] += facing < 0
                 self.back[rows[met]] += facing > 0
                 self.n_cast[rows] += 1
@@ -180,8 +190,11 @@ class _Hits:
 
 def _meet(
     marcher: RayMarcher, points: NDArray[np.float64], direction: NDArray[np.float64]
-) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which rays hit the shape, and normal · direction at each hit."""
+) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.bool_]]:
+    """Return which rays hit the shape, normal · direction at each hit, which are near.
+
+    Those are within the width of a gap between shells.
+    """
     triangles, distances = marcher.caster.first_hit(
         points,
         np.broadcast_to(direction, points.shape),
@@ -189,7 +202,8 @@ def _meet(
     )
     # Cells of a flat sheet lie on the surface itself: ignore hits at distance 0.
     met = (triangles >= 0) & (distances > PASS * marcher.diagonal)
-    return met, marcher.normals[triangles[met]] @ direction
+    near = met & (distances < GAP * marcher.diagonal)
+    return met, marcher.normals[triangles[met]] @ direction, near
 
 
 def _enclosed(

@@ -17,6 +17,8 @@ from ..steps.rows import blocks
 _LAYER = 1e-5
 # Number of different depths, with 0. They are used in turn, by descending area.
 _LAYERS = 8
+# About the widest gap that this makes between shells, along a slanted ray.
+GAP = 4 * _LAYER * _LAYERS
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ...core.errors import DecompositionError
+from ..bridge.hulls.listed import is_hull
 from ..bridge.refusals import rough_refusal
 
 if TYPE_CHECKING:  # at run time the whole operator has this base, and its halves not
@@ -135,11 +136,13 @@ def active_object(context: bpy.types.Context) -> Any:
 def candidates(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Return the selected objects, or those in Edit Mode; the active one comes first.
 
-    In other modes it is the only one: no other object is in them.
+    In other modes it is the only one: no other object is in them. Hulls that are
+    selected with their object go with it.
     """
     active = active_object(context)
     if active and active.mode not in {"OBJECT", "EDIT"}:
         return [active]
     in_edit_mode = active and active.mode == "EDIT"
     there = context.objects_in_mode if in_edit_mode else context.selected_objects
-    return sorted(there, key=lambda obj: bool(obj != active))
+    chosen = [obj for obj in there if not (is_hull(obj) and obj.parent in there)]
+    return sorted(chosen, key=lambda obj: bool(obj != active))

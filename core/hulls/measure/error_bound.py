@@ -89,6 +89,8 @@ class ErrorBound:
         known_allowed = self.__dict__.get("is_allowed", False)
         limit = self._largest if known_allowed else np.inf
         bound = self._bound(self._largest * _TOLD_APART, limit, _TOLERANCE)
+        if bound < volume_error(self._shape.volume):
+            bound = max(bound, self._of_volume)
         return min(bound, limit)  # it is looser where the search ends for its time
 
     @property

@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from ....core.geometry.cutting.refined import Cut
 from ....core.geometry.mesh import TriangleMesh
 from ..mesh.attributes import read_floats
+from ..mesh.corner_normals import give_back_normals, keep_normals
 
 # Layers of faces while they are cut: the number of the whole face, that of the triangle
 # if the whole face is bent, and the part.
 _WHOLE, _FLAT_FACE, _PART = "wcd_whole", "wcd_flat_face", "wcd_piece"
-# Layer of face corners while they are cut: the normal that the user gave them.
-_NORMAL = "wcd_corner_normal"
 # Farthest that a corner is from the plane of a flat face, in diagonals of the mesh.
 _FLAT = 1e-6
 
@@ -42,7 +41,7 @@ class CutMesh:
         self.factors = factors
         self._bm = bm = bmesh.new()
         bm.from_mesh(mesh)
-        self._keep_normals(mesh)
+        keep_normals(bm, mesh)
         for name in (_WHOLE, _FLAT_FACE, _PART):
             bm.faces.layers.int.new(name)
         layers = bm.faces.layers.int
@@ -53,16 +52,6 @@ class CutMesh:
         self._old = set(bm.verts)
         extent = np.ptp(read_floats(mesh.vertices, "co", 3), axis=0)
         self._flat = _FLAT * float(np.linalg.norm(extent))
-
-    def _keep_normals(self, mesh: bpy.types.Mesh) -> None:
-        """Keep the user's own normals: what Blender stores of them fits no piece."""
-        if not mesh.has_custom_normals:
-            return
-        layer = self._bm.loops.layers.float_vector.new(_NORMAL)
-        normals = iter(mesh.corner_normals)
-        for face in self._bm.faces:
-            for corner in face.loops:
-                corner[layer] = next(normals).vector
 
     def cut(self, cuts: Sequence[Cut], near: float) -> None:
         """Cut faces along planes.
@@ -191,9 +180,5 @@ class CutMesh:
         for name in (_WHOLE, _FLAT_FACE, _PART):
             layers.remove(layers[name])
         self._bm.to_mesh(mesh)
-        normals = mesh.attributes.get(_NORMAL)
-        if normals is not None:
-            vectors = read_floats(normals.data, "vector", 3)
-            mesh.attributes.remove(normals)
-            mesh.normals_split_custom_set(vectors.tolist())
+        give_back_normals(mesh)
         mesh.update()

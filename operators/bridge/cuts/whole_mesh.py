@@ -23,6 +23,7 @@ from ..parts.slots import bare_materials
 from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
 from ..stored.record import beside_parts, record_of, write_record
 from ..stored.restore import read_restore, sharers
+from .beside_faces import has_work_beside_faces
 
 # How Blender names the values of an attribute, and how many numbers each has.
 _VALUES = {
@@ -60,7 +61,11 @@ def is_cut(obj: bpy.types.Object) -> bool:
 
 def edited_since_cut(obj: bpy.types.Object) -> bool:
     """Return whether the user edited a mesh after its faces were cut."""
-    return is_cut(obj) and obj.data.get(CUT_STATE) != _state_of(obj)
+    if not is_cut(obj):
+        return False
+    if obj.data.get(CUT_STATE) != _state_of(obj):
+        return True
+    return has_work_beside_faces(obj, obj.data[WHOLE_MESH])
 
 
 def whole_faces(obj: bpy.types.Object) -> IntArray:
@@ -149,7 +154,7 @@ def _copy_key_values(former: bpy.types.Mesh, mesh: bpy.types.Mesh) -> None:
 
 
 def _state_of(obj: bpy.types.Object) -> str:
-    """Return a digest of all that the user could have edited on a mesh."""
+    """Return a digest of what the user could have edited on the faces of a mesh."""
     mesh, restore = obj.data, read_restore(obj.data)
     digest = blake2b(digest_size=16)
 

@@ -10,7 +10,7 @@ from ..homes import homes_of
 from ..stored.names import HULL_TAG, RESULT
 from ..stored.noted_hulls import figures_on, noted_hulls
 from ..stored.record import record_if_ours
-from .listed import hulls_of
+from .listed import hulls_of, listed_hulls
 
 
 def lost_hulls() -> list[bpy.types.Object]:
@@ -47,9 +47,14 @@ def hulls_to_clear() -> Callable[[bpy.types.Object], bool]:
 
 
 def leave_to_user(obj: bpy.types.Object) -> None:
-    """Let hulls be the user's from now on that the user took or joined something to."""
+    """Let hulls be the user's from now on that the user took or joined something to.
+
+    So are copies of hulls: the object notes no more hulls than we made.
+    """
+    entries = noted_hulls(record_if_ours(obj))
+    listed = listed_hulls(obj, entries).values()
     for hull in hulls_of(obj):
-        if has_more(hull):
+        if has_more(hull) or (entries and hull not in listed):
             del hull[HULL_TAG]
     noted = noted_by(obj)
     for collection in _hull_collections():

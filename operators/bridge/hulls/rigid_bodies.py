@@ -57,7 +57,9 @@ def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
     if RIGID_TAG not in obj:
         return
     del obj[RIGID_TAG]
-    for each in (obj, *hulls):
+    body = obj.rigid_body
+    ours = body is not None and body.collision_shape == "COMPOUND"
+    for each in (obj, *hulls) if ours else hulls:  # else it was replaced
         if each.rigid_body is not None:
             with _on(each, _scene_of(each)):
                 bpy.ops.rigidbody.object_remove()

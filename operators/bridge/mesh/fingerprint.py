@@ -51,5 +51,10 @@ def fits(noted: Mapping[str, Any], now: NDArray[np.float64]) -> bool:
     then = noted.get(MEASURED_ON)
     if then is None or then[0] != now[0]:
         return False
-    area, far = now[1], np.abs(np.subtract(then[2:], now[2:])).max()
-    return bool(abs(then[1] - area) <= _SAME * area and far <= _SAME * np.sqrt(area))
+    area, width = now[1], np.sqrt(now[1])
+    changed, moved = abs(then[1] - area), np.abs(np.subtract(then[2:], now[2:])).max()
+    # Far from the origin, Edit Mode rounds more.
+    rounding = np.finfo(np.float32).eps * np.abs(now[2:]).max()
+    return bool(
+        changed <= _SAME * area + rounding * width and moved <= _SAME * width + rounding
+    )

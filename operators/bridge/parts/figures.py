@@ -20,7 +20,10 @@ from ..stored.noted_parts import entry_of
 from ..stored.record import record_of
 from .read import FoundParts, find_parts_on
 
-JOINED = "Another object was joined to this one; press Refresh to list its parts."
+JOINED = (
+    "Some parts came twice, as from a join or an applied Array; press Refresh to list"
+    " all."
+)
 
 
 @dataclass(frozen=True, eq=False)

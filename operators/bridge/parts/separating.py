@@ -5,12 +5,14 @@ from __future__ import annotations
 import bmesh
 import bpy
 import numpy as np
+from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
 from ..homes import new_collection
 from ..hulls.rigid_bodies import soften
+from ..mesh.corner_normals import give_back_normals, keep_normals
 from ..mesh.known import face_areas
 from ..views.node_modifiers import remove_views
 from .erase import clear
@@ -53,8 +55,24 @@ def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
 def replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
     """Remove an object whose parts were separated; `piece` gets its children."""
     for child in obj.children:
+        inverse = _inverse_held_by(obj, child)
+        if child.parent_type.startswith("VERTEX"):
+            child.parent_type = "OBJECT"
         child.parent = piece
+        child.matrix_parent_inverse = inverse  # Blender resets it with the parent
     discard([obj])
+
+
+def _inverse_held_by(obj: bpy.types.Object, child: bpy.types.Object) -> Matrix:
+    """Return the inverse that leaves a child in place if the whole object holds it.
+
+    On a piece, the numbers of vertices that hold it are those of others. Its location
+    stays what it is: that may be animated.
+    """
+    if not child.parent_type.startswith("VERTEX"):
+        return child.matrix_parent_inverse.copy()
+    place = obj.matrix_world.inverted_safe() @ child.matrix_world
+    return place @ child.matrix_basis.inverted_safe()
 
 
 def area_of(obj: bpy.types.Object) -> float:
@@ -73,6 +91,7 @@ def _keep_faces(mesh: bpy.types.Mesh, kept: NDArray[np.bool_], loose: bool) -> N
     bm = bmesh.new()
     try:
         bm.from_mesh(mesh)
+        keep_normals(bm, mesh)
         if not loose:
             vertices = [vertex for vertex in bm.verts if not vertex.link_faces]
             bmesh.ops.delete(bm, geom=vertices, context="VERTS")
@@ -81,3 +100,4 @@ def _keep_faces(mesh: bpy.types.Mesh, kept: NDArray[np.bool_], loose: bool) -> N
         bm.to_mesh(mesh)
     finally:
         bm.free()
+    give_back_normals(mesh)

@@ -14,7 +14,7 @@ from ..homes import homes_of
 from ..parts.erase import erase_parts
 from ..parts.materials import discard
 from ..refusals import CONVERTIBLE
-from ..stored.names import CARRIER_TAG, HIDDEN_TAG
+from ..stored.names import CARRIER_TAG, HIDDEN_TAG, HULL_TAG
 from .converting import converted
 from .evaluated import SeenMesh
 from .shown_mesh import evaluated_copy
@@ -65,11 +65,10 @@ def placed_carrier(
         return obj
     waiting = [child for child in obj.children if is_waiting(child)]
     carrier = waiting[0] if waiting else carrier_for(obj, seen)
-    for child in obj.children:
-        if CARRIER_TAG in child and child != carrier:
-            _show_source(child)
-            discard([child])
+    earlier = [child for child in obj.children if CARRIER_TAG in child]
+    _remove(obj, [each for each in earlier if each != carrier])
     carrier.name = carrier.data.name = f"{obj.name} parts"
+    carrier.data[CARRIER_TAG] = carrier.data.name
     carrier.matrix_basis = Matrix()
     for collection in homes_of(obj):
         collection.objects.link(carrier)
@@ -106,17 +105,59 @@ def _show_source(carrier: bpy.types.Object) -> None:
         source.hide_render = False
 
 
+def _remove(source: bpy.types.Object, carriers: list[bpy.types.Object]) -> None:
+    """Remove carriers of a source, and show it; some are the user's from now on.
+
+    These are all copies, and carriers that have children of the user's.
+    """
+    there = [child for child in source.children if CARRIER_TAG in child]
+    copies = list(filter(_is_copy, there))  # while the carriers are there
+    for carrier in carriers:
+        _show_source(carrier)
+        if carrier in copies:
+            continue
+        if all(HULL_TAG in child for child in carrier.children):
+            discard([carrier])
+        else:
+            _leave_to_user(carrier)
+    for copy in copies:
+        _leave_to_user(copy)
+
+
+def _is_copy(carrier: bpy.types.Object) -> bool:
+    """Return whether the user copied an object to have this one.
+
+    The mesh notes its own name, which a copy of it cannot have. Copies that share the
+    mesh have another name. A carrier that the user renamed still has its mesh alone.
+    """
+    if is_waiting(carrier):
+        return False
+    mesh = carrier.data
+    noted = mesh.get(CARRIER_TAG, f"{carrier[CARRIER_TAG]} parts")  # older: no note
+    return carrier.name != noted and (mesh.name != noted or mesh.users > 1)
+
+
+def _leave_to_user(carrier: bpy.types.Object) -> None:
+    """Let a carrier be an object like others."""
+    for tag in (CARRIER_TAG, HIDDEN_TAG):
+        carrier.pop(tag, None)
+    if carrier.data.users == 1:  # else a carrier may be known by it
+        carrier.data.pop(CARRIER_TAG, None)
+
+
 def clear_carrier(carrier: bpy.types.Object) -> None:
     """Remove a carrier, and show its source again, which gets selected.
 
-    A carrier that has children of the user's, or has lost its source, stays.
+    A carrier that has children of the user's, or has lost its source, stays. So does a
+    copy, and its source stays hidden for the carrier.
     """
     source, layer = carrier.parent, bpy.context.view_layer.objects
     if source is None:
         return
-    _show_source(carrier)
-    if not carrier.children:
-        discard([carrier])
+    if _is_copy(carrier):
+        _remove(source, [])
+        return
+    _remove(source, [carrier])
     if source.name in layer:
         source.select_set(True)
         layer.active = source

@@ -61,19 +61,18 @@ class SeenMesh:
     n_left_out: int
     name: str
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Sentences to the user about what was read."""
-        seen = f"The evaluated mesh was read, with {len(self.areas):,} faces"
+    def notes(self, for_parts: bool = True) -> tuple[str, ...]:
+        """Return sentences about what was read; hulls bring none about parts."""
+        where = f"The evaluated mesh was read, with {len(self.areas):,} faces"
         own = f"the {len(self.own_areas):,} faces of the mesh"
-        if self.corresponds:
-            where = f"{seen} that come from {own}: these have the parts."
-        else:
-            where = (
-                f"{seen} that do not come from {own}: the parts are on the new object"
-                f' "{self.name} parts", and {self.name} is hidden.'
+        if for_parts and self.corresponds:
+            where += f" that come from {own}: these have the parts"
+        elif for_parts:
+            where += (
+                f" that do not come from {own}: the parts are on the new object"
+                f' "{self.name} parts", and {self.name} is hidden'
             )
-        return (where, *_leaving_out(self.n_left_out))
+        return (f"{where}.", *_leaving_out(self.n_left_out))
 
     def on_own_faces(self, found: Decomposition) -> Decomposition:
         """Return parts of the faces that are seen as parts of the mesh's own faces.
@@ -218,14 +217,33 @@ def _origins(mesh: bpy.types.Mesh, name: str) -> NDArray[np.int64]:
 @contextmanager
 def _numbered(obj: bpy.types.Object) -> Iterator[str]:
     """Have the faces of a mesh carry their numbers; give the name of the attribute."""
-    attributes = obj.data.attributes
-    active = attributes.active_index
-    layer = attributes.new(_LAYER, "INT", "FACE")
-    name = layer.name
-    write_ints(layer.data, "value", np.arange(1, len(obj.data.polygons) + 1))
+    with _writable_mesh(obj) as mesh:
+        attributes = mesh.attributes
+        active = attributes.active_index
+        layer = attributes.new(_LAYER, "INT", "FACE")
+        name = layer.name
+        write_ints(layer.data, "value", np.arange(1, len(mesh.polygons) + 1))
+        try:
+            yield name
+        finally:
+            attributes.remove(attributes[name])
+            attributes.active_index = active
+            mesh.update()
+
+
+@contextmanager
+def _writable_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """Give the mesh of an object, or a copy that it has meanwhile.
+
+    Blender ignores what is written to the mesh itself if that is from a library.
+    """
+    mesh = obj.data
+    if mesh.is_editable:
+        yield mesh
+        return
+    obj.data = mesh.copy()
     try:
-        yield name
+        yield obj.data
     finally:
-        attributes.remove(attributes[name])
-        attributes.active_index = active
-        obj.data.update()
+        copy, obj.data = obj.data, mesh
+        bpy.data.meshes.remove(copy)

@@ -78,11 +78,9 @@ def noted_parameters(obj: bpy.types.Object) -> Parameters | None:
     """Return the parameters that an object's parts were found with, None if unknown."""
     try:
         noted = record_of(obj).get("parameters")
-    except DecompositionError:  # a property of the user's
+        return None if noted is None else parameters_in(noted, Parameters)
+    except DecompositionError:  # a property of the user's, or of a later version
         return None
-    if noted is None:
-        return None
-    return parameters_in(noted, Parameters)
 
 
 def noted_mesh(obj: bpy.types.Object) -> str:

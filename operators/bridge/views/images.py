@@ -8,6 +8,10 @@ from numpy.typing import NDArray
 
 from ..stored.names import IMAGE_TAG, PICTURE_TAG
 
+# An object notes under the same tag the names, in lines, that it had when its pictures
+# were made: the user may rename it. A pointer in an image would keep the object in the
+# file once the user deletes it.
+
 
 def write_image(
     obj: bpy.types.Object, label: str, pixels: NDArray[np.float64]
@@ -33,6 +37,7 @@ def write_image(
         image = bpy.data.images.new(f"{obj.name} {label}", width, height)
         image[IMAGE_TAG], image[PICTURE_TAG] = obj.name, label
         image.use_fake_user = True  # images without users are not saved
+        obj[IMAGE_TAG] = "\n".join(sorted({*_noted(obj), obj.name}))
     elif tuple(image.size) != (width, height):
         image.scale(width, height)
     rgba = np.ones((height, width, 4), dtype=np.float32)
@@ -49,9 +54,25 @@ def images_of(obj: bpy.types.Object) -> list[bpy.types.Image]:
 
 
 def erase_images(obj: bpy.types.Object) -> None:
-    """Remove our images of an object, and of those that are gone or have a new name."""
-    for image in bpy.data.images[:]:
-        owner = image.get(IMAGE_TAG)
-        lost = image.library is None and owner and owner not in bpy.data.objects
-        if owner == obj.name or lost:
+    """Remove our images of an object, and of those that are gone."""
+    images = [image for image in bpy.data.images if image.get(IMAGE_TAG)]
+    own = _noted(obj)
+    obj.pop(IMAGE_TAG, None)
+    if not images:  # files have thousands of objects
+        return
+    noted, names = set(), set()
+    for each in bpy.data.objects:
+        noted |= _noted(each)
+        names.add(each.name)
+    for image in images:
+        owner = image[IMAGE_TAG]
+        # Another object may have been renamed since, and this one have its name now.
+        of_obj = owner == obj.name and (owner in own or owner not in noted)
+        lost = owner not in noted and owner not in names and image.library is None
+        if of_obj or lost:
             bpy.data.images.remove(image)
+
+
+def _noted(obj: bpy.types.Object) -> set[str]:
+    """Return the names that an object had when pictures of it were made."""
+    return set(str(obj.get(IMAGE_TAG, "")).split("\n")) - {""}

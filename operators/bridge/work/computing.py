@@ -67,7 +67,7 @@ def read_seen(
     the shape will be written to the object.
     """
     if seen is not None:
-        return seen.notes, as_steps(seen.shape)
+        return seen.notes(for_parts), as_steps(seen.shape)
     return reading_notes(obj, for_parts, has_choice=True), shape_in_steps(obj)
 
 

@@ -13,6 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Progress, Steps, within
+from ..cuts.beside_faces import sculpted_details
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
 from ..cuts.whole_mesh import is_cut, whole_mesh_of
@@ -20,6 +21,7 @@ from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
 from ..read.shape import read_mesh, stretch
+from ..stored.restore import sharers
 from .libraries import load_libraries
 from .run_edit import Edited
 from .session_cache import session_cache
@@ -37,7 +39,8 @@ def gets_new_faces(
     Raises
     ------
     DecompositionError
-        If faces are to be cut in Edit Mode, or those of a mesh as it is seen.
+        If faces are to be cut in Edit Mode, those of a mesh as it is seen, or those
+        under sculpted details.
     """
     if seen is not None and parameters.seams == "CUT":
         raise DecompositionError(
@@ -48,6 +51,8 @@ def gets_new_faces(
         return False
     if obj.type != "MESH" or not obj.data.polygons:
         return False
+    if parameters.seams == "CUT":
+        _check_no_details(obj)
     if not obj.data.is_editmode:
         return parameters.seams == "CUT" or is_cut(obj)
     if parameters.seams == "CUT":
@@ -56,6 +61,16 @@ def gets_new_faces(
             " for Seams."
         )
     return False
+
+
+def _check_no_details(obj: bpy.types.Object) -> None:
+    """Raise if a mesh has sculpted details, which are stored by its faces' corners."""
+    for each in sharers(obj):
+        if sculpted_details(each):
+            raise DecompositionError(
+                f"{each.name} has a Multires modifier, whose sculpted details cuts"
+                " would spoil; apply it, or choose Keep Faces for Seams."
+            )
 
 
 def decompose_whole_faces(

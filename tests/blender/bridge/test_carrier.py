@@ -5,6 +5,7 @@ from collections import Counter
 import bpy
 import pytest
 from hand_curves import hand_curve
+from hand_made import activate
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.read import (
     carrier,
@@ -91,3 +92,70 @@ def test_a_carrier_that_undo_removed_is_made_again():
     placed = carrier.placed_carrier(hand)
     assert (placed.name, placed.parent) == ("Hand parts", hand)
     assert placed == bpy.context.active_object
+
+
+def again(hand, **settings):
+    """Decompose a curve once more; return the carrier."""
+    hand.hide_set(False)
+    activate(hand)
+    bpy.ops.wcd.decompose(**FAST, **settings)
+    return bpy.context.active_object
+
+
+def copied(placed, linked):
+    """Return a copy of a carrier as Blender makes it, under a name of the user's."""
+    activate(placed)
+    bpy.ops.object.duplicate(linked=linked)
+    bpy.context.active_object.name = "Mine"
+    return bpy.context.active_object
+
+
+@pytest.mark.parametrize("linked", [False, True])
+@pytest.mark.parametrize("command", ["decompose", "clear"])
+def test_copies_of_a_carrier_are_the_users(command, linked):
+    hand = hand_curve()
+    placed = again(hand)
+    mine = copied(placed, linked)
+    if command == "decompose":
+        assert again(hand, seed=1) != mine
+    else:
+        activate(placed)
+        bpy.ops.wcd.clear()
+    assert {each.name for each in hand.children} >= {"Mine"}
+    assert len(hand.children) == (2 if command == "decompose" else 1)
+    activate(mine)
+    if bpy.ops.wcd.clear.poll():
+        bpy.ops.wcd.clear()
+    assert bpy.data.objects["Mine"] == mine
+    assert not {"wcd_parts_of", "wcd_hidden"} & set(mine.keys())
+    assert hand.hide_get() == (command == "decompose")
+
+
+def test_a_copy_stays_the_users_once_the_carrier_is_deleted():
+    hand = hand_curve()
+    placed = again(hand)
+    mine = copied(placed, linked=False)
+    bpy.data.objects.remove(placed)
+    again(hand)
+    assert set(hand.children) == {mine, bpy.context.active_object}
+
+
+def test_a_renamed_carrier_is_still_replaced():
+    hand = hand_curve()
+    again(hand).name = "Palm"
+    placed = again(hand, seed=1)
+    assert list(hand.children) == [placed]
+    placed.name = "Palm"
+    bpy.ops.wcd.clear()
+    assert not hand.children
+
+
+def test_children_of_a_carrier_keep_it():
+    hand = hand_curve()
+    placed = again(hand)
+    lamp = bpy.data.objects.new("Lamp", None)
+    bpy.context.collection.objects.link(lamp)
+    lamp.parent = placed
+    assert again(hand, seed=1) != placed
+    assert lamp.parent == placed
+    assert "wcd_parts_of" not in placed

@@ -197,10 +197,27 @@ def test_hulls_go_around_what_is_seen(dumbbell):
     reach = [max(v.co.y for v in hull.data.vertices) for hull in hulls]
     assert max(reach) > 4
     assert record_of(dumbbell)["hulls"]["mesh"] == "EVALUATED"
+    n_faces = 2 * len(dumbbell.data.polygons)
+    told = f"The evaluated mesh was read, with {n_faces} faces."
+    assert told in record_of(dumbbell)["hulls"]["notes"]
     name, error = hulls[0].name, record_of(dumbbell)["hulls"]["hulls"][0]["error"]
     bpy.ops.wcd.refit_hull(hull=name, shape="HULL")
     again = record_of(dumbbell)["hulls"]["hulls"][0]["error"]
     assert again == pytest.approx(error, rel=0.1)
+
+
+def test_faces_of_a_linked_mesh_are_known(dumbbell, tmp_path):
+    path, name = str(tmp_path / "library.blend"), dumbbell.name
+    bpy.data.libraries.write(path, {dumbbell})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = [name]
+    obj = wanted.objects[0].copy()
+    bpy.context.collection.objects.link(obj)
+    obj.modifiers.new("Finer", "SUBSURF").levels = 1
+    mesh = obj.data
+    assert read_as("EVALUATED", obj).corresponds
+    assert (obj.data, bpy.data.meshes[:]) == (mesh, [mesh])
 
 
 @pytest.mark.parametrize("obstacle", ["EDIT", "hidden", "nothing"])

@@ -166,3 +166,38 @@ def test_a_mirrored_half_has_the_parts_of_both_halves():
     on_ball = [polygon.center.x > 1.5 for polygon in obj.data.polygons]
     check_in_step(obj)
     assert len(set(labels_of(obj)[on_ball])) == 1
+
+
+def twin_of(obj):
+    """Return an object with the same data, selected beside another."""
+    twin = obj.copy()
+    bpy.context.collection.objects.link(twin)
+    activate(obj)
+    twin.select_set(True)
+    return twin
+
+
+def test_objects_of_one_mesh_have_parts_of_their_own_faces(monkey):
+    twin, plain = twin_of(monkey), twin_of(monkey)
+    twin.select_set(True)
+    for obj, size in ((monkey, 0.5), (twin, 0.3)):
+        obj.modifiers.new("Remesh", "REMESH").voxel_size = size
+    decompose(parts=2, samples=60)
+    assert [len(obj.children) for obj in (monkey, twin, plain)] == [1, 1, 0]
+    assert record_of(plain)["k"] == 2
+
+
+def test_parts_on_a_shared_mesh_are_found_once(cone):
+    twin = twin_of(cone)
+    for obj, levels in ((cone, 1), (twin, 2)):
+        obj.modifiers.new("Finer", "SUBSURF").levels = levels
+    decompose(parts=2, samples=60)
+    assert "with 48 faces that come from the 13 faces" in notes_of(twin)
+
+
+def test_texts_that_share_letters_get_a_mesh_each():
+    bpy.ops.object.text_add()
+    text = bpy.context.active_object
+    twin = twin_of(text)
+    bpy.ops.wcd.decompose(samples=60, parts=2)
+    assert [len(obj.children) for obj in (text, twin)] == [1, 1]

@@ -17,6 +17,7 @@ from hand_made import (
     in_mode,
     mesh_object,
 )
+from mathutils import Matrix
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.bridge.mesh.fingerprint import (
@@ -226,3 +227,15 @@ def test_hulls_around_former_parts_are_of_none_of_the_new_ones(suzanne):
     decompose_by_hand(suzanne, 2, **FAST)
     hulls = json.loads(suzanne["wcd"])["hulls"]["hulls"]
     assert [hull["part"] for hull in hulls] == [None] * 3
+
+
+def test_figures_of_a_mesh_far_from_its_origin_fit_in_edit_mode_too():
+    """Edit Mode computes areas in single precision."""
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.active_object
+    obj.data.transform(Matrix.Translation((2e5, 2e5, 0)))
+    decompose_by_hand(obj, 4)
+    bpy.ops.wcd.refresh_parts()
+    assert figures_of(obj).problem is None
+    in_mode(obj, "EDIT")
+    assert figures_of(obj).problem is None

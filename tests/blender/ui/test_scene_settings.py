@@ -1,5 +1,7 @@
 """The settings of a scene: whose they are, their sliders, and errors in both units."""
 
+import json
+
 import bpy
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
+from weak_convex_decomposition.operators.bridge.stored.record import noted_parameters
 from weak_convex_decomposition.operators.recut import WCD_OT_recut
 from weak_convex_decomposition.operators.settings import (
     hull_parameters_from,
@@ -108,3 +111,15 @@ def test_a_preset_replaces_live_parts_once(suzanne, settings, monkeypatch):
     bpy.ops.wcd.use_preset(preset="DEFAULT")
     assert len(cuts) == 1
     assert settings.live
+
+
+def test_parameters_of_a_later_version_are_unknown_and_stop_nothing():
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.active_object
+    decompose_by_hand(obj, 3)
+    record = json.loads(obj["wcd"])
+    record["parameters"]["sight"] = "TELEPATHY"
+    obj["wcd"] = json.dumps(record)
+    assert noted_parameters(obj) is None
+    assert not bpy.ops.wcd.recut.poll()
+    assert bpy.ops.wcd.decompose.poll()

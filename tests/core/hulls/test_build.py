@@ -224,3 +224,12 @@ def test_thin_solids_get_hulls_as_large_as_they_are():
         assert len(found.shapes) == 1
         assert found.volume_ratio == pytest.approx(1, rel=1e-3)
         assert found.errors[0] < 1e-3
+
+
+def test_the_error_holds_the_added_volume_whatever_is_allowed():
+    """A flat square gets a thin hull, which is all outside of it."""
+    for most in (0.05, 0.1, 1.0):
+        found = hulls_of(shapes.sheet(1), max_error=most)
+        added = found.shapes[0].volume / 0.5**3  # where half of the longest side is 1
+        radius = np.cbrt(3 * added / (4 * np.pi))
+        assert found.errors[0] >= 0.3 * radius * 0.99

@@ -74,3 +74,11 @@ def test_measuring_knows_no_containers():
         for choice in ("FILLED", "HOLLOW")
     ]
     assert ranks[0] == ranks[1] < 0.5
+
+
+def test_the_gap_between_touching_boxes_is_no_container():
+    """The middle of the grid's cells lies in it."""
+    stack = [shapes.box((0, 0, low), (1, 1, low + 1)) for low in range(8)]
+    parameters = Parameters(samples=200, containers="FILLED")
+    found = decompose(shapes.joined(*stack), parameters)
+    assert found.psi_before == pytest.approx(1 / 8, abs=0.02)

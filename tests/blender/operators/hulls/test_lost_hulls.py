@@ -219,3 +219,19 @@ def test_a_part_that_got_the_hulls_of_its_object_can_be_cleared(suzanne):
     piece = next(obj for obj in bpy.data.objects if hulls_of(obj))
     clear(piece)
     assert left() == []
+
+
+def test_a_copy_of_a_hull_is_the_users():
+    bpy.ops.mesh.primitive_monkey_add()
+    obj = bpy.context.active_object
+    bpy.ops.wcd.build_hulls(max_error=0.3)
+    hull = obj.children[0]
+    copy = hull.copy()
+    copy.data = hull.data.copy()
+    copy.name = "Mine"
+    hull.users_collection[0].objects.link(copy)
+    activate(obj)
+    bpy.ops.wcd.build_hulls(max_error=0.2)
+    assert "Mine" in bpy.data.objects
+    bpy.ops.wcd.clear()
+    assert obj.children[:] == (bpy.data.objects["Mine"],)

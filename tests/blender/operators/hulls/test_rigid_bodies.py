@@ -152,3 +152,14 @@ def test_the_object_falls_on_while_it_has_other_hulls(table):
     bpy.ops.wcd.remove_hull(hull=first.name)
     assert others
     assert None not in [each.rigid_body for each in (table, *others)]
+
+
+def test_a_body_that_the_user_put_in_place_of_ours_stays(table):
+    bpy.ops.wcd.build_hulls()
+    bpy.ops.wcd.make_rigid()
+    bpy.ops.rigidbody.object_remove()
+    bpy.ops.rigidbody.object_add(type="PASSIVE")
+    table.rigid_body.collision_shape = "MESH"
+    bpy.ops.wcd.clear()
+    assert table.rigid_body.collision_shape == "MESH"
+    assert "wcd_rigid" not in table

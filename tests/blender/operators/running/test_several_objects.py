@@ -166,3 +166,20 @@ def test_hulls_are_looked_for_once_for_all_objects(monkeypatch, name):
     monkeypatch.setattr(*home, lambda: looks.append(name) or find())
     assert not getattr(bpy.ops.wcd, name).poll()
     assert looks == [name]
+
+
+def test_hulls_that_are_selected_with_their_object_go_with_it():
+    """As they are to be exported."""
+    first, second = add(0), add(5)
+    select(first, second)
+    bpy.ops.wcd.build_hulls()
+    for build in (bpy.ops.wcd.build_hulls, bpy.ops.wcd.decompose, bpy.ops.wcd.measure):
+        bpy.ops.object.select_all(action="SELECT")
+        assert build() == {"FINISHED"}
+        hulls_there = [obj for obj in bpy.data.objects if obj not in (first, second)]
+        assert {hull.parent for hull in hulls_there} == {first, second}
+        assert not any("wcd" in hull for hull in hulls_there)
+    bpy.ops.object.select_all(action="SELECT")
+    assert bpy.ops.wcd.clear() == {"FINISHED"}
+    assert bpy.data.objects[:] == [first, second]
+    assert not decomposed(second)

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from edited import check_in_step
-from hand_made import activate, areas, in_mode, mesh_object
+from hand_made import activate, areas, in_mode
 from random_work.low_poly import check_kept, figures, low_poly
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
@@ -14,15 +14,6 @@ from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
 from weak_convex_decomposition.operators.headless.command_line import main
 
 FAST = {"samples": 200, "containers": "HOLLOW", "max_parts": 4}
-OUTLINE = [(1, 1), (1, 4), (0, 4), (0, 0), (4, 0), (4, 1)]
-
-
-@pytest.fixture
-def angle():
-    """An L with two caps of six corners."""
-    walls = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
-    places = [(x, y, z) for z in (0, 1) for x, y in OUTLINE]
-    return mesh_object("L", places, [range(6, 12), range(5, -1, -1), *walls])
 
 
 def cut(seams="CUT", **changes):

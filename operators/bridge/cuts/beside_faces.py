@@ -1,0 +1,101 @@
+"""What the user did to a cut mesh beside its geometry, and whole faces would lose.
+
+It is compared with the mesh with the whole faces, which nobody edits.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..mesh.attributes import IntArray, read_labels
+from ..parts.read import part_labels
+from ..stored.names import FACE_SET_LAYER, FACE_SETS, WHOLE_LAYER
+
+
+def has_work_beside_faces(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
+    """Return whether a cut mesh of known geometry has work that `whole` has not."""
+    mesh = obj.data
+    # Cuts are refused where there are sculpted details: these came later.
+    if sculpted_details(obj):
+        return True
+    if _animation(mesh) != _animation(whole):
+        return True
+    if _keys(mesh) != _keys(whole):
+        return True
+    return not _has_face_sets_of(obj, whole)
+
+
+def sculpted_details(obj: bpy.types.Object) -> bool:
+    """Return whether a Multires modifier of an object has details, on its faces."""
+    return any(m.type == "MULTIRES" and m.total_levels > 0 for m in obj.modifiers)
+
+
+def _animation(mesh: bpy.types.Mesh) -> list[Any]:
+    """Return the actions, tracks and drivers of a mesh and of its shape keys."""
+    found: list[Any] = []
+    for each in (mesh, mesh.shape_keys):
+        animation = each.animation_data if each else None
+        if animation is None:
+            found.append((None, [], []))
+            continue
+        tracks = [(t.name, [s.name for s in t.strips]) for t in animation.nla_tracks]
+        drivers = [_driver(curve) for curve in animation.drivers]
+        found.append((animation.action, tracks, drivers))
+    return found
+
+
+def _driver(curve: bpy.types.FCurve) -> tuple[Any, ...]:
+    """Return what a driver drives, and how."""
+    driver = curve.driver
+    variables = [
+        (each.name, each.type, [target.data_path for target in each.targets])
+        for each in driver.variables
+    ]
+    path = (curve.data_path, curve.array_index)
+    return *path, driver.type, driver.expression, variables
+
+
+def _keys(mesh: bpy.types.Mesh) -> list[tuple[Any, ...]]:
+    """Return the settings of shape keys, without the values of their sliders."""
+    return [
+        (
+            key.name,
+            key.slider_min,
+            key.slider_max,
+            key.mute,
+            key.vertex_group,
+            key.relative_key.name,
+        )
+        for key in getattr(mesh.shape_keys, "key_blocks", ())
+    ]
+
+
+def _has_face_sets_of(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
+    """Return whether the user's face sets are those of the whole faces."""
+    n_wholes, mesh = len(whole.polygons), obj.data
+    now = _users_face_sets(obj)
+    before = read_labels(whole, FACE_SETS, "FACE", n_wholes, missing=0)
+    if not now.any() and not before.any():
+        return True
+    wholes = read_labels(mesh, WHOLE_LAYER, "FACE", len(mesh.polygons))
+    if len(wholes) != len(now) or not np.isin(wholes, np.arange(n_wholes)).all():
+        return False
+    return np.array_equal(now, before[wholes])
+
+
+def _users_face_sets(obj: bpy.types.Object) -> IntArray:
+    """Return the face sets that Clear leaves, (P,), 0 without any.
+
+    They are those from before ours, unless the user drew over ours.
+    """
+    mesh, n_faces = obj.data, len(obj.data.polygons)
+    now = read_labels(mesh, FACE_SETS, "FACE", n_faces, missing=0)
+    if FACE_SET_LAYER not in mesh.attributes:
+        return now
+    labels = part_labels(obj)
+    if labels is None or not np.array_equal(now, labels + 1):
+        return now
+    return read_labels(mesh, FACE_SET_LAYER, "FACE", n_faces, missing=0)
