@@ -21,8 +21,8 @@ from ..stored.record import record_of
 from .read import FoundParts, find_parts_on
 
 JOINED = (
-    "Some parts came twice, as from a join or an applied Array; press Refresh to list"
-    " all."
+    "Some parts are not listed, as after a join or an applied Array; press Refresh to"
+    " list them."
 )
 
 

@@ -67,11 +67,13 @@ EXPLODE_TAG = "wcd_explode"
 ISOLATE_TAG = "wcd_isolate"
 # Custom property of the node group that realizes instances while a mesh is read.
 REALIZE_TAG = "wcd_realize"
-# Custom property of our images: the name of the object that they show.
+# Custom property of our images: the name of the object that they show. Of objects: the
+# names that they had when pictures were made of them.
 IMAGE_TAG = "wcd_picture"
 # And what they show of it: the label of a kind of picture.
 PICTURE_TAG = "wcd_picture_kind"
-# Custom property of mesh objects with the parts of a curve: the name of the curve.
+# Custom property of mesh objects with the parts of a curve: the name of the curve. Of
+# their meshes: the name of the mesh object, by which it is told from copies.
 CARRIER_TAG = "wcd_parts_of"
 # Custom property of such an object: how the curve was shown before we hid it.
 HIDDEN_TAG = "wcd_hidden"

@@ -99,7 +99,7 @@ def test_a_join_keeps_the_parts_of_both_apart():
     names, faces, _, problem, *_ = state(suzanne)
     assert names == ["Head", "Part 02", "Part 03", "Part 01", "Ring"]
     assert faces == counts
-    assert "from a join" in problem
+    assert "after a join" in problem
     bpy.ops.wcd.refresh_parts()
     assert state(suzanne)[:2] == (names, faces)
     assert state(suzanne)[3] is None
@@ -122,7 +122,7 @@ def test_names_after_a_join_ask_for_a_refresh():
     one, other = two_objects()
     other.select_set(True)
     bpy.ops.object.join()
-    with pytest.raises(RuntimeError, match="as from a join or an applied Array; press"):
+    with pytest.raises(RuntimeError, match="not listed, as after a join or an applied"):
         bpy.ops.wcd.rename_parts(way="NUMBER", pattern="Limb ##")
     bpy.ops.wcd.refresh_parts()
     bpy.ops.wcd.rename_parts(way="NUMBER", pattern="Limb ##")

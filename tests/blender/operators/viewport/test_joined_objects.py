@@ -55,7 +55,7 @@ def test_a_joined_object_without_parts_is_a_part_of_its_own(suzanne, colors, act
     names = [each.name for each in figures.identities]
     assert names == ["Head", "Part 02", "Part 01"]
     assert figures.measured_on[:, 0].tolist() == [250, 250, 6]
-    assert "joined" in figures.problem
+    assert "after a join" in figures.problem
     bpy.ops.wcd.refresh_parts()
     check_in_step(obj)
     assert [each["name"] for each in record_of(obj)["parts"]] == names
