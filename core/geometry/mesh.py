@@ -95,8 +95,8 @@ class TriangleMesh:
     def with_polygons(self, polygons: NDArray[np.int64]) -> TriangleMesh:
         """Return the mesh with other numbers of polygons, (T,) int."""
         mesh = replace(self, polygons=polygons)
-        known = {name: self.__dict__.get(name) for name in ("areas", "normals")}
-        mesh.__dict__.update({name: it for name, it in known.items() if it is not None})
+        for name in {"areas", "normals"} & self.__dict__.keys():  # as far as known
+            mesh.__dict__[name] = self.__dict__[name]
         return mesh
 
     @cached_property

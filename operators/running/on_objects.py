@@ -144,5 +144,6 @@ def candidates(context: bpy.types.Context) -> list[bpy.types.Object]:
         return [active]
     in_edit_mode = active and active.mode == "EDIT"
     there = context.objects_in_mode if in_edit_mode else context.selected_objects
-    chosen = [obj for obj in there if not (is_hull(obj) and obj.parent in there)]
+    owners = set(there)  # panels ask often, and thousands may be selected
+    chosen = [obj for obj in there if not (is_hull(obj) and obj.parent in owners)]
     return sorted(chosen, key=lambda obj: bool(obj != active))

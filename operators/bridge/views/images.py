@@ -55,22 +55,23 @@ def images_of(obj: bpy.types.Object) -> list[bpy.types.Image]:
 
 def erase_images(obj: bpy.types.Object) -> None:
     """Remove our images of an object, and of those that are gone."""
-    images = [image for image in bpy.data.images if image.get(IMAGE_TAG)]
     own = _noted(obj)
     obj.pop(IMAGE_TAG, None)
-    if not images:  # files have thousands of objects
+    named_so, unnamed = [], []
+    for image in bpy.data.images:
+        owner = str(image.get(IMAGE_TAG, ""))
+        if owner == obj.name:
+            named_so.append(image)
+        elif owner and owner not in bpy.data.objects and image.library is None:
+            unnamed.append(image)
+    if not named_so and not unnamed:  # files have thousands of objects
         return
-    noted, names = set(), set()
-    for each in bpy.data.objects:
-        noted |= _noted(each)
-        names.add(each.name)
-    for image in images:
-        owner = image[IMAGE_TAG]
-        # Another object may have been renamed since, and this one have its name now.
-        of_obj = owner == obj.name and (owner in own or owner not in noted)
-        lost = owner not in noted and owner not in names and image.library is None
-        if of_obj or lost:
-            bpy.data.images.remove(image)
+    # Another object may have been renamed since, and this one have its name now.
+    noted = set().union(*map(_noted, bpy.data.objects))
+    gone = [image for image in unnamed if str(image[IMAGE_TAG]) not in noted]
+    is_own = obj.name in own or obj.name not in noted
+    for image in (*gone, *(named_so if is_own else ())):
+        bpy.data.images.remove(image)
 
 
 def _noted(obj: bpy.types.Object) -> set[str]:
