@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.face_graph import FaceGraph
+from ..geometry.graphs.face_graph import FaceGraph
 from ..steps.progress import Progress, Steps
 from .splats import nearest_points
 

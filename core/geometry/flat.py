@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from ..steps.progress import Steps, within
-from .connectivity import shared_edges, sort_edges
-from .face_graph import FaceGraph, face_graph
 from .frames import frames, unit
+from .graphs.edges import shared_edges, sort_edges
+from .graphs.face_graph import FaceGraph, face_graph
 from .mesh import TriangleMesh
 
 # Greatest extent of a flat mesh along its normal, in diagonals.

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..steps.progress import Progress, Steps
-from .face_graph import FaceGraph
 from .frames import with_normals
+from .graphs.face_graph import FaceGraph
 
 # Polygons, drawn evenly by area, that mirror images are matched to.
 _POLYGONS = 30_000

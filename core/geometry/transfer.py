@@ -10,8 +10,8 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ..steps.progress import Progress, Steps, within
-from .face_graph import FaceGraph
 from .frames import with_normals
+from .graphs.face_graph import FaceGraph
 from .sampling import Samples
 
 # Nearest samples that vote for the label of a polygon.

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.moves import MoveGains
-from ..geometry.face_graph import FaceGraph
+from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..results.parts import Decomposition

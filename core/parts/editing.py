@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
-from ..geometry.face_graph import FaceGraph
+from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.symmetry import Plane, side_of
 from ..steps.progress import Steps
 

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.face_graph import FaceGraph
+from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.symmetry import Side
 from ..steps.progress import Steps
 from .part_memo import PartMemo

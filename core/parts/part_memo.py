@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.embedding import coordinates_for, embed
-from ..geometry.face_graph import FaceGraph
-from ..geometry.patches import MOST_NODES, Patches, find_patches
+from ..geometry.graphs.face_graph import FaceGraph
+from ..geometry.graphs.patches import MOST_NODES, Patches, find_patches
 from ..geometry.symmetry import Plane, Side, find_plane, find_sides
 from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters

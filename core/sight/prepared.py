@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
-from ..geometry.connectivity import sort_edges
-from ..geometry.face_graph import FaceGraph, face_graph
 from ..geometry.flat import FlatMesh, flat_mesh
+from ..geometry.graphs.edges import sort_edges
+from ..geometry.graphs.face_graph import FaceGraph, face_graph
 from ..geometry.mesh import TriangleMesh
 from ..geometry.point_cloud import PointCloud
 from ..geometry.shape import Shape
@@ -181,15 +181,14 @@ def _prepare_mesh(
     """Prepare a mesh, given normalized, too: shells, orientation, what rays see."""
     nodes = np.arange(mesh.n_polygons)
     edges = yield from within(sort_edges(mesh), 0.0, 0.2)
-    shells = yield from within(find_shells(mesh, edges), 0.2, 0.3)
-    single, rows = without_doubles(mesh) if shells.crowded else (mesh, nodes[:0])
-    if single is not mesh:
-        shells = yield from within(shells_of(single), 0.3, 0.4)
+    single, rows = without_doubles(mesh) if edges.crowded else (mesh, nodes[:0])
+    if single is mesh:
+        shells = yield from within(find_shells(mesh, edges), 0.2, 0.4)
+    else:
+        shells = yield from within(shells_of(single), 0.2, 0.4)
     turned, notes = yield from within(oriented(single, shells), 0.4, 0.6)
     targets = yield from within(set_apart(turned, shells), 0.6, 0.7)
     yield from within(targets.normals_in_steps(), 0.7, 0.8)
-    if targets is not turned and shells.crowded:  # those that touched are apart now
-        shells = yield from within(shells_of(targets), 0.8, 0.9)
     solid = turned if single is mesh else with_doubles(mesh, turned, rows)
     if solid is not mesh:  # turned triangles have other sides
         edges = yield from within(sort_edges(solid), 0.8, 0.9)

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-from ..geometry.connectivity import Edges
 from ..geometry.frames import heights_above
+from ..geometry.graphs.edges import Edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
 from ..steps.rows import blocks
@@ -45,7 +45,7 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     Steps of bool
     """
     one_closed = len(shells.closed) == 1 and bool(shells.closed[0])
-    if not one_closed or shells.crowded:
+    if not one_closed or edges.crowded:
         return False
     if (yield from _has_concave_edge(mesh, edges)):
         return False

@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.connectivity import Edges, components, sort_edges
 from ..geometry.frames import unit
+from ..geometry.graphs.components import components
+from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
+from .neighbors import find_neighbors
 
 # Shells are moved inwards by multiples of this depth, in diagonals.
 _LAYER = 1e-5
@@ -23,7 +25,7 @@ GAP = 4 * _LAYER * _LAYERS
 
 @dataclass(frozen=True, eq=False)
 class Shells:
-    """The shells of a mesh: triangles connected by edges of exactly two triangles.
+    """The shells of a mesh: triangles connected where they go on in each other.
 
     Attributes
     ----------
@@ -37,16 +39,12 @@ class Shells:
     closed : (S,) bool
         Windable shells that bound a volume: every edge has an even number of the
         shell's triangles.
-    crowded : bool
-        Whether some edge has more than two triangles: shells touch there, or one
-        touches itself.
     """
 
     of_triangle: NDArray[np.int64]
     against: NDArray[np.bool_]
     windable: NDArray[np.bool_]
     closed: NDArray[np.bool_]
-    crowded: bool
 
 
 def shells_of(mesh: TriangleMesh) -> Steps[Shells]:
@@ -77,31 +75,11 @@ def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
     -------
     Steps of Shells
     """
-    yield Progress("Surface", 0.0)
-    sides, first = edges
-    uses = np.empty_like(first)  # np.diff would copy the places
-    uses[:-1], uses[-1] = first[1:], len(sides)
-    uses -= first
-    yield Progress("Surface", 0.02)
-    pairs = first[uses == 2]
-    yield Progress("Surface", 0.04)
-    one, other = sides[pairs], sides[1:][pairs]
-    yield Progress("Surface", 0.1)
-    corners = mesh.welded_triangles
-    forward = np.empty(corners.size, dtype=bool)
-    for block in blocks(len(corners)):
-        some, along = corners[block], forward[3 * block.start : 3 * block.stop]
-        np.less(some, some[:, [1, 2, 0]], out=along.reshape(-1, 3))
-        yield Progress("Surface", 0.1 + 0.05 * block.start / len(corners))
-    opposed = forward[one] != forward[other]
-    yield Progress("Surface", 0.2)
-    neighbors = np.empty((len(one), 2), dtype=one.dtype)
-    neighbors[:, 0] = one // 3
-    neighbors[:, 1] = other // 3
-    yield Progress("Surface", 0.2)
-    shells, side, windable = yield from _wind(neighbors, opposed, len(corners))
+    neighbors, opposed = yield from within(find_neighbors(mesh, edges), 0.0, 0.2)
+    shells, side, windable = yield from _wind(neighbors, opposed, len(mesh.areas))
     yield Progress("Surface", 0.8)
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)
+    sides, uses = edges.sides, edges.uses
     # At an edge of four triangles a shell may touch itself.
     edge_of = np.repeat(np.flatnonzero(uses != 2), uses[uses != 2])
     others = sides[np.repeat(uses != 2, uses)]
@@ -111,7 +89,7 @@ def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
     closed = windable.copy()
     closed[open_edges] = False
     against = (side ^ minority[shells]) & windable[shells]
-    return Shells(shells, against, windable, closed, bool((uses > 2).any()))
+    return Shells(shells, against, windable, closed)
 
 
 def set_apart(mesh: TriangleMesh, shells: Shells) -> Steps[TriangleMesh]:
@@ -136,17 +114,54 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> Steps[TriangleMesh]:
     if len(areas) == 1:
         return mesh
     ranks = np.argsort(np.argsort(-areas, kind="stable"))
-    steps = ranks[shells.of_triangle] % _LAYERS
-    corners = mesh.triangles.ravel()
-    normals = np.empty_like(mesh.vertices)
+    depths = _LAYER * mesh.diagonal * (ranks % _LAYERS)
+    rows, shell_of, vertices = yield from _own_vertices(mesh, shells)
+    normals = np.empty_like(vertices)
     for axis, column in enumerate(mesh.normals.T):
-        yield Progress("Surface", axis / 4)
+        yield Progress("Surface", 0.6 + 0.1 * axis)
         weights = (mesh.areas * column).repeat(3)
-        normals[:, axis] = np.bincount(corners, weights, len(mesh.vertices))
-    yield Progress("Surface", 0.8)
-    depths = np.zeros(len(mesh.vertices))
-    depths[corners] = _LAYER * mesh.diagonal * steps.repeat(3)
-    return replace(mesh, vertices=mesh.vertices - depths[:, None] * unit(normals))
+        normals[:, axis] = np.bincount(rows.ravel(), weights, len(vertices))
+    yield Progress("Surface", 0.9)
+    moved = vertices - depths[shell_of][:, None] * unit(normals)
+    return replace(mesh, vertices=moved, triangles=rows)
+
+
+def _own_vertices(
+    mesh: TriangleMesh, shells: Shells
+) -> Steps[tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]]:
+    """Return vertices of which each belongs to one place and one shell.
+
+    A shell moves as one, though its vertices be split, and by itself, though it share
+    them with another one.
+
+    Returns
+    -------
+    rows : (T, 3) int
+        Row of the vertex of each corner.
+    shell_of : (V,) int
+        Shell of each vertex.
+    vertices : (V, 3) float
+    """
+    places = yield from within(mesh.welded_in_steps(), 0.0, 0.2)
+    n_places = int(places.max()) + 1
+    shell_of = np.empty(n_places, dtype=np.int64)
+    vertices = np.empty((n_places, 3))
+    for some in blocks(len(places)):
+        yield Progress("Surface", 0.2)
+        shell_of[places[some]] = shells.of_triangle[some, None]
+        vertices[places[some]] = mesh.vertices[mesh.triangles[some]]
+    rows = places.astype(np.int64)
+    yield Progress("Surface", 0.4)
+    # Where shells share a place, all but one of them get a further vertex.
+    strange = np.flatnonzero(shell_of[rows] != shells.of_triangle[:, None])
+    keys = rows.ravel()[strange] * len(shells.closed) + shells.of_triangle[strange // 3]
+    yield Progress("Surface", 0.5)
+    keys, more = np.unique(keys, return_inverse=True)
+    rows.ravel()[strange] = n_places + more.reshape(-1)
+    yield Progress("Surface", 0.6)
+    shell_of = np.concatenate([shell_of, keys % len(shells.closed)])
+    vertices = np.concatenate([vertices, vertices[keys // len(shells.closed)]])
+    return rows, shell_of, vertices
 
 
 def _wind(

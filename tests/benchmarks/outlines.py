@@ -24,8 +24,8 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 from computed import decompose
 from princeton import median_count
-from weak_convex_decomposition.core.geometry.connectivity import sort_edges
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
+from weak_convex_decomposition.core.geometry.graphs.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run

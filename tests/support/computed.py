@@ -3,8 +3,8 @@
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
-from weak_convex_decomposition.core.geometry.connectivity import sort_edges
-from weak_convex_decomposition.core.geometry.face_graph import face_graph
+from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
+from weak_convex_decomposition.core.geometry.graphs.face_graph import face_graph
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.measurement import measure_in_steps
 from weak_convex_decomposition.core.parts.find import find_parts
@@ -18,7 +18,7 @@ from weak_convex_decomposition.core.sight.visibility import (
     find_lines_of_sight,
     see_in_steps,
 )
-from weak_convex_decomposition.core.solids.shells import find_shells
+from weak_convex_decomposition.core.solids.shells import find_shells, set_apart
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -67,6 +67,11 @@ def graph_of(mesh):
 def shells_of(mesh):
     """Return the shells of a mesh."""
     return run(find_shells(mesh, run(sort_edges(mesh))))
+
+
+def apart(mesh):
+    """Return a mesh with the shells that touch set apart."""
+    return run(set_apart(mesh, shells_of(mesh)))
 
 
 def marcher_of(mesh):

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...steps.progress import run
-from ..connectivity import components_at_once, shared_edges, sort_edges
-from ..face_graph import face_graph
 from ..frames import unit
+from ..graphs.components import components_at_once
+from ..graphs.edges import shared_edges, sort_edges
+from ..graphs.face_graph import face_graph
 from .refined import Cut, RefinedMesh, RowsByNumber
 
 # Weight of a piece of the seam along a concave crease, where the seam surely belongs.

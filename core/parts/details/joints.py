@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.face_graph import FaceGraph
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
 from ...steps.memo import digest

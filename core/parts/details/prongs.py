@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps
 from .surface import distances, hills, roads
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.face_graph import FaceGraph
 
 
 def roads(graph: FaceGraph, pairs: NDArray[np.integer[Any]]) -> sparse.csr_array:

@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.connectivity import components_at_once
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.components import components_at_once
+from ...geometry.graphs.face_graph import FaceGraph
 from ...sight.pair_visibility import sums_by_label
 from ...steps.progress import run
 from ..part_psi import count_parts

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.face_graph import FaceGraph
 
 # Neighbors are in one plane if the surface turns by less than this, in radians.
 _FLAT = 1e-3

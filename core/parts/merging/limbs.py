@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ...geometry.connectivity import components_at_once
-from ...geometry.face_graph import FaceGraph
 from ...geometry.frames import unit
+from ...geometry.graphs.components import components_at_once
+from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps
 from ..part_psi import count_parts
 from ..partition import Partitioner

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from ...geometry.connectivity import components_at_once
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.components import components_at_once
+from ...geometry.graphs.face_graph import FaceGraph
 from ...parameters.parameter import field_of, info_of
 from ...parameters.parts import Parameters
 from ...sight.pair_tally import PairTally

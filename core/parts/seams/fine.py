@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.patches import Patches
+from ...geometry.graphs.patches import Patches
 from ...parameters.parts import Parameters
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
-from ...geometry.face_graph import FaceGraph
+from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps
 from ...steps.rows import ranges
 

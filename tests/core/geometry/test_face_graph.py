@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of
-from weak_convex_decomposition.core.geometry import connectivity
+from weak_convex_decomposition.core.geometry.graphs import components, edges
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -169,8 +169,8 @@ def test_few_pairs_and_many_connect_alike(n_pairs, monkeypatch):
     pairs = np.random.default_rng(n_pairs).integers(60, size=(n_pairs, 2))
     found = []
     for few in (0, 1000):
-        monkeypatch.setattr(connectivity, "_FEW_PAIRS", few)
-        found.append(connectivity.components_at_once(pairs, 60))
+        monkeypatch.setattr(components, "_FEW_PAIRS", few)
+        found.append(components.components_at_once(pairs, 60))
     assert (found[0] == found[1]).all()
     _, first = np.unique(found[0], return_index=True)
     assert (np.diff(first) > 0).all()
@@ -181,7 +181,7 @@ def test_edges_are_sorted_where_most_vertices_are_at_one_place(monkeypatch):
     speck = changes.moved(shapes.sphere(1), 1e-9)
     wall = changes.moved(shapes.box(), 1e3, offset=(5, 0, 0))
     mesh = shapes.joined(speck, wall)
-    usual = run(connectivity.sort_edges(mesh))
-    monkeypatch.setattr(connectivity, "_MOST_SIDES", 12)
-    found = run(connectivity.sort_edges(mesh))
+    usual = run(edges.sort_edges(mesh))
+    monkeypatch.setattr(edges, "_MOST_SIDES", 12)
+    found = run(edges.sort_edges(mesh))
     assert (found.sides == usual.sides).all()

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of, prepare
-from weak_convex_decomposition.core.geometry.patches import contracted, find_patches
+from weak_convex_decomposition.core.geometry.graphs.patches import (
+    contracted,
+    find_patches,
+)
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import find_parts
 from weak_convex_decomposition.core.parts.part_memo import PartMemo

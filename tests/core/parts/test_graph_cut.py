@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of as graph_of_mesh
-from weak_convex_decomposition.core.geometry.face_graph import FaceGraph
+from weak_convex_decomposition.core.geometry.graphs.face_graph import FaceGraph
 from weak_convex_decomposition.core.parts.seams import graph_cut
 from weak_convex_decomposition.core.parts.seams.cutter import distances_to_parts
 from weak_convex_decomposition.core.parts.seams.graph_cut import cut_seams

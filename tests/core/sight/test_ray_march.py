@@ -2,7 +2,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import marcher_of
+from computed import apart, marcher_of
 
 X = np.array([[1.0, 0.0, 0.0]])
 
@@ -63,7 +63,7 @@ def test_two_solids_that_share_a_wall_are_alike_in_either_order():
     other = shapes.box((1, 0, 0), (2, 1, 1))
     beyond = shapes.box((3, 0, 0), (4, 1, 1))
     ends = [
-        march(shapes.joined(*order), INSIDE)[1]
+        march(apart(shapes.joined(*order)), INSIDE)[1]
         for order in ((BOX, other, beyond), (other, BOX, beyond))
     ]
     assert ends[0] == pytest.approx(ends[1], abs=1e-4)

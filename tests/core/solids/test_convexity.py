@@ -4,7 +4,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.geometry.connectivity import sort_edges
+from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.solids.convexity import is_convex
 from weak_convex_decomposition.core.solids.shells import find_shells
 from weak_convex_decomposition.core.steps.progress import run

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..steps.progress import Progress, Steps, within
-from ..steps.rows import blocks
-from .connectivity import components
+from ...steps.progress import Progress, Steps, within
+from ...steps.rows import blocks
+from ..frames import unit
+from .components import components
 from .face_graph import CREASE, FaceGraph
-from .frames import unit
 
 # Most polygons that are their own patches. More are grouped into a fifth as many. With
 # half as many, parts are no better, and take twice the time when parameters change.

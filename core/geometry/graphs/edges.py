@@ -1,24 +1,19 @@
-"""Which triangles share an edge, and which nodes of a graph are connected."""
+"""Which triangles share an edge."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
-from ..steps.progress import Progress, Steps, run, within
-from ..steps.rows import blocks
-from .mesh import TriangleMesh
+from ...steps.progress import Progress, Steps, run, within
+from ...steps.rows import blocks
+from ..mesh import TriangleMesh
 
 # About the most sides of triangles that are sorted in one step.
 _MOST_SIDES = 2**20
-# Most nodes whose connected components are found in one step.
-_MOST_NODES = 2**20
-# So few pairs are connected one by one: SciPy takes as long to begin.
-_FEW_PAIRS = 16
 
 
 class Edges(NamedTuple):
@@ -34,6 +29,19 @@ class Edges(NamedTuple):
 
     sides: NDArray[np.int32]
     first: NDArray[np.int64]
+
+    @property
+    def uses(self) -> NDArray[np.int64]:
+        """Number of sides of each edge, (E,)."""
+        uses = np.empty_like(self.first)  # np.diff would copy the places
+        uses[:-1], uses[-1] = self.first[1:], len(self.sides)
+        uses -= self.first
+        return uses
+
+    @property
+    def crowded(self) -> bool:
+        """Whether some edge has more than two triangles: solids may touch there."""
+        return bool((self.uses > 2).any())
 
 
 def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
@@ -133,106 +141,6 @@ def lengths_of_sides(
     corners = mesh.triangles.ravel()
     ends = mesh.vertices[corners[sides + np.where(sides % 3 < 2, 1, -2)]]
     return np.linalg.norm(mesh.vertices[corners[sides]] - ends, axis=1)
-
-
-def components(
-    pairs: NDArray[np.integer[Any]], n_nodes: int
-) -> Steps[NDArray[np.int64]]:
-    """Return the connected component of each node of a graph.
-
-    Parameters
-    ----------
-    pairs : (E, 2) int
-        Nodes that are connected.
-    n_nodes : int
-
-    Returns
-    -------
-    Steps of (`n_nodes`,) int
-        Components are numbered in the order of their first nodes.
-    """
-    found, n_found = np.arange(n_nodes), n_nodes
-    if n_nodes > _MOST_NODES:
-        # Most neighbors have near numbers: few are in different blocks.
-        n_found, one = 0, pairs[:, 0] // _MOST_NODES
-        yield Progress("Surface", 0.0)
-        # The block of both nodes of a pair, or −1.
-        blocks_of = np.where(one == pairs[:, 1] // _MOST_NODES, one, -1)
-        for block, start in enumerate(range(0, n_nodes, _MOST_NODES)):
-            yield Progress("Surface", 0.8 * start / n_nodes)
-            inside = pairs[blocks_of == block] - start
-            yield Progress("Surface", 0.8 * start / n_nodes)
-            nodes = found[start : start + _MOST_NODES]
-            graph = graph_of(inside, len(nodes))
-            yield Progress("Surface", 0.8 * start / n_nodes)
-            n_more, nodes[:] = connected_components(graph, directed=False)
-            nodes += n_found
-            n_found += n_more
-            yield Progress("Surface", 0.8 * start / n_nodes)
-        pairs = found[pairs[blocks_of == -1]]
-    graph = graph_of(pairs, n_found)
-    yield Progress("Surface", 0.9)
-    components: NDArray[np.int64] = connected_components(graph, directed=False)[1]
-    return components.astype(np.int64)[found]
-
-
-def components_at_once(
-    pairs: NDArray[np.integer[Any]], n_nodes: int
-) -> NDArray[np.int64]:
-    """Return the connected component of each node of a small graph, (`n_nodes`,).
-
-    Parameters
-    ----------
-    pairs : (E, 2) int
-        Nodes that are connected.
-    n_nodes : int
-    """
-    keys = np.unique(pairs[:, 0].astype(np.int64) * n_nodes + pairs[:, 1])
-    pairs = np.stack(np.divmod(keys, n_nodes), axis=1)
-    if len(pairs) > _FEW_PAIRS:
-        graph = graph_of(pairs, n_nodes)
-        return connected_components(graph, directed=False)[1].astype(np.int64)
-    found = np.arange(n_nodes)
-    for one, other in pairs:
-        low, high = sorted((found[one], found[other]))
-        found[found == high] = low
-    return np.unique(found, return_inverse=True)[1].reshape(-1)
-
-
-def components_of_labels(
-    graph: sparse.csr_array, arcs: NDArray[np.int64], labels: NDArray[np.int64]
-) -> NDArray[np.int32]:
-    """Return the component of each node where only equal labels are connected, (N,).
-
-    Parameters
-    ----------
-    graph : (N, N) sparse
-        Adjacency matrix.
-    arcs : (2, A) int
-        Row and column of each stored entry, in 64 bits: NumPy is quicker so.
-    labels : (N,) int
-    """
-    alike = labels[arcs[0]] == labels[arcs[1]]
-    starts = np.zeros(len(alike) + 1, dtype=np.int32)
-    np.cumsum(alike, out=starts[1:])
-    # Any numbers will do as the weights of the arcs that are left.
-    rest = graph.data[: starts[-1]], graph.indices[alike], starts[graph.indptr]
-    within = sparse.csr_array(rest, graph.shape)
-    found: NDArray[np.int32] = connected_components(within, directed=False)[1]
-    return found
-
-
-def graph_of(pairs: NDArray[np.integer[Any]], n_nodes: int) -> sparse.csr_array:
-    """Return the adjacency matrix (n_nodes, n_nodes) of pairs of nodes.
-
-    Parameters
-    ----------
-    pairs : (E, 2) int
-    n_nodes : int
-    """
-    return sparse.csr_array(
-        (np.ones(len(pairs)), tuple(pairs.T)), shape=(n_nodes, n_nodes)
-    )
 
 
 def _order(numbers: NDArray[np.int32]) -> NDArray[np.int32]:

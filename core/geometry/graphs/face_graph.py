@@ -11,19 +11,13 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
-from ..steps.memo import Memo, digest
-from ..steps.progress import Progress, Steps, within
-from ..steps.rows import blocks
-from .connectivity import (
-    Edges,
-    components_at_once,
-    components_of_labels,
-    graph_of,
-    lengths_of_sides,
-    shared_edges_in_steps,
-)
-from .frames import unit
-from .mesh import TriangleMesh
+from ...steps.memo import Memo, digest
+from ...steps.progress import Progress, Steps, within
+from ...steps.rows import blocks
+from ..frames import unit
+from ..mesh import TriangleMesh
+from .components import components_at_once, components_of_labels, graph_of
+from .edges import Edges, lengths_of_sides, shared_edges_in_steps
 
 # A seam along an edge costs exp(-CREASE * bend) of the edge's length; `bend` is its
 # concave angle in radians.

@@ -1,0 +1,1 @@
+"""Graphs of the input: edges of triangles, faces that touch, patches of faces."""
