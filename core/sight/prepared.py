@@ -181,11 +181,13 @@ def _prepare_mesh(
     """Prepare a mesh, given normalized, too: shells, orientation, what rays see."""
     nodes = np.arange(mesh.n_polygons)
     edges = yield from within(sort_edges(mesh), 0.0, 0.2)
-    single, rows = without_doubles(mesh) if edges.crowded else (mesh, nodes[:0])
+    single, rows = mesh, nodes[:0]
+    if edges.crowded:
+        single, rows = yield from within(without_doubles(mesh), 0.2, 0.3)
     if single is mesh:
-        shells = yield from within(find_shells(mesh, edges), 0.2, 0.4)
+        shells = yield from within(find_shells(mesh, edges), 0.3, 0.4)
     else:
-        shells = yield from within(shells_of(single), 0.2, 0.4)
+        shells = yield from within(shells_of(single), 0.3, 0.4)
     turned, notes = yield from within(oriented(single, shells), 0.4, 0.6)
     targets = yield from within(set_apart(turned, shells), 0.6, 0.7)
     yield from within(targets.normals_in_steps(), 0.7, 0.8)

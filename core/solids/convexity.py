@@ -9,9 +9,11 @@ from scipy.spatial import ConvexHull, QhullError
 from ..geometry.frames import heights_above
 from ..geometry.graphs.edges import Edges
 from ..geometry.mesh import TriangleMesh
+from ..steps.beside import beside
 from ..steps.progress import Progress, Steps
-from ..steps.rows import blocks
+from ..steps.rows import blocks, used_rows
 from .shells import Shells
+from .volume import signed_volume
 
 # Heights that count as rounding, in diagonals: vertices are in single precision. Rays
 # start a thousand times deeper below the surface.
@@ -50,18 +52,20 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     if (yield from _has_concave_edge(mesh, edges)):
         return False
     yield Progress("Surface", 1.0)
-    corners = mesh.vertices[mesh.triangles]
+    used = yield from used_rows(mesh.triangles, len(mesh.vertices))
+    points = mesh.vertices[used]
     try:
-        hull = ConvexHull(mesh.vertices[np.unique(mesh.triangles)])
+        hull = yield from beside(lambda: ConvexHull(points), "Surface")
     except QhullError:  # it is flat
         return False
-    a, b, c = np.moveaxis(corners - mesh.center, 1, 0)
-    volume = float(np.einsum("td,td->", a, np.cross(b, c))) / 6
+    volume = yield from signed_volume(mesh)
     if abs(volume - hull.volume) > _SAME_VOLUME * hull.volume:
         return False
-    within = np.setdiff1d(np.arange(len(hull.points)), hull.vertices)
+    inner = np.setdiff1d(np.arange(len(hull.points)), hull.vertices)
+    if not len(inner):
+        return True
     planes = np.unique(hull.equations, axis=0)  # Qhull gives one for each triangle
-    steps = _on_planes(hull.points[within], planes, _ROUNDING * mesh.diagonal)
+    steps = _on_planes(hull.points[inner], planes, _ROUNDING * mesh.diagonal)
     return (yield from steps)
 
 

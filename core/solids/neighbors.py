@@ -10,6 +10,7 @@ from ..geometry.graphs.edges import Edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
+from .volume import signed_volume
 
 # Angle between triangles on top of each other, in radians: more than rounding.
 _SAME_ANGLE = 1e-3
@@ -78,7 +79,7 @@ def _pairs_at_crowded(
     mesh: TriangleMesh, edges: Edges, forward: NDArray[np.bool_]
 ) -> Steps[_Sides]:
     """Return pairs (2, N) of sides at edges of more than two triangles."""
-    inwards = yield from _inwards(mesh)
+    inside_out = (yield from signed_volume(mesh)) < 0
     crowded = np.flatnonzero((edges.uses > 2) & (edges.uses <= _MOST_USES))
     uses, first = edges.uses[crowded], edges.first[crowded]
     pairs = [np.zeros((2, 0), dtype=np.int32)]
@@ -92,28 +93,18 @@ def _pairs_at_crowded(
             if balanced.any():
                 order = np.argsort(~ahead[balanced], axis=1, kind="stable")
                 some = np.take_along_axis(sides[balanced], order, axis=1)
-                pairs.append(_least_apart(mesh, some, inwards))
+                pairs.append(_least_apart(mesh, some, inside_out))
             pairs.append(_with_own_vertices(mesh, sides[~balanced]))
     return np.concatenate(pairs, axis=1)
 
 
-def _inwards(mesh: TriangleMesh) -> Steps[float]:
-    """Return -1 if normals point outwards on the whole, 1 if they point inwards."""
-    volume = 0.0
-    for rows in blocks(len(mesh.triangles)):
-        yield Progress("Surface", 0.6)
-        a, b, c = np.moveaxis(mesh.vertices[mesh.triangles[rows]], 1, 0)
-        volume += float(np.einsum("td,td->", a - mesh.center, cross(b - a, c - a)))
-    return 1.0 if volume < 0 else -1.0
-
-
-def _least_apart(mesh: TriangleMesh, sides: _Sides, inwards: float) -> _Sides:
+def _least_apart(mesh: TriangleMesh, sides: _Sides, inside_out: bool) -> _Sides:
     """Return pairs (2, N) of sides at E edges that have the least inside between them.
 
     `sides` (E, 2H) are those that run along each edge one way, then the other way.
     """
     one, other = np.split(sides, 2, axis=1)
-    angles = _angles(mesh, one, other, inwards)
+    angles = _angles(mesh, one, other, inside_out)
     n_edges, half = one.shape
     edges = np.arange(n_edges)
     pairs = []
@@ -125,7 +116,7 @@ def _least_apart(mesh: TriangleMesh, sides: _Sides, inwards: float) -> _Sides:
 
 
 def _angles(
-    mesh: TriangleMesh, one: _Sides, other: _Sides, inwards: float
+    mesh: TriangleMesh, one: _Sides, other: _Sides, inside_out: bool
 ) -> NDArray[np.float64]:
     """Return the angles between triangles at E edges, through the inside, (E, H, H).
 
@@ -142,10 +133,11 @@ def _angles(
         return unit(offsets.reshape(-1, 3)).reshape(offsets.shape)
 
     ahead, back = away(one), away(other)
-    # Seen along the edge, a normal is a quarter turn from its triangle.
-    normals = np.cross(along, ahead)
+    inwards = cross(ahead, np.broadcast_to(along, ahead.shape))
+    if inside_out:
+        inwards = -inwards
     angles = np.arctan2(
-        inwards * np.einsum("ehd,egd->ehg", normals, back),
+        np.einsum("ehd,egd->ehg", inwards, back),
         np.einsum("ehd,egd->ehg", ahead, back),
     )
     return np.where(angles < _SAME_ANGLE, angles + 2 * np.pi, angles)

@@ -9,12 +9,15 @@ import shapes
 from computed import decompose, measure, prepare
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.solids.doubled import (
-    with_doubles,
-    without_doubles,
-)
+from weak_convex_decomposition.core.solids import doubled
+from weak_convex_decomposition.core.solids.doubled import with_doubles
+from weak_convex_decomposition.core.steps.progress import run
 
 BOX = shapes.box()
+
+
+def without_doubles(mesh):
+    return run(doubled.without_doubles(mesh))
 
 
 def test_a_mesh_without_doubles_stays_itself():
