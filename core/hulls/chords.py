@@ -21,7 +21,7 @@ _GOLDEN, _SILVER = (5**0.5 - 1) / 2, 2**0.5 - 1
 
 def chords_along(
     crossings: LineCrossings, corners: NDArray[np.float64], axis: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
     """Return the chords along an axis, split into short ones.
 
     Lines form a Fibonacci lattice. A line is inside where it has entered more triangles
@@ -42,6 +42,8 @@ def chords_along(
         A point of each chord.
     volumes : (C,) float
         Volume of the prism around each chord. Their sum estimates the volume inside.
+    depths : (C,) int
+        Number of solids that each chord is inside.
     """
     sides = TURNS[axis, :2]
     low, high = corners.min(axis=0), corners.max(axis=0)
@@ -58,7 +60,8 @@ def chords_along(
     places = np.empty((len(chord), 3))
     places[:, axis] = heights[inside][chord] + shares * lengths[chord]
     places[:, sides] = spots[line]
-    return places, (lengths / np.maximum(n_pieces, 1))[chord] * area
+    volumes = (lengths / np.maximum(n_pieces, 1))[chord] * area
+    return places, volumes, depths[inside][chord]
 
 
 def _lattice(

@@ -50,8 +50,8 @@ class Solid:
         Distance between neighboring samples.
     closed : bool
         Whether all shells are closed, so that any line tells what is inside.
-    single : bool
-        Whether there is one shell alone.
+    overlap : float
+        Its volume along the chords, as a share of the sum of those of its shells.
     """
 
     mesh: TriangleMesh
@@ -62,7 +62,7 @@ class Solid:
     volumes: NDArray[np.float64]
     spacing: float
     closed: bool
-    single: bool
+    overlap: float
 
     @property
     def volume(self) -> float:
@@ -71,11 +71,14 @@ class Solid:
 
     @property
     def true_volume(self) -> float:
-        """Volume of the solid: exact if it is one closed shell, however thin."""
+        """Volume of the solid: exact if it is closed and no shells overlap.
+
+        However thin it is: lines may miss a wire. What overlaps is measured along them.
+        """
         mass = None
-        if self.closed and self.single:
+        if self.closed:
             mass = mass_of_surface(self.mesh.vertices, self.mesh.triangles, 1.0)
-        return mass.mass if mass else self.volume
+        return mass.mass * self.overlap if mass else self.volume
 
     @cached_property
     def corners(self) -> NDArray[np.float64]:
@@ -167,14 +170,16 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     corners = mesh.vertices[mesh.triangles]
     vertices = np.unique(corners.reshape(-1, 3), axis=0)
     yield Progress("Solid", 0.0)
-    crossings, places, shares = LineCrossings(corners), [], []
+    crossings, along = LineCrossings(corners), []
     for axis in range(3):
         yield Progress("Solid", axis / 3)
-        along, share = chords_along(crossings, vertices, axis)
-        places.append(along)
-        shares.append(share)
+        along.append(chords_along(crossings, vertices, axis))
+    found = (np.concatenate(each) for each in zip(*along, strict=True))
+    chords, volumes, depths = found
+    sum_of_shells = float(volumes @ depths)
+    overlap = float(volumes.sum()) / sum_of_shells if sum_of_shells else 1.0
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
-    chords, volumes = np.concatenate(places), np.concatenate(shares) / 3
+    volumes = volumes / 3
     if volumes.sum() < _NO_VOLUME:
         chords, volumes = chords[:0], volumes[:0]
     return Solid(
@@ -186,5 +191,5 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         volumes,
         float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
         bool(shells.closed.all()),
-        len(shells.closed) == 1,
+        overlap,
     )

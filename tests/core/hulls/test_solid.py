@@ -51,12 +51,33 @@ def test_sides_of_boxes_do_not_mislead_the_volume(arm):
     assert leg == pytest.approx(arm - 1, rel=0.01)
 
 
-def test_the_true_volume_of_one_closed_shell_however_thin():
-    bracket = shapes.l_prism(100.0)
-    assert solid_of(bracket, 0).true_volume == pytest.approx(199, rel=1e-6)
-    twins = shapes.joined(shapes.box(), shapes.box((0.5, 0, 0), (1.5, 1, 1)))
-    solid = solid_of(twins, 0)  # what overlaps counts once
-    assert solid.true_volume == solid.volume == pytest.approx(1.5, rel=0.04)
+POLES = [shapes.box((i / 5, 0, 0), (i / 5 + 0.004, 0.004, 1)) for i in range(5)]
+TWINS = shapes.joined(shapes.box(), shapes.box((0.5, 0, 0), (1.5, 1, 1)))
+
+
+@pytest.mark.parametrize(
+    ("mesh", "volume", "error"),
+    [
+        (shapes.l_prism(100.0), 199, 1e-6),
+        (shapes.joined(*POLES), 5 * 0.004**2, 1e-6),
+        (changes.moved(shapes.hollow_sphere(0.3), (1, 0.1, 0.01)), None, 1e-6),
+        (TWINS, 1.5, 0.01),  # what overlaps counts once
+        (shapes.joined(TWINS, changes.moved(POLES[0], offset=(2, 0, 0))), 1.5, 0.01),
+    ],
+    ids=["thin L", "poles", "flat with a cavity", "twins", "twins and a pole"],
+)
+def test_the_true_volume_however_thin(mesh, volume, error):
+    turned = changes.moved(mesh, rotation=changes.any_rotation(1))
+    if volume is None:
+        a, b, c = np.moveaxis(mesh.vertices[mesh.triangles], 1, 0)
+        volume = np.einsum("td,td->", a, np.cross(b, c)) / 6
+    assert solid_of(turned, 0).true_volume == pytest.approx(volume, rel=error)
+
+
+def test_the_volume_of_an_open_solid_is_measured():
+    """Lines along two of the axes enter and leave a box without its top."""
+    solid = solid_of(shapes.open_box(), 0)
+    assert solid.true_volume == solid.volume == pytest.approx(2 / 3, rel=0.01)
 
 
 def test_chords_are_inside():
