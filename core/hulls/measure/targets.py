@@ -68,9 +68,8 @@ class Targets:
     def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
         found = np.empty(len(points))
-        left, n_near = np.arange(len(points)), 0
-        while len(left):
-            n_near = min(max(4 * n_near, _FIRST), len(self._origins))
+        left, n_near = np.arange(len(points)), _FIRST
+        while len(left) and n_near < len(self._corners):
             unsure = [left[:0]]
             for block in blocks(len(left), _MOST_PAIRS // n_near):
                 some = left[block]
@@ -79,7 +78,12 @@ class Targets:
                 found[some] = _from_each(points[some, None], near).min(axis=(1, 2))
                 # Fragments whose centers are farther away hold nothing nearer.
                 unsure.append(some[found[some] > apart[:, -1] - self._reach])
-            left = np.concatenate(unsure) if n_near < len(self._origins) else left[:0]
+            left, n_near = np.concatenate(unsure), 4 * n_near
+        # By now, there are no more triangles than fragments to look at.
+        for block in blocks(len(left), _MOST_PAIRS // len(self._corners)):
+            some = left[block]
+            every = np.broadcast_to(self._corners, (len(some), *self._corners.shape))
+            found[some] = _from_each(points[some, None], every).min(axis=(1, 2))
         return found
 
 

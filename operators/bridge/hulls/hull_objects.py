@@ -12,7 +12,6 @@ import numpy as np
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.primitives import CollisionShape
-from ....core.parameters.hull_names import hull_names
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..homes import new_collection
@@ -22,6 +21,7 @@ from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..read.shape import stretch
 from ..stored.names import HULL_TAG
 from ..stored.noted_hulls import write_hull_record
+from .fitting_names import names_that_fit
 from .listed import hulls_of
 from .looks import keep_piece
 from .lost_hulls import (
@@ -57,10 +57,11 @@ def write_hulls(
     Raises
     ------
     DecompositionError
-        If another object has a name that a hull needs. Nothing is changed then.
+        If another object has a name that a hull needs, or a name cannot be given.
+        Nothing is changed then.
     """
     kinds = [shape.kind for shape in found.shapes]
-    names = hull_names(parameters.naming, parameters.template, obj.name, kinds)
+    names = names_that_fit(obj, parameters.naming, parameters.template, kinds)
     _check_free(names, obj)
     erase_hulls(obj)
     collection = new_collection(obj, f"{obj.name} hulls")

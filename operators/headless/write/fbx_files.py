@@ -12,6 +12,7 @@ import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
+from ...bridge.hulls.fitting_names import names_that_fit
 from ...bridge.stored.noted_hulls import figures_on
 from ..addons import FBX, enable
 from ..shear import shear_in_meshes
@@ -90,7 +91,7 @@ def _unreal_names(hulls: Sequence[bpy.types.Object]) -> list[str]:
     names: dict[bpy.types.Object, str] = {}
     for obj, its_hulls in hulls_by_owner(hulls).items():
         kinds = [figures_on(hull).get("kind", "HULL") for hull in its_hulls]
-        plain = hull_names("PLAIN", "", obj.name, kinds)
+        plain = names_that_fit(obj, "PLAIN", "", kinds)
         unreal = hull_names("UNREAL", "", obj.name, kinds)
         for hull, usual, name in zip(its_hulls, plain, unreal, strict=True):
             names[hull] = name if hull.name == usual else hull.name

@@ -163,6 +163,19 @@ def test_a_name_that_is_taken_changes_nothing(suzanne):
     assert hulls_of(suzanne) == hulls
 
 
+def test_long_names_keep_their_numbers(suzanne):
+    """Blender would cut them off."""
+    suzanne.name = "é" * 200
+    most = len(suzanne.name.encode())  # fewer in Blender 4.2
+    build(max_hulls=2)
+    names = [hull.name for hull in hulls_of(suzanne)]
+    assert [name.strip("é") for name in names] == [" hull 01", " hull 02"]
+    assert most - 1 <= len(names[0].encode()) <= most + 1
+    with pytest.raises(RuntimeError, match=rf"have {most + 7} bytes.* by 6, or"):
+        build(max_hulls=2, naming="UNREAL")
+    assert [hull.name for hull in hulls_of(suzanne)] == names
+
+
 def test_edit_mode_is_refused(suzanne):
     in_mode(suzanne, "EDIT")
     with pytest.raises(RuntimeError, match="switch the mode"):
