@@ -41,6 +41,10 @@ class Samples:
         """Return the number of samples."""
         return len(self.positions)
 
+    def at(self, rows: slice | NDArray[np.int64]) -> Samples:
+        """Return some of the samples."""
+        return Samples(self.positions[rows], self.normals[rows], self.triangles[rows])
+
 
 def take_samples(
     mesh: TriangleMesh,

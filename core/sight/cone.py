@@ -13,7 +13,6 @@ from ..geometry.frames import cone_directions, fan_directions, with_normals
 from ..geometry.sampling import Samples
 from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps
-from .lines import RAYS_PER_STEP
 from .pair_visibility import PairVisibility, pair_counts
 from .prepared import PreparedShape
 from .viewpoints import Viewpoints
@@ -88,9 +87,8 @@ def see_cones(
     scale = float(np.sqrt(marcher.area / n_samples))
     tree = cKDTree(with_normals(samples.positions, samples.normals, scale))
     seen_and_hidden: tuple[Pairs, Pairs] = [], []
-    for start in range(0, len(sources), RAYS_PER_STEP):
-        yield Progress("Lines of sight", start / len(sources))
-        rays = slice(start, start + RAYS_PER_STEP)
+    for rays in marcher.in_turns(len(sources)):
+        yield Progress("Lines of sight", rays.start / len(sources))
         origins, depths = views.positions[sources[rays]], views.depths[sources[rays]]
         hits = marcher.surfaces_along(origins, directions[rays], depths)
         for order, (rows, points, triangles) in enumerate(hits):

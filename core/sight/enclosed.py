@@ -15,8 +15,7 @@ from scipy import ndimage
 from ..geometry.frames import cone_directions
 from ..solids.shells import GAP
 from ..steps.progress import Progress, Steps, within
-from .lines import RAYS_PER_STEP
-from .ray_march import PASS, RayMarcher
+from .ray_march import PASS, RAYS_PER_STEP, RayMarcher
 
 # Cells along the longest side of the bounding box.
 _CELLS = 28

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps
-from .ray_march import RayMarcher
+from .ray_march import MOST_CASTS, RAYS_PER_STEP, RayMarcher
 from .viewpoints import Viewpoints
 
-# Rays between two reports of progress, about 20 ms.
-RAYS_PER_STEP = 4096
+# Lines of the first step of all, which tells how many rays a line takes.
+_FIRST_LINES = 512
 
 
 @dataclass(eq=False)
@@ -39,6 +39,13 @@ class RayBudget:
     def lines_left(self) -> float:
         """Number of lines that the rays left are expected to suffice for."""
         return self.left * max(self.n_lines, 1) / max(self.n_rays, 1)
+
+    @property
+    def lines_per_step(self) -> int:
+        """Number of lines to cast between two reports: fewer through many shells."""
+        if not self.n_rays:
+            return _FIRST_LINES
+        return max(min(RAYS_PER_STEP, MOST_CASTS * self.n_lines // self.n_rays), 1)
 
     def spend(self, n_lines: int, n_rays: int) -> None:
         """Note that some lines took some rays."""
@@ -156,7 +163,8 @@ def cast_lines(
     visible, done = np.zeros(len(first), dtype=bool), 0
     while done < len(first) and budget.lines_left >= 1:
         yield Progress("Lines of sight", done / len(first))
-        stop = done + int(min(RAYS_PER_STEP, budget.lines_left, len(first) - done))
+        most = min(budget.lines_per_step, len(first) - done)
+        stop = done + int(min(budget.lines_left, most))
         before = marcher.n_cast
         visible[done:stop] = _sees(marcher, views, first[done:stop], second[done:stop])
         budget.spend(stop - done, marcher.n_cast - before)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import TypeVar
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +13,7 @@ from ..results.views import View
 from ..steps.progress import Progress, Steps, run, within
 from .lines import see_pairs
 from .prepared import PreparedShape
-from .viewpoints import Viewpoints, viewpoints
-
-Rows = TypeVar("Rows", Samples, Viewpoints)
+from .viewpoints import Viewpoints, joined, viewpoints
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +64,8 @@ class PointViewer:
         visible = run(
             see_pairs(
                 marcher,
-                _joined(self.samples, spot),
-                _joined(self.views, viewpoints(marcher, spot)),
+                joined(self.samples, spot),
+                joined(self.views, run(viewpoints(marcher, spot))),
                 np.full(n_samples, n_samples),
                 np.arange(n_samples),
             )
@@ -100,19 +97,11 @@ class PointViewer:
         # nearest to the ray.
         offsets = self.samples.positions - origin
         across = offsets - np.outer(offsets @ direction, direction)
-        nearest = [np.linalg.norm(across, axis=1).argmin()]
-        chosen = (getattr(self.samples, field.name) for field in fields(Samples))
-        return Samples(*(values[nearest] for values in chosen))
+        nearest = np.linalg.norm(across, axis=1).argmin(keepdims=True)
+        return self.samples.at(nearest)
 
     def _in_units(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         return positions * self.shape.diagonal + self.shape.center
-
-
-def _joined(rows: Rows, more: Rows) -> Rows:
-    """Return samples or viewpoints followed by more of the same kind."""
-    names = [field.name for field in fields(rows)]
-    pairs = [(getattr(rows, name), getattr(more, name)) for name in names]
-    return type(rows)(*map(np.concatenate, pairs))
 
 
 def point_viewer_in_steps(
@@ -135,5 +124,5 @@ def point_viewer_in_steps(
     rng = np.random.default_rng(parameters.seed)
     samples = sample_surface(shape.targets, parameters.samples, rng)
     yield from within(shape.marcher.caster_in_steps(), 0.2, 0.8)
-    yield Progress("Lines of sight", 0.8)
-    return PointViewer(shape, samples, viewpoints(shape.marcher, samples), shape.notes)
+    views = yield from within(viewpoints(shape.marcher, samples), 0.8, 1.0)
+    return PointViewer(shape, samples, views, shape.notes)

@@ -18,6 +18,12 @@ from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Steps, run
 from .ray_caster import MakeCaster, RayCaster, caster_in_steps
 
+# Rays between two reports of progress, about 20 ms.
+RAYS_PER_STEP = 4096
+# Rays are cast anew behind each triangle that they pass: at most so many in a step.
+MOST_CASTS = 4 * RAYS_PER_STEP
+# Rows of the first step of all, which tells how many casts a row takes.
+_FIRST_ROWS = 64
 # A ray continues this far behind a triangle that it passes, in diagonals.
 PASS = 1e-6
 # Most triangles that a ray passes, so that a stack of faces cannot hold it up forever.
@@ -142,6 +148,22 @@ class RayMarcher:
         """Cast rays, as `RayCaster.first_hit` does, and count them."""
         self.n_cast += len(rays[0])
         return self.caster.first_hit(*rays)
+
+    def in_turns(self, n_rows: int) -> Iterator[slice]:
+        """Yield slices of rows, each a step's worth of work.
+
+        Parameters
+        ----------
+        n_rows : int
+            Each takes some rays: what is cast for one slice tells how long the next is.
+        """
+        start, size = 0, _FIRST_ROWS
+        while start < n_rows:
+            stop, before = min(start + size, n_rows), self.n_cast
+            yield slice(start, stop)
+            n_cast = max(self.n_cast - before, 1)
+            size = max(MOST_CASTS * (stop - start) // n_cast, 1)
+            start = stop
 
     def surfaces_along(
         self,

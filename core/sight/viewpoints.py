@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.frames import frames
 from ..geometry.sampling import Samples
+from ..steps.progress import Progress, Steps
 from .ray_march import PASS, RayMarcher
 
 # Depth of viewpoints below the surface, in diagonals of the bounding box.
@@ -17,6 +19,9 @@ _OFFSET = 1e-3
 _OFFSET_OF_SPLAT = 0.5
 # Largest depth as a share of the thickness, for thin shapes.
 _OFFSET_OF_THICKNESS = 0.1
+
+
+Rows = TypeVar("Rows", Samples, "Viewpoints")
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +43,7 @@ class Viewpoints:
     enclosed: NDArray[np.bool_]
 
 
-def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
+def viewpoints(marcher: RayMarcher, samples: Samples) -> Steps[Viewpoints]:
     """Move samples below the surface and count the closed shells around them.
 
     Parameters
@@ -50,9 +55,27 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Viewpoints:
 
     Returns
     -------
-    Viewpoints
+    Steps of Viewpoints
         One for each sample.
     """
+    found = []
+    for rows in marcher.in_turns(len(samples)):
+        yield Progress("Lines of sight", rows.start / len(samples))
+        found.append(_of_some(marcher, samples.at(rows)))
+    return joined(*found)
+
+
+def joined(*parts: Rows) -> Rows:
+    """Return samples or viewpoints, followed by more of the same kind."""
+    columns = (
+        np.concatenate([getattr(part, field.name) for part in parts])
+        for field in fields(parts[0])
+    )
+    return type(parts[0])(*columns)
+
+
+def _of_some(marcher: RayMarcher, samples: Samples) -> Viewpoints:
+    """Return the viewpoints of some samples at once."""
     outwards = _tripod_directions(samples.normals)
     nudge = PASS * marcher.diagonal
     inwards = -samples.normals

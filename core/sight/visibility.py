@@ -125,7 +125,7 @@ def find_lines_of_sight(
     samples = _samples_of(shape, parameters, rng)
     yield from within(shape.marcher.caster_in_steps(), 0.0, 0.01)
     yield Progress("Ray tree", 0.01)
-    views = viewpoints(shape.marcher, samples)
+    views = yield from within(viewpoints(shape.marcher, samples), 0.01, 0.02)
     looking = shape.marcher, samples, views
     n_rays = parameters.rays
     if parameters.sight == "CONE":

@@ -23,7 +23,7 @@ from weak_convex_decomposition.core.steps.progress import run
 def look_at(mesh, n_samples):
     shape = prepare(mesh)
     samples = sample_surface(shape.targets, n_samples, np.random.default_rng(0))
-    return shape, samples, viewpoints(shape.marcher, samples)
+    return shape, samples, run(viewpoints(shape.marcher, samples))
 
 
 def matrices(found):

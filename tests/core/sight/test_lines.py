@@ -17,7 +17,7 @@ def look_at(mesh, n_samples=60, seed=0):
     mesh = mesh.normalized()
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
     scene = marcher_of(mesh)
-    return scene, samples, viewpoints(scene, samples)
+    return scene, samples, run(viewpoints(scene, samples))
 
 
 def see(mesh, n_samples=60, seed=0):
