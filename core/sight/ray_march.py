@@ -21,7 +21,7 @@ from .ray_caster import MakeCaster, RayCaster, caster_in_steps
 # Rays between two reports of progress, about 20 ms.
 RAYS_PER_STEP = 4096
 # Rays are cast anew behind each triangle that they pass: at most so many in a step.
-MOST_CASTS = 4 * RAYS_PER_STEP
+MOST_CASTS = 2 * RAYS_PER_STEP
 # Rows of the first step of all, which tells how many casts a row takes.
 _FIRST_ROWS = 64
 # A ray continues this far behind a triangle that it passes, in diagonals.

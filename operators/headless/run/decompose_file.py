@@ -64,7 +64,8 @@ def decompose_file(
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
         output = attempts.written(
-            targets.output, lambda file: save(file, up, hull_objects)
+            targets.output,
+            lambda file: _warn(save(file, up, hull_objects), file, screen),
         )
         picture = attempts.written(
             targets.picture, lambda file: save_picture(file, objects, trial.engine())
@@ -115,5 +116,10 @@ def _write_hulls(
     screen: Screen,
 ) -> None:
     """Write hulls to a file of their own, and show what is to be said of it."""
-    for note in save_hulls(file, hulls, up, request.body_parameters):
+    _warn(save_hulls(file, hulls, up, request.body_parameters), file, screen)
+
+
+def _warn(notes: Sequence[str], file: Path, screen: Screen) -> None:
+    """Show what is to be said of a file."""
+    for note in notes:
         screen.warning(note, file.name)

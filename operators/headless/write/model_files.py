@@ -19,11 +19,13 @@ from .collider_marks import mark_glb
 from .fbx_files import write_fbx
 from .obj_files import restore_digits
 from .one_scene import one_scene, written_meshes
-from .ply_copies import ply_copies
+from .painted_copies import clouds_without_parts, painted_clouds, ply_copies
 from .usd_files import write_usd
 
 
-def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> None:
+def save(
+    path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()
+) -> tuple[str, ...]:
     """Write the scene to `path` in the format of its ending.
 
     An existing file is replaced once the new one is complete.
@@ -37,6 +39,11 @@ def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> 
     hulls : sequence of Object, optional
         Hulls in the scene, which belong into the file.
 
+    Returns
+    -------
+    tuple of str
+        Sentences to the user.
+
     Raises
     ------
     DecompositionError
@@ -46,6 +53,7 @@ def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> 
     companion = companion_of(path, is_model=True)
     companions = [companion] if companion else []
     bpy.context.view_layer.update()
+    notes = clouds_without_parts(ending)
     with explaining(path, "written"):
         if companion:
             check_companion(path, companion)
@@ -56,6 +64,7 @@ def save(path: Path, up: str | None, hulls: Sequence[bpy.types.Object] = ()) -> 
                 _EXPORTERS[ending](unfinished, up_in(ending, up))
             if companion:
                 _name_materials(unfinished, companion.name)
+    return notes
 
 
 def _name_materials(unfinished: Path, name: str) -> None:
@@ -74,12 +83,14 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
     """Export .glb; hulls are marked as colliders."""
     enable(GLTF)
     # The extras hold the record, which is the custom property "wcd" of each object.
-    with _smooth(hulls), one_scene():
+    with _smooth(hulls), one_scene(), painted_clouds() as with_points:
         bpy.ops.export_scene.gltf(
             filepath=str(path),
             export_format="GLB",
             export_extras=True,
             use_active_scene=True,
+            use_mesh_vertices=with_points,
+            export_attributes=with_points,
         )
     if hulls:
         mark_glb(path)

@@ -14,7 +14,7 @@ import bpy
 import pytest
 from checkout import PACKAGE, ROOT
 from headless.command import content
-from weak_convex_decomposition.operators.headless.write.ply_copies import ply_copies
+from weak_convex_decomposition.operators.headless.write.painted_copies import ply_copies
 
 OUTPUTS = ("a.glb", "b.obj", "c.ply", "j.fbx", "k.usd")
 HULLS = ("d.glb", "e.obj", "f.stl", "g.usd", "h.urdf", "i.xml")

@@ -39,3 +39,29 @@ def test_ply_has_colors_given_by_hand(tmp_path, recolored):
     colors = trimesh.load(tmp_path / "a.ply").colors[:, :3].astype(int)
     given = np.abs(colors - SRGB).max(axis=1) <= 1
     assert given.tolist() == (part_labels(recolored) == 1).tolist()
+
+
+def test_glb_has_points_colors_and_part_numbers(tmp_path, recolored, checked_glb):
+    before, name = recolored.data, recolored.data.name
+    names = set(bpy.data.meshes.keys())
+    assert save(tmp_path / "a.glb", None) == ()
+    assert (recolored.data, before.name) == (before, name)
+    assert set(bpy.data.meshes.keys()) == names
+    scene, arrays = checked_glb(tmp_path / "a.glb")
+    (mesh,) = (each for each in scene["meshes"] if each["name"] == name)
+    attributes = mesh["primitives"][0]["attributes"]
+    numbers = arrays[attributes["_PART"]]
+    assert numbers.ravel().tolist() == part_labels(recolored).tolist()
+    if bpy.app.version < (5, 0, 0):
+        assert "COLOR_0" not in attributes  # they would be damaged
+        return
+    colors = arrays[attributes["COLOR_0"]]
+    whole = 1.0 if colors.dtype.kind == "f" else np.iinfo(colors.dtype).max
+    given = np.abs(colors[:, :3] / whole - COLOR).max(axis=1) < 1e-4
+    assert given.tolist() == (part_labels(recolored) == 1).tolist()
+
+
+@pytest.mark.parametrize("ending", [".obj", ".fbx"])
+def test_formats_without_parts_of_points_say_so(tmp_path, recolored, ending):
+    (note,) = save(tmp_path / f"a{ending}", None)
+    assert note.startswith(f"points is a point cloud: {ending} does not hold its parts")

@@ -1,7 +1,7 @@
-"""Copies of objects for .ply: part numbers and colors on the vertices.
+"""Copies with the numbers and colors of parts on vertices, for .ply and clouds in .glb.
 
-The format has no colors of faces. A vertex on the seam between parts is therefore
-copied once for each part, so that every face has one color.
+.ply has no colors of faces. A vertex on the seam between parts is therefore copied once
+for each part, so that every face has one color.
 """
 
 from __future__ import annotations
@@ -30,8 +30,16 @@ from ...bridge.stored.names import PART_LAYER
 from ...bridge.views.face_sets_and_colors import point_colors
 from .one_scene import written_meshes
 
-# Name of the property that holds part numbers in the file.
+# Name of the property that holds part numbers in a .ply file.
 _NUMBER = "part"
+# The same in .glb, where names of attributes have to begin like this.
+_GLB_NUMBER = "_PART"
+# Blender 4.2 writes colors of points that no reader of .glb can read.
+_GLB_HAS_COLORS = bpy.app.version >= (5, 0, 0)
+# Ending of the name of a mesh while another one has its name.
+_FORMER = ".former"
+# Formats whose points have neither colors nor materials.
+_NO_POINTS = (".obj", ".fbx")
 
 
 @contextmanager
@@ -65,6 +73,40 @@ def ply_copies() -> Iterator[bool]:
             bpy.data.meshes.remove(copy.data)  # removes the object as well
 
 
+@contextmanager
+def painted_clouds() -> Iterator[bool]:
+    """Paint the clouds that are meshes by part; take it back at the end.
+
+    Yields whether there are any.
+    """
+    clouds = [obj for obj in written_meshes() if is_cloud(obj) and obj.type == "MESH"]
+    before = {obj: obj.data for obj in clouds}
+    names = {mesh: mesh.name for mesh in before.values()}
+    try:
+        for obj, mesh in before.items():
+            obj.data = _painted_points(obj, _GLB_NUMBER, _GLB_HAS_COLORS)
+            mesh.name += _FORMER
+            obj.data.name = names[mesh]  # files have it
+        yield bool(before)
+    finally:
+        for obj, mesh in before.items():
+            painted, obj.data = obj.data, mesh
+            if painted is not mesh:
+                bpy.data.meshes.remove(painted)
+            mesh.name = names[mesh]
+
+
+def clouds_without_parts(ending: str) -> tuple[str, ...]:
+    """Return a sentence for each cloud whose parts are not in files with an ending."""
+    return tuple(
+        f"{obj.name} is a point cloud: {ending} does not hold its parts; write .ply,"
+        " .usd or .blend for them."
+        for obj in written_meshes()
+        if is_cloud(obj)
+        and (ending in _NO_POINTS or (ending == ".glb" and obj.type == "POINTCLOUD"))
+    )
+
+
 def _has_loose_vertices(mesh: bpy.types.Mesh) -> bool:
     """Return whether any vertex belongs to no face."""
     return bool(
@@ -74,11 +116,20 @@ def _has_loose_vertices(mesh: bpy.types.Mesh) -> bool:
 
 def _copy_of_cloud(obj: bpy.types.Object) -> bpy.types.Object:
     """Return a new object with the points of a cloud, painted by part."""
+    return _object_like(obj, _painted_points(obj, _NUMBER))
+
+
+def _painted_points(
+    obj: bpy.types.Object, number: str, with_colors: bool = True
+) -> bpy.types.Mesh:
+    """Return a new mesh of a cloud's points, painted by part."""
     parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    mesh = bpy.data.meshes.new(obj.name)
+    mesh = bpy.data.meshes.new(obj.data.name)
     mesh.from_pydata(positions_of(obj), [], [])
-    _paint(mesh, point_colors(obj), parts)
-    return _object_like(obj, mesh)
+    if with_colors:
+        _paint(mesh, point_colors(obj))
+    _number(mesh, parts, number)
+    return mesh
 
 
 def _copy_of_mesh(obj: bpy.types.Object) -> bpy.types.Object:
@@ -95,7 +146,8 @@ def _copy_of_mesh(obj: bpy.types.Object) -> bpy.types.Object:
     color_of_vertex = np.tile(np.array(UNPAINTED, np.float32), (len(origins), 1))
     color_of_vertex[corners] = colors[np.clip(slots, 0, len(colors) - 1)[faces]]
     split = _mesh_on(mesh, positions_of(obj)[origins], corners)
-    _paint(split, color_of_vertex, part_of_vertex)
+    _paint(split, color_of_vertex)
+    _number(split, part_of_vertex, _NUMBER)
     return _object_like(obj, split)
 
 
@@ -136,13 +188,16 @@ def _mesh_on(
     return split
 
 
-def _paint(mesh: bpy.types.Mesh, colors: NDArray[Any], parts: IntArray) -> None:
-    """Write the color (V, 4) and the part number (V,) of each vertex."""
+def _paint(mesh: bpy.types.Mesh, colors: NDArray[Any]) -> None:
+    """Write the color (V, 4) of each vertex."""
     paint = mesh.color_attributes.new("Color", "FLOAT_COLOR", "POINT")
     write_floats(paint.data, "color", colors)
     mesh.color_attributes.active_color = paint
-    number = mesh.attributes.new(_NUMBER, "INT", "POINT")
-    write_ints(number.data, "value", parts)
+
+
+def _number(mesh: bpy.types.Mesh, parts: IntArray, name: str) -> None:
+    """Write the number of the part (V,) of each vertex to an attribute."""
+    write_ints(mesh.attributes.new(name, "INT", "POINT").data, "value", parts)
 
 
 def _object_like(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
