@@ -17,10 +17,10 @@ from ..geometry.graphs.face_graph import FaceGraph, face_graph
 from ..geometry.mesh import TriangleMesh
 from ..geometry.point_cloud import PointCloud
 from ..geometry.shape import Shape
+from ..solids.bare import bare_mesh
 from ..solids.convexity import is_convex
-from ..solids.doubled import with_doubles, without_doubles
 from ..solids.orientation import oriented
-from ..solids.shells import find_shells, set_apart, shells_of
+from ..solids.shells import find_shells, set_apart
 from ..steps.progress import Progress, Steps, run, within
 from .ray_caster import MakeCaster
 from .ray_march import RayMarcher
@@ -51,7 +51,7 @@ class PreparedShape:
     make_graph : callable
         Returns the steps that make `graph`.
     solid : TriangleMesh or None
-        The normalized mesh, None for a point cloud.
+        The normalized mesh without walls within solids; None for a point cloud.
     notes : tuple of str
         Sentences to the user on what was changed for the computation.
     normals : (P, 3) float or None
@@ -181,22 +181,17 @@ def _prepare_mesh(
     """Prepare a mesh, given normalized, too: shells, orientation, what rays see."""
     nodes = np.arange(mesh.n_polygons)
     edges = yield from within(sort_edges(mesh), 0.0, 0.2)
-    single, rows = mesh, nodes[:0]
-    if edges.crowded:
-        single, rows = yield from within(without_doubles(mesh), 0.2, 0.3)
-    if single is mesh:
-        shells = yield from within(find_shells(mesh, edges), 0.3, 0.4)
-    else:
-        shells = yield from within(shells_of(single), 0.3, 0.4)
-    turned, notes = yield from within(oriented(single, shells), 0.4, 0.6)
+    bare = yield from within(bare_mesh(mesh, edges), 0.2, 0.3)
+    shells = yield from within(find_shells(bare.mesh, bare.edges), 0.3, 0.4)
+    turned, notes = yield from within(oriented(bare.mesh, shells), 0.4, 0.6)
     targets = yield from within(set_apart(turned, shells), 0.6, 0.7)
     yield from within(targets.normals_in_steps(), 0.7, 0.8)
-    solid = turned if single is mesh else with_doubles(mesh, turned, rows)
-    if solid is not mesh:  # turned triangles have other sides
-        edges = yield from within(sort_edges(solid), 0.8, 0.9)
-    steps = is_convex(solid, shells, edges)
-    # With doubled triangles, these are not the edges that the shells were found by.
-    convex = single is mesh and (yield from within(steps, 0.9, 1.0))
+    whole, its_edges = bare.wound_as(turned), bare.edges
+    if turned is not bare.mesh:  # turned triangles have other sides
+        its_edges = yield from within(sort_edges(turned), 0.8, 0.85)
+    if whole is not mesh:
+        edges = yield from within(sort_edges(whole), 0.85, 0.9)
+    convex = yield from within(is_convex(turned, shells, its_edges), 0.9, 1.0)
     return PreparedShape(
         shape.center,
         shape.diagonal,
@@ -204,9 +199,9 @@ def _prepare_mesh(
         RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
         len(nodes),
         nodes,
-        lambda: face_graph(solid, edges),
-        solid,
-        notes,
+        lambda: face_graph(whole, edges),
+        bare.without_walls(whole),
+        notes + bare.notes,
         convex=convex,
     )
 

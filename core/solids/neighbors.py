@@ -11,6 +11,7 @@ from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .volume import signed_volume
+from .winding import corners_of, sides_forward
 
 # Angle between triangles on top of each other, in radians: more than rounding.
 _SAME_ANGLE = 1e-3
@@ -46,7 +47,7 @@ def find_neighbors(
         Whether they run along the edge in opposite directions, as they should.
     """
     sides, first = edges
-    forward = yield from within(_forward(mesh), 0.0, 0.4)
+    forward = yield from within(sides_forward(mesh), 0.0, 0.4)
     uses = edges.uses
     yield Progress("Surface", 0.5)
     two = first[uses == 2]
@@ -62,17 +63,6 @@ def find_neighbors(
     neighbors[:, 0] = one // 3
     neighbors[:, 1] = other // 3
     return neighbors, opposed
-
-
-def _forward(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
-    """Return the sides (3T,) that run from the lower to the higher place."""
-    corners = mesh.welded_triangles
-    forward = np.empty(corners.size, dtype=bool)
-    for rows in blocks(len(corners)):
-        yield Progress("Surface", rows.start / len(corners))
-        some, along = corners[rows], forward[3 * rows.start : 3 * rows.stop]
-        np.less(some, some[:, [1, 2, 0]], out=along.reshape(-1, 3))
-    return forward
 
 
 def _pairs_at_crowded(
@@ -123,12 +113,12 @@ def _angles(
     `one` (E, H) are sides that run along an edge, `other` (E, H) those against it.
     Triangles on top of each other have all of the inside between them.
     """
-    starts, ends, _ = _corners(mesh, one[:, :1])
+    starts, ends, _ = corners_of(mesh, one[:, :1])
     along = unit((ends - starts).reshape(-1, 3))[:, None]
 
     def away(some: _Sides) -> NDArray[np.float64]:
         """Directions (E, H, 3) of triangles, at right angles to the edge."""
-        offsets = _corners(mesh, some)[2] - starts
+        offsets = corners_of(mesh, some)[2] - starts
         offsets -= (offsets * along).sum(axis=2, keepdims=True) * along
         return unit(offsets.reshape(-1, 3)).reshape(offsets.shape)
 
@@ -157,9 +147,3 @@ def _with_own_vertices(mesh: TriangleMesh, sides: _Sides) -> _Sides:
     alike[:, 1:-1] = keys[:, 1:] == keys[:, :-1]
     rows, columns = np.nonzero(alike[:, 1:-1] & ~alike[:, :-2] & ~alike[:, 2:])
     return np.stack([sides[rows, order[rows, columns + i]] for i in range(2)])
-
-
-def _corners(mesh: TriangleMesh, sides: _Sides) -> NDArray[np.float64]:
-    """Return starts, ends and opposite corners, (3, E, H, 3), of sides (E, H)."""
-    columns = (sides % 3 + np.arange(3)[:, None, None]) % 3
-    return mesh.vertices[mesh.triangles[sides // 3, columns]]

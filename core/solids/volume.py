@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..geometry.frames import cross
 from ..geometry.mesh import TriangleMesh
@@ -11,7 +12,7 @@ from ..steps.rows import blocks
 
 
 def signed_volume(mesh: TriangleMesh) -> Steps[float]:
-    """Return the volume of the tetrahedra between a mesh's triangles and its center.
+    """Return the volume that a closed mesh encloses; below 0 if it is inside out.
 
     Parameters
     ----------
@@ -20,12 +21,26 @@ def signed_volume(mesh: TriangleMesh) -> Steps[float]:
     Returns
     -------
     Steps of float
-        In cubed units of the mesh. What triangles seen from outside enclose counts as
-        positive, what is inside out as negative.
+        In cubed units of the mesh.
     """
-    volume = 0.0
-    for rows in blocks(len(mesh.triangles)):
-        yield Progress("Surface", rows.start / len(mesh.triangles))
+    return float((yield from volumes_of(mesh)).sum())
+
+
+def volumes_of(mesh: TriangleMesh) -> Steps[NDArray[np.float64]]:
+    """Return the volumes of the tetrahedra between triangles and the mesh's center.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+
+    Returns
+    -------
+    Steps of (T,) float
+        Below 0 where the center is in front of a triangle.
+    """
+    volumes = np.empty(len(mesh.triangles))
+    for rows in blocks(len(volumes)):
+        yield Progress("Surface", rows.start / len(volumes))
         a, b, c = np.moveaxis(mesh.vertices[mesh.triangles[rows]] - mesh.center, 1, 0)
-        volume += float(np.einsum("td,td->", a, cross(b, c))) / 6
-    return volume
+        volumes[rows] = np.einsum("td,td->t", a, cross(b, c)) / 6
+    return volumes

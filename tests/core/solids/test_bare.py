@@ -7,48 +7,50 @@ import numpy as np
 import pytest
 import shapes
 from computed import decompose, measure, prepare
+from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.solids import doubled
-from weak_convex_decomposition.core.solids.doubled import with_doubles
+from weak_convex_decomposition.core.solids.bare import bare_mesh
 from weak_convex_decomposition.core.steps.progress import run
 
 BOX = shapes.box()
 
 
-def without_doubles(mesh):
-    return run(doubled.without_doubles(mesh))
+def bare(mesh):
+    return run(bare_mesh(mesh, run(sort_edges(mesh))))
 
 
 def test_a_mesh_without_doubles_stays_itself():
-    single, rows = without_doubles(BOX)
-    assert single is BOX
-    assert rows.tolist() == list(range(len(BOX.triangles)))
+    assert bare(BOX).mesh is BOX
+    assert bare(BOX).rows.tolist() == list(range(len(BOX.triangles)))
+    assert bare(BOX).wound_as(BOX) is BOX
 
 
 @pytest.mark.parametrize(
     "double", [large_shapes.copies, large_shapes.with_doubled_faces]
 )
 def test_one_of_all_equal_triangles_is_left(double):
-    single, rows = without_doubles(double(BOX))
-    assert single.triangles.tolist() == BOX.triangles.tolist()
-    assert rows.tolist() == 2 * list(range(len(BOX.triangles)))
+    found = bare(double(BOX))
+    assert found.mesh.triangles.tolist() == BOX.triangles.tolist()
+    assert found.rows.tolist() == 2 * list(range(len(BOX.triangles)))
+    assert found.notes == ()
 
 
 def test_triangles_may_begin_at_any_corner_but_not_turn_over():
     rolled = replace(BOX, triangles=np.roll(BOX.triangles, 1, axis=1))
-    assert len(without_doubles(shapes.joined(BOX, rolled))[0].triangles) == 12
+    assert len(bare(shapes.joined(BOX, rolled)).mesh.triangles) == 12
     turned = replace(BOX, triangles=BOX.triangles[:, ::-1])
-    assert len(without_doubles(shapes.joined(BOX, turned))[0].triangles) == 24
+    assert len(bare(shapes.joined(BOX, turned)).mesh.triangles) == 24
 
 
 def test_doubles_turn_with_the_triangle_that_is_left():
     mesh = large_shapes.copies(BOX)
-    single, rows = without_doubles(mesh)
-    turned = replace(single, triangles=single.triangles[:, ::-1])
-    both = with_doubles(mesh, turned, rows)
+    found = bare(mesh)
+    turned = replace(found.mesh, triangles=found.mesh.triangles[:, ::-1])
+    both = found.wound_as(turned)
     assert both.normals == pytest.approx(-mesh.normals)
     assert both.polygons.tolist() == mesh.polygons.tolist()
+    assert found.without_walls(both) is both
 
 
 @pytest.mark.parametrize(
