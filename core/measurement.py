@@ -95,7 +95,7 @@ def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> Steps[PreparedSh
     members = shape.part(faces)
     if area <= LEAST_AREA or len(members.sampled) == 0:
         raise DecompositionError(
-            "The chosen faces have no area, or none lies at the outline of the flat"
-            " mesh; select other faces."
+            "The chosen faces have no area, lie within the solid, or none lies at the"
+            " outline of the flat mesh; select other faces."
         )
     return members

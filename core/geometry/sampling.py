@@ -79,7 +79,8 @@ def take_samples(
     if len(rows) < len(mesh.triangles):
         if mesh.areas[rows].sum() <= 0:
             raise DecompositionError(
-                "The part has no area that samples could lie on; choose another one."
+                "The part has no area outside that samples could lie on; choose another"
+                " one."
             )
         some = replace(mesh, triangles=mesh.triangles[rows], polygons=0 * rows)
     if sampling == "FACES":

@@ -95,7 +95,8 @@ def _build(
 ) -> Steps[HullDecomposition]:
     """Put shapes around a mesh that is not known yet."""
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
-    numbers, parts = _parts_of_triangles(shape, labels)
+    assert prepared.solid is not None  # None for point clouds only
+    numbers, parts = _parts_of_triangles(prepared.solid, labels)
     fit, factor = fit_for(shape, parameters, scene_unit, numbers.tolist(), kinds)
     found = yield from _find(prepared, fit, shape.diagonal / fit.unit, parts, seed)
     errors = found.errors * factor

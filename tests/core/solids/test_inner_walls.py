@@ -6,8 +6,8 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import build_hulls, decompose, prepare
-from weak_convex_decomposition import HullParameters, Parameters
+from computed import build_hulls, decompose, measure, prepare
+from weak_convex_decomposition import DecompositionError, HullParameters, Parameters
 
 # Places of unit boxes that touch, and the number of faces between them.
 TOUCHING = {
@@ -67,6 +67,19 @@ def test_inner_faces_have_parts_as_all_others():
     found = decompose(mesh, Parameters(parts=2, samples=300))
     assert len(found.labels) == mesh.n_polygons
     assert found.n_parts == 2
+
+
+def test_parts_of_inner_faces_alone_get_no_hull_and_no_rank():
+    mesh = by_distance(boxes_at(TOUCHING["L"][0]))
+    outside = prepare(mesh).solid.polygons
+    inner = ~np.isin(np.arange(mesh.n_polygons), outside)
+    assert inner.sum() == 2
+    parameters = HullParameters(pieces="PARTS")
+    assert build_hulls(mesh, parameters, inner.astype(int)).parts.tolist() == [0]
+    halves = (np.arange(mesh.n_polygons) % 2).astype(int)
+    assert build_hulls(mesh, parameters, halves).n_hulls == 2
+    with pytest.raises(DecompositionError, match="lie within the solid"):
+        measure(mesh, Parameters(samples=100), inner)
 
 
 @pytest.mark.parametrize("place", [(0.5, 0.5, 1.5), (2.5, 2.5, 2.5)])
