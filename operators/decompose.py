@@ -10,6 +10,7 @@ import bpy
 
 from ..core.errors import DecompositionError
 from ..core.steps.progress import Steps
+from .bridge.converted import clear_converted, was_converted
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
 from .bridge.hulls.lost_hulls import hulls_to_clear
@@ -17,7 +18,8 @@ from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
 from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
 from .bridge.read.evaluated import read_as
-from .bridge.refusals import CONVERTIBLE, clear_refusal, decompose_refusal
+from .bridge.refusals import CONVERTIBLE, decompose_refusal
+from .bridge.removal_refusals import clear_refusal
 from .bridge.stored.names import CARRIER_TAG
 from .bridge.stored.record import EVALUATED
 from .bridge.stored.restore import sharers
@@ -139,6 +141,15 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         in_object_mode = obj.mode == "OBJECT"
+        if was_converted(obj):
+            clear_converted(obj)
+        else:
+            self._clear(obj)
+        if in_object_mode and (n_lost := erase_lost_hulls()):
+            self.report({"INFO"}, f"Hulls whose object is gone went, too: {n_lost}.")
+
+    def _clear(self, obj: bpy.types.Object) -> None:
+        """Remove everything of ours from an object that is what it was."""
         erase_hulls(obj)
         for each in sharers(obj) if obj.data.is_editable else (obj,):
             remove_views(each)  # of the same parts, which go
@@ -150,8 +161,6 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
             clear_carrier(obj)
         else:
             let_undo_see_all(obj)
-        if in_object_mode and (n_lost := erase_lost_hulls()):
-            self.report({"INFO"}, f"Hulls whose object is gone went, too: {n_lost}.")
 
 
 def _cuts_stay(name: str) -> str:

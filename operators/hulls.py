@@ -17,6 +17,7 @@ from .bridge.hulls.one_hull import refit, remove_hull, write_refit
 from .bridge.hulls.rigid_bodies import make_rigid
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, rigid_refusal
+from .bridge.removal_refusals import remove_hulls_refusal
 from .bridge.stored.noted_hulls import forget_hulls, note_mesh_of_hulls
 from .bridge.work.computing_hulls import build_hulls_of, hull_summary
 from .running.computation import Computation
@@ -114,6 +115,15 @@ class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):
     bl_idname = "wcd.remove_hulls"
     bl_label = "Remove Collision Hulls"
     bl_description = "Remove the hulls that were built; the parts stay"
+
+    @staticmethod
+    def _refusal(obj: bpy.types.Object | None) -> str | None:
+        return remove_hulls_refusal(obj)
+
+    @classmethod
+    def _refusals(cls) -> Callable[[Any], str | None]:
+        """Return `_refusal`, which looks for hulls once for all objects."""
+        return partial(remove_hulls_refusal, owners=owners_of_hulls())
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         erase_hulls(obj)

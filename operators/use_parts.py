@@ -7,7 +7,7 @@ from typing import ClassVar
 import bpy
 
 from .bridge.parts.present_parts import present_parts
-from .bridge.parts.separating import area_of, replace, separate
+from .bridge.parts.separating import separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .bridge.views.colors import CHOICES, show_colors_as
 from .bridge.views.exploding import DISTANCE_HELP, FARTHEST, explode, exploding, implode
@@ -39,10 +39,9 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         was_active = context.active_object == obj
-        pieces = separate(obj)
-        if self.original == "REMOVE":
-            replace(obj, max(pieces, key=area_of))
-        else:
+        stays = self.original == "HIDE"
+        pieces = separate(obj, stays)
+        if stays:
             obj.select_set(False)
             obj.hide_set(True)
             obj.hide_render = True
@@ -51,7 +50,7 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
         there = [piece for piece in pieces if piece.name in layer.objects]
         for piece in there:
             piece.select_set(True)
-        if there and was_active:
+        if there and (was_active or layer.objects.active is None):  # or a hull was
             layer.objects.active = there[0]
 
 
@@ -61,7 +60,12 @@ WCD_OT_separate.__annotations__ = {
         description="What happens to the object that is separated",
         items=(
             ("HIDE", "Hide", "It stays as it is, hidden in viewports and renders"),
-            ("REMOVE", "Remove", "It is deleted; its children go to the largest part"),
+            (
+                "REMOVE",
+                "Remove",
+                "It is deleted with its hulls; its other children go to the largest"
+                " part",
+            ),
         ),
     )
 }

@@ -176,7 +176,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         along.append(chords_along(crossings, vertices, axis))
     found = (np.concatenate(each) for each in zip(*along, strict=True))
     chords, volumes, depths = found
-    sum_of_shells = float(volumes @ depths)
+    sum_of_shells = float((volumes * depths).sum())  # the same on any number of cores
     overlap = float(volumes.sum()) / sum_of_shells if sum_of_shells else 1.0
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
     volumes = volumes / 3

@@ -115,7 +115,7 @@ def _same_triangles(mesh: TriangleMesh) -> Steps[NDArray[np.int64]]:
         columns = (places[some].argmin(axis=1)[:, None] + [0, 1, 2]) % 3
         first, second, last[some] = np.take_along_axis(places[some], columns, axis=1).T
         key[some] = first.astype(np.int64) * n_places + second
-    order = yield from beside(lambda: np.lexsort((last, key)), "Surface")
+    order = yield from beside(lambda: np.lexsort((last, key)), Progress("Surface", 0.2))
     key, last = key[order], last[order]
     yield Progress("Surface", 0.6)
     new = np.ones(len(order), dtype=bool)

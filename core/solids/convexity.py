@@ -10,7 +10,7 @@ from ..geometry.frames import heights_above
 from ..geometry.graphs.edges import Edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.beside import beside
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks, used_rows
 from .shells import Shells
 from .volume import signed_volume
@@ -51,14 +51,14 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
         return False
     if (yield from _has_concave_edge(mesh, edges)):
         return False
-    yield Progress("Surface", 1.0)
-    used = yield from used_rows(mesh.triangles, len(mesh.vertices))
-    points = mesh.vertices[used]
+    done = Progress("Surface", 1.0)
+    all_used = used_rows(mesh.triangles, len(mesh.vertices))
+    points = mesh.vertices[(yield from within(all_used, 1.0, 1.0))]
     try:
-        hull = yield from beside(lambda: ConvexHull(points), "Surface")
+        hull = yield from beside(lambda: ConvexHull(points), done)
     except QhullError:  # it is flat
         return False
-    volume = yield from signed_volume(mesh)
+    volume = yield from within(signed_volume(mesh), 1.0, 1.0)
     if abs(volume - hull.volume) > _SAME_VOLUME * hull.volume:
         return False
     inner = np.setdiff1d(np.arange(len(hull.points)), hull.vertices)

@@ -69,7 +69,7 @@ def _pairs_at_crowded(
     mesh: TriangleMesh, edges: Edges, forward: NDArray[np.bool_]
 ) -> Steps[_Sides]:
     """Return pairs (2, N) of sides at edges of more than two triangles."""
-    inside_out = (yield from signed_volume(mesh)) < 0
+    inside_out = (yield from within(signed_volume(mesh), 0.6, 0.7)) < 0
     crowded = np.flatnonzero((edges.uses > 2) & (edges.uses <= _MOST_USES))
     uses, first = edges.uses[crowded], edges.first[crowded]
     pairs = [np.zeros((2, 0), dtype=np.int32)]

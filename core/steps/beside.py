@@ -12,7 +12,7 @@ from .progress import Progress, Steps, T
 _PAUSE = 0.02
 
 
-def beside(call: Callable[[], T], stage: str) -> Steps[T]:
+def beside(call: Callable[[], T], progress: Progress) -> Steps[T]:
     """Run one long call in a thread, and report until it ends.
 
     The caller stays alive only while the library lets other threads run, as Qhull and
@@ -24,8 +24,8 @@ def beside(call: Callable[[], T], stage: str) -> Steps[T]:
     ----------
     call : callable
         Takes nothing.
-    stage : str
-        For the reports.
+    progress : Progress
+        What is reported meanwhile.
 
     Returns
     -------
@@ -47,4 +47,4 @@ def beside(call: Callable[[], T], stage: str) -> Steps[T]:
         except TimeoutError:
             if outcome.done():  # the call's own
                 raise
-            yield Progress(stage, 0.0)
+            yield progress

@@ -6,22 +6,15 @@ wrong and what to do about it. They have no full stop: whoever shows them adds o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable
+from collections.abc import Container, Iterable
 from typing import Any, TypeAlias
 
 from .hulls.listed import owners_of_hulls
-from .hulls.lost_hulls import has_hulls_to_clear
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
-from .stored.names import CARRIER_TAG, LONGEST_NAME, WHOLE_MESH
+from .stored.names import LONGEST_NAME
 from .stored.notes import or_not_ours
-from .stored.record import (
-    beside_parts,
-    has_record,
-    is_rough,
-    noted_parameters,
-    record_of,
-)
+from .stored.record import is_rough, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
 
 # An object of Blender, or None if there is no active one.
@@ -32,7 +25,7 @@ CONVERTIBLE = {"CURVE", "SURFACE", "META", "FONT"}
 # Types of objects that are read and written as they are.
 WORKED_ON = {"MESH", "POINTCLOUD"}
 
-_LEAVE_EDIT_MODE = "Edit Mode could not undo this; switch to Object Mode"
+LEAVE_EDIT_MODE = "Edit Mode could not undo this; switch to Object Mode"
 _ENTER_EDIT_MODE = "Faces are selected in Edit Mode; switch the mode"
 
 
@@ -54,6 +47,10 @@ def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
         return "Parts are made in Object or Edit Mode; switch the mode"
     if obj.mode == "EDIT" and is_cloud(obj):
         return "Parts of points are made in Object Mode; leave Edit Mode"
+    if obj.mode != "EDIT" and obj.type == "MESH" and obj.data.is_editmode:
+        return (
+            f"The mesh of {obj.name} is edited on another object; leave Edit Mode there"
+        )
     return None
 
 
@@ -93,29 +90,6 @@ def recut_refusal(obj: Candidate) -> str | None:
     return reason
 
 
-@or_not_ours
-def clear_refusal(
-    obj: Candidate, has_hulls: Callable[[Candidate], bool] = has_hulls_to_clear
-) -> str | None:
-    """Return why nothing can be cleared from an object."""
-    reason = refusal(obj, writes_mesh=False)
-    if reason is None and has_parts(obj) and not beside_parts(obj):
-        reason = library_refusal(obj)  # parts of a linked mesh are the library's
-    cut = reason is None and WHOLE_MESH in obj.data
-    marked = reason is None and obj.type == "MESH" and has_marked_seams(obj.data)
-    ours = cut or marked or (reason is None and has_record(obj))
-    if reason is None and not (ours or has_hulls(obj)):
-        return f"{obj.name} has no parts to clear"
-    if cut and obj.data.is_editmode:
-        return (
-            f"The faces of {obj.name} are cut, and come back in Object Mode only;"
-            " switch the mode"
-        )
-    if reason is None and CARRIER_TAG in obj and obj.mode != "OBJECT":
-        return _LEAVE_EDIT_MODE
-    return reason
-
-
 def selection_refusal(obj: Candidate) -> str | None:
     """Return why the selected faces of an object cannot be measured."""
     reason = measure_refusal(obj)
@@ -146,7 +120,7 @@ def picture_refusal(obj: Candidate) -> str | None:
     """Return why no picture of an object's parts can be made."""
     reason = decomposed_refusal(obj)
     if reason is None and obj.mode != "OBJECT":
-        return _LEAVE_EDIT_MODE
+        return LEAVE_EDIT_MODE
     return reason
 
 
@@ -162,7 +136,7 @@ def object_mode_refusal(obj: Candidate) -> str | None:
     """Return why parts cannot be used for what undo in Edit Mode cannot take back."""
     reason = parts_refusal(obj)
     if reason is None and obj.mode != "OBJECT":
-        return _LEAVE_EDIT_MODE
+        return LEAVE_EDIT_MODE
     return reason
 
 

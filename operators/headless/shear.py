@@ -1,4 +1,4 @@
-"""Shear: what a place holds beside location, rotation and scale.
+"""Places of objects below parents, and shear, which their matrices may hold.
 
 A rotated child of a parent whose scale differs by axis has it. The matrix between
 parent and child may hold it. Objects without parents, and nodes of .glb and .fbx, have
@@ -56,3 +56,28 @@ def shear_in_meshes(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
         for obj, mesh in former.items():
             sheared, obj.data = obj.data, mesh
             bpy.data.meshes.remove(sheared)
+
+
+@contextmanager
+def without_parents(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
+    """Take objects off their parents, in the same place; put them back at the end.
+
+    The exporter of .glb leaves out what hangs on objects of other scenes, and puts what
+    hangs on bones where their armature rests. Unreal takes no hulls with parents.
+    """
+    before = [
+        (each, each.parent, each.matrix_parent_inverse.copy(), each.matrix_basis.copy())
+        for each in objects
+    ]
+    try:
+        for obj in objects:
+            place = obj.matrix_world.copy()
+            obj.parent = None
+            obj.matrix_world = place
+        bpy.context.view_layer.update()
+        yield
+    finally:
+        for obj, parent, inverse, basis in before:
+            obj.parent = parent
+            obj.matrix_parent_inverse, obj.matrix_basis = inverse, basis
+        bpy.context.view_layer.update()

@@ -9,7 +9,7 @@ from weak_convex_decomposition.operators.bridge.parts.kept_materials import (
     is_overlaid,
     kept_materials,
 )
-from weak_convex_decomposition.operators.bridge.stored.identity import plain_name
+from weak_convex_decomposition.operators.bridge.stored.identity import has_name
 
 # Of the visibility that edits are described by.
 FAST = {"samples": 60, "containers": "HOLLOW", "max_parts": 4}
@@ -85,7 +85,7 @@ def check_in_step(obj):
         slots = [obj.data.materials[p.material_index] for p in obj.data.polygons]
     assert [slot["wcd_part"] for slot in slots] == [numbers[index] for index in labels]
     assert [slot["wcd_name"] for slot in slots] == [names[index] for index in labels]
-    assert all(plain_name(s.name) == plain_name(s["wcd_name"]) for s in slots)
+    assert all(has_name(s.name, s["wcd_name"]) for s in slots)
     in_mode(obj, mode)
 
 

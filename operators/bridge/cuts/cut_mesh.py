@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 import bmesh
 import bpy
 import numpy as np
-from bmesh.types import BMFace
+from bmesh.types import BMFace, BMVert
+from mathutils.geometry import intersect_point_line
 from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
@@ -20,6 +21,9 @@ from ..mesh.corner_normals import give_back_normals, keep_normals
 _WHOLE, _FLAT_FACE, _PART = "wcd_whole", "wcd_flat_face", "wcd_piece"
 # Farthest that a corner is from the plane of a flat face, in diagonals of the mesh.
 _FLAT = 1e-6
+# Farthest that a vertex is from a straight edge that it was made on, in the largest
+# coordinate: Blender rounds each place a few times, to single precision.
+_STRAIGHT = 4 * float(np.finfo(np.float32).eps)
 
 
 class CutMesh:
@@ -50,8 +54,9 @@ class CutMesh:
         for number, face in enumerate(bm.faces):
             face[self._whole] = face[self._flat_face] = number
         self._old = set(bm.verts)
-        extent = np.ptp(read_floats(mesh.vertices, "co", 3), axis=0)
-        self._flat = _FLAT * float(np.linalg.norm(extent))
+        places = read_floats(mesh.vertices, "co", 3)
+        self._flat = _FLAT * float(np.linalg.norm(np.ptp(places, axis=0)))
+        self._straight = _STRAIGHT * float(np.abs(places).max())
 
     def cut(self, cuts: Sequence[Cut], near: float) -> None:
         """Cut faces along planes.
@@ -151,6 +156,8 @@ class CutMesh:
     def join(self, parts: Iterable[int]) -> None:
         """Join pieces of one flat face and one part again.
 
+        Bends of seams stay where they are.
+
         Parameters
         ----------
         parts : iterable of int
@@ -160,12 +167,37 @@ class CutMesh:
             face[self._part] = part
         needless = [edge for edge in self._bm.edges if self._is_needless(edge)]
         bmesh.ops.dissolve_edges(self._bm, edges=needless, use_verts=False)
-        loose = [
-            vertex
+        bmesh.ops.dissolve_verts(self._bm, verts=self._needless_vertices())
+
+    def _needless_vertices(self) -> list[BMVert]:
+        """Return the new vertices that only divide a straight edge.
+
+        Without them each face still has three corners or more, so that none goes.
+        """
+        ends = {
+            vertex: [edge.other_vert(vertex) for edge in vertex.link_edges]
             for vertex in self._bm.verts
             if vertex not in self._old and len(vertex.link_edges) == 2
-        ]
-        bmesh.ops.dissolve_verts(self._bm, verts=loose)
+        }
+        needless, n_corners = [], {face: len(face.verts) for face in self._bm.faces}
+        for vertex, (one, other) in ends.items():
+            faces = vertex.link_faces
+            if min((n_corners[face] for face in faces), default=0) <= 3:
+                continue
+            if not self._is_between(vertex, one, other):
+                continue
+            needless.append(vertex)
+            for face in faces:
+                n_corners[face] -= 1
+            for end, next_end in ((one, other), (other, one)):
+                if end in ends:
+                    ends[end][ends[end].index(vertex)] = next_end
+        return needless
+
+    def _is_between(self, vertex: BMVert, one: BMVert, other: BMVert) -> bool:
+        """Return whether a vertex is on the straight line from one to another."""
+        nearest, share = intersect_point_line(vertex.co, one.co, other.co)
+        return 0 <= share <= 1 and (vertex.co - nearest).length <= self._straight
 
     def _is_needless(self, edge: bmesh.types.BMEdge) -> bool:
         """Return whether a cut separates no parts."""

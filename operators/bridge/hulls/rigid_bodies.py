@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 import bpy
@@ -41,38 +42,75 @@ def make_rigid(
             f"{unseen[0]} is not in the view layer; rigid bodies have to be."
         )
     soften(obj, hulls)
-    scene = bpy.context.scene
-    ours = scene.rigidbody_world is None
-    for each, shape in ((obj, "COMPOUND"), *((hull, "CONVEX_HULL") for hull in hulls)):
-        with _on(each, scene):
-            bpy.ops.rigidbody.object_add(type=kind)
-        each.rigid_body.collision_shape = shape
-    obj[RIGID_TAG] = True
-    if ours:
-        scene.rigidbody_world.collection[RIGID_TAG] = True
+    with ExitStack() as on_error:
+        obj[RIGID_TAG] = True
+        on_error.callback(soften, obj, hulls)
+        _add_body(obj, kind, "COMPOUND")
+        for hull in hulls:
+            _add_body(hull, kind, "CONVEX_HULL")
+        on_error.pop_all()
 
 
 def soften(obj: bpy.types.Object, hulls: Sequence[bpy.types.Object]) -> None:
     """Undo `make_rigid`."""
     if RIGID_TAG not in obj:
         return
-    del obj[RIGID_TAG]
     body = obj.rigid_body
     ours = body is not None and body.collision_shape == "COMPOUND"
-    for each in (obj, *hulls) if ours else hulls:  # else it was replaced
+    for each in (*hulls, obj) if ours else hulls:  # else it was replaced
         if each.rigid_body is not None:
             with _on(each, _scene_of(each)):
                 bpy.ops.rigidbody.object_remove()
+    del obj[RIGID_TAG]  # last: what fails on the way can be tried again
     remove_simulation()
 
 
 def remove_simulation() -> None:
-    """Remove the simulation that we made in a scene if nothing is left in it."""
+    """Remove the simulation that we made in a scene if nothing is left in it.
+
+    It stays if the user has constraints in it or changed its settings.
+    """
     for scene, bodies in _simulations():
-        if RIGID_TAG in bodies and not bodies.objects:
+        if RIGID_TAG in bodies and not _is_used(scene.rigidbody_world):
             with bpy.context.temp_override(**_within(scene)):
                 bpy.ops.rigidbody.world_remove()
             bpy.data.collections.remove(bodies)
+
+
+def _add_body(obj: bpy.types.Object, kind: str, shape: str) -> None:
+    """Make an object a rigid body; note on a simulation made for it that it is ours."""
+    scene = bpy.context.scene
+    ours = scene.rigidbody_world is None
+    with _on(obj, scene):
+        bpy.ops.rigidbody.object_add(type=kind)
+    obj.rigid_body.collision_shape = shape
+    if ours:
+        world = scene.rigidbody_world
+        world.collection[RIGID_TAG] = _settings_of(world)
+
+
+def _is_used(world: bpy.types.RigidBodyWorld) -> bool:
+    """Return whether a simulation of ours has bodies, or something of the user's."""
+    held = [each for each in (world.collection, world.constraints) if each]
+    if any(each.all_objects for each in held):
+        return True
+    noted: dict[str, str] = getattr(world.collection[RIGID_TAG], "to_dict", dict)()
+    now = _settings_of(world)  # another version of Blender may have others
+    return any(now.get(name, value) != value for name, value in noted.items())
+
+
+def _settings_of(world: bpy.types.RigidBodyWorld) -> dict[str, str]:
+    """Return the settings of a simulation that users can change, as texts by name."""
+    weights, cache = world.effector_weights, world.point_cache
+    owners = {"": world, "effector_weights.": weights, "point_cache.": cache}
+    settings = {
+        group + each.identifier: repr(getattr(owner, each.identifier))
+        for group, owner in owners.items()
+        for each in owner.bl_rna.properties
+        if not each.is_readonly
+    }
+    del settings["collection"], settings["constraints"]  # what they hold counts
+    return settings
 
 
 def _simulations() -> Iterator[tuple[bpy.types.Scene, bpy.types.Collection]]:
@@ -100,11 +138,23 @@ def _within(scene: bpy.types.Scene) -> dict[str, Any]:
     return {"scene": scene, "view_layer": scene.view_layers[0]}
 
 
-def _on(obj: bpy.types.Object, scene: bpy.types.Scene) -> bpy.types.ContextTempOverride:
-    """Return the context in which Blender's operators work on an object in a scene."""
-    return bpy.context.temp_override(
-        object=obj,
-        active_object=obj,
-        selected_objects=[obj],
-        **_within(scene),
-    )
+@contextmanager
+def _on(obj: bpy.types.Object, scene: bpy.types.Scene) -> Iterator[None]:
+    """Let Blender's operators work on an object in a scene.
+
+    They refuse objects that are disabled in viewports, so this one is not meanwhile.
+    """
+    disabled = obj.hide_viewport
+    if disabled:
+        obj.hide_viewport = False
+    try:
+        with bpy.context.temp_override(
+            object=obj,
+            active_object=obj,
+            selected_objects=[obj],
+            **_within(scene),
+        ):
+            yield
+    finally:
+        if disabled:
+            obj.hide_viewport = True

@@ -24,6 +24,7 @@ from ..stored.record import (
     write_record,
 )
 from ..stored.restore import Restore, read_restore, sharers, write_restore
+from ..stored.users_groups import users_groups
 from .kept_materials import drop_kept, marked_groups
 from .materials import discard_unused, is_of_part, name_of, our_materials
 from .read import part_labels
@@ -65,7 +66,7 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     mesh = obj.data
     restore = read_restore(mesh)
     if restore is None:
-        return []
+        return _erase_remains(obj)
     # On large meshes it takes long to read the parts, and few have face sets of them.
     has_face_sets = FACE_SET_LAYER in mesh.attributes
     labels = part_labels(obj) if has_face_sets else None
@@ -83,11 +84,36 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     return materials
 
 
+def _erase_remains(obj: bpy.types.Object) -> list[bpy.types.Material]:
+    """Remove the parts from points that were made of a mesh; return their materials.
+
+    Blender drops our note and the numbers of the parts then. It keeps the slots and
+    the record, and makes attributes of the groups.
+    """
+    data, entries = obj.data, record_of(obj).get("parts", ())
+    if not entries or not data.is_editable:
+        return []
+    for name in {entry["name"] for entry in entries} - set(obj.vertex_groups.keys()):
+        weights = data.attributes.get(name)
+        if weights is not None and weights.data_type == "FLOAT":
+            data.attributes.remove(weights)
+    names = {entry["material"] for entry in entries}
+    slots = [is_of_part(m) and m.name in names for m in data.materials]
+    materials = [m for m, own in zip(data.materials, slots, strict=True) if own]
+    for index in reversed(np.flatnonzero(slots)):
+        data.materials.pop(index=int(index))
+    for sharer in sharers(obj):
+        forget_parts(sharer)
+        erase_rows(sharer)
+    return materials
+
+
 def _erase_groups(obj: bpy.types.Object, restore: Restore) -> None:
     """Remove our vertex groups and make the user's group active again."""
     groups = obj.vertex_groups
     active = groups.active.name if groups.active else ""
-    for name in {*restore.groups, *_joined_groups(obj, restore)}:
+    ours = {*restore.groups, *_joined_groups(obj, restore)}
+    for name in ours - users_groups(obj, restore):
         if name in groups:
             groups.remove(groups[name])
     if active not in groups:
@@ -103,7 +129,7 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
     found = set(marked_groups(obj).values())
     if restore.user_groups is not None:
         ours = [each for each in obj.data.materials if is_of_part(each)]
-        found |= {name_of(m) for m in ours if m.name not in restore.slots}
+        found |= {name_of(m) for m in ours if not restore.had(m)}
     return found - set(restore.user_groups or ())
 
 

@@ -64,7 +64,7 @@ def told_of_part(
     restore = read_restore(obj.data)
     if material is None or not is_ours(material) or material[MATERIAL_TAG] != number:
         return None, None
-    if restore is not None and material.name in restore.slots:  # the user's
+    if restore is not None and restore.had(material):  # the user's
         return None, None
     return name_of(material), color_of(material)
 

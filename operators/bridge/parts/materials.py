@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import bpy
 import numpy as np
 
-from ..stored.identity import Identity, part_name, plain_name
+from ..stored.identity import Identity, has_name, part_name, plain_name
 from ..stored.names import MATERIAL_NAME, MATERIAL_TAG, OVERLAY
 from ..stored.restore import read_restore
 from .palette import Color
@@ -39,7 +39,7 @@ def is_ours(material: bpy.types.Material | None) -> bool:
     """Return whether a material is one that we made and the user did not rename."""
     if material is None or not isinstance(material.get(MATERIAL_TAG), int):
         return False
-    return plain_name(material.name) == plain_name(name_of(material))
+    return has_name(material.name, name_of(material))
 
 
 def is_of_part(material: bpy.types.Material | None) -> bool:
@@ -68,9 +68,8 @@ def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
     if OVERLAY in mesh:  # those in slots came with another object
         return slots
     restore = read_restore(mesh)
-    before = restore.slots if restore else ()
     for index, material in enumerate(mesh.materials):
-        if is_of_part(material) and material.name not in before:
+        if is_of_part(material) and not (restore and restore.had(material)):
             slots.setdefault(material[MATERIAL_TAG], []).append(index)
     return slots
 
@@ -183,7 +182,7 @@ def _shared(
 
 def discard_unused(materials: Iterable[bpy.types.Material]) -> None:
     """Remove materials of ours that nothing uses any more."""
-    for material in materials:
+    for material in dict.fromkeys(materials):  # the user may give one to more slots
         if material.users == 0 and material.library is None:
             bpy.data.materials.remove(material)
 
@@ -227,7 +226,9 @@ def _new(name: str) -> bpy.types.Material:
 
 def _tag(material: bpy.types.Material, identity: Identity) -> None:
     """Give a material our tag, and the name of a part."""
+    # A name that was cut stays until the part gets another one.
+    named = is_ours(material) and name_of(material) == identity.name
     material[MATERIAL_TAG] = identity.number
     material[MATERIAL_NAME] = identity.name
-    if plain_name(material.name) != plain_name(identity.name):
+    if not named and plain_name(material.name) != plain_name(identity.name):
         material.name = identity.name

@@ -17,6 +17,7 @@ from ..stored.names import HULL_TAG, OVERLAY
 from ..stored.noted_parts import identities_of
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
+from ..stored.users_groups import users_groups
 from ..views.face_sets_and_colors import show_colors
 from .figures import JOINED
 from .kept_materials import is_overlaid, mark_group
@@ -45,7 +46,8 @@ def rename_part(
     if reason:
         return part.name, reason
     group = obj.type == "MESH" and obj.vertex_groups.get(part.name)
-    if group and part.name in restore.groups:
+    ours = part.name in restore.groups and part.name not in users_groups(obj, restore)
+    if group and ours:
         group.name = name
         if group.name != name:
             reason = f"Another vertex group is called {name}; this one is {group.name}"

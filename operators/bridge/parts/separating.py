@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
 import bmesh
 import bpy
 import numpy as np
@@ -11,48 +14,79 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
 from ..homes import new_collection
+from ..hulls.hull_objects import erase_hulls
 from ..hulls.rigid_bodies import soften
 from ..mesh.corner_normals import give_back_normals, keep_normals
 from ..mesh.known import face_areas
 from ..views.node_modifiers import remove_views
 from .erase import clear
-from .materials import discard, none_missing
+from .materials import discard, discard_unused, none_missing
 from .read import find_parts_on, part_materials
 
 
-def separate(obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """Make an object of each part, and return them; the object itself stays.
+def separate(obj: bpy.types.Object, stays: bool = True) -> list[bpy.types.Object]:
+    """Make an object of each part, and return them.
 
     Each is a copy of the object from before it was decomposed, with the faces of one
     part only. Modifiers, constraints, groups and attributes are copied, too. If the
     mesh has no materials, the copy gets the material of its part.
+
+    Parameters
+    ----------
+    obj : Object
+    stays : bool
+        Whether the object stays. If not, the largest piece gets its children. Its hulls
+        go with it: they stand for the whole.
+
+    Raises
+    ------
+    DecompositionError
+        If the object has no parts. Nothing is changed then, nor by any other error.
     """
     found = find_parts_on(obj)
     if found is None:
         raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
     identities, own = found.identities, part_materials(obj, found)
-    collection = new_collection(obj, f"{obj.name} parts")
-    bare = _copy(obj)
-    soften(bare, ())
-    remove_views(bare)
-    clear(bare)
-    forget_whole(bare.data)
-    materials = none_missing(identities, own)  # after Clear, which discards new ones
     pieces: list[bpy.types.Object] = []
-    for part in range(len(identities)):
-        piece = _copy(bare)
-        piece.name = piece.data.name = f"{obj.name} {identities[part].name}"
-        _keep_faces(piece.data, found.labels == part, loose=not pieces)
-        piece.color = materials[part].diffuse_color
-        if not piece.data.materials:
-            piece.data.materials.append(materials[part])
-        collection.objects.link(piece)
-        pieces.append(piece)
-    discard([bare])
+    with ExitStack() as on_error:
+        collection = new_collection(obj, f"{obj.name} parts")
+        on_error.callback(bpy.data.collections.remove, collection)
+        on_error.callback(discard, pieces)
+        with _bare_copy(obj) as bare:
+            materials = none_missing(identities, own)  # Clear would discard new ones
+            on_error.callback(discard_unused, materials)
+            for part, identity in enumerate(identities):
+                piece = _copy(bare)
+                pieces.append(piece)
+                piece.name = piece.data.name = f"{obj.name} {identity.name}"
+                _keep_faces(piece.data, found.labels == part, loose=part == 0)
+                piece.color = materials[part].diffuse_color
+                if not piece.data.materials:
+                    piece.data.materials.append(materials[part])
+                collection.objects.link(piece)
+        if not stays:
+            erase_hulls(obj)
+        on_error.pop_all()
+    if not stays:
+        _replace(obj, max(pieces, key=area_of))
     return pieces
 
 
-def replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
+@contextmanager
+def _bare_copy(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Lend a copy of an object without anything of ours."""
+    bare = _copy(obj)
+    try:
+        soften(bare, ())
+        remove_views(bare)
+        clear(bare)
+        forget_whole(bare.data)
+        yield bare
+    finally:
+        discard([bare])
+
+
+def _replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
     """Remove an object whose parts were separated; `piece` gets its children."""
     for child in obj.children:
         inverse = _inverse_held_by(obj, child)

@@ -39,6 +39,7 @@ def put_in_slots(
     before = layers.material_indices()
     uniform = before is None or bool((before == before[0]).all())
     slots = [material.name if material else "" for material in mesh.materials]
+    tagged = [material.name for material in mesh.materials if is_ours(material)]
     active_slot = obj.active_material_index
     for material in materials:
         mesh.materials.append(material)
@@ -51,6 +52,7 @@ def put_in_slots(
         "active_slot": active_slot,
         "material_index": int(before[0]) if uniform and before is not None else None,
         "had_material_index": before is not None,
+        "tagged": tagged,
     }
 
 
@@ -114,7 +116,7 @@ def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
     ours = [
         index
         for index, material in enumerate(mesh.materials)
-        if is_ours(material) and material.name not in restore.slots
+        if is_ours(material) and not restore.had(material)
     ]
     first = min([len(restore.slots), *ours])
     empty = [i for i in range(first, len(mesh.materials)) if mesh.materials[i] is None]

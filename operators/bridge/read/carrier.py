@@ -14,7 +14,7 @@ from ..homes import homes_of
 from ..parts.erase import erase_parts
 from ..parts.materials import discard
 from ..refusals import CONVERTIBLE
-from ..stored.names import CARRIER_TAG, HIDDEN_TAG, HULL_TAG
+from ..stored.names import CARRIER_TAG, HIDDEN_IN_TAG, HIDDEN_TAG, HULL_TAG
 from .converting import converted
 from .evaluated import SeenMesh
 from .shown_mesh import evaluated_copy
@@ -85,9 +85,12 @@ def placed_carrier(
 
 def _hide_source(carrier: bpy.types.Object) -> None:
     """Hide the source of a carrier, and note on it how that was shown."""
-    source = carrier.parent
-    there = source.name in bpy.context.view_layer.objects
-    carrier[HIDDEN_TAG] = [there and not source.hide_get(), not source.hide_render]
+    source, layer = carrier.parent, bpy.context.view_layer
+    there = source.name in layer.objects
+    was_shown = there and not source.hide_get()
+    carrier[HIDDEN_TAG] = [was_shown, not source.hide_render]
+    if was_shown:
+        carrier[HIDDEN_IN_TAG] = [bpy.context.scene.name, layer.name]
     if there:
         source.hide_set(True)
     source.hide_render = True
@@ -99,24 +102,38 @@ def _show_source(carrier: bpy.types.Object) -> None:
     if source is None or was_shown is None:
         return
     in_view, in_render = was_shown
-    if in_view and source.name in bpy.context.view_layer.objects:
-        source.hide_set(False)
+    layer = _layer_of(carrier)
+    if in_view and source.name in layer.objects:
+        source.hide_set(False, view_layer=layer)
     if in_render:
         source.hide_render = False
+
+
+def _layer_of(carrier: bpy.types.Object) -> bpy.types.ViewLayer:
+    """Return the view layer in which we hid the source of a carrier.
+
+    It is the present one if that is not known: older versions did not note it, and the
+    user may rename it.
+    """
+    scene, name = carrier.get(HIDDEN_IN_TAG, ("", ""))
+    layers = bpy.data.scenes[scene].view_layers if scene in bpy.data.scenes else {}
+    return layers.get(name) or bpy.context.view_layer
 
 
 def _remove(source: bpy.types.Object, carriers: list[bpy.types.Object]) -> None:
     """Remove carriers of a source, and show it; some are the user's from now on.
 
-    These are all copies, and carriers that have children of the user's.
+    These are all copies, and carriers that the user converted to something else, or
+    that have children of the user's.
     """
     there = [child for child in source.children if CARRIER_TAG in child]
-    copies = list(filter(_is_copy, there))  # while the carriers are there
+    copies = list(filter(is_copy, there))  # while the carriers are there
     for carrier in carriers:
         _show_source(carrier)
         if carrier in copies:
             continue
-        if all(HULL_TAG in child for child in carrier.children):
+        only_hulls = all(HULL_TAG in child for child in carrier.children)
+        if only_hulls and carrier.type == "MESH":
             discard([carrier])
         else:
             _leave_to_user(carrier)
@@ -124,7 +141,7 @@ def _remove(source: bpy.types.Object, carriers: list[bpy.types.Object]) -> None:
         _leave_to_user(copy)
 
 
-def _is_copy(carrier: bpy.types.Object) -> bool:
+def is_copy(carrier: bpy.types.Object) -> bool:
     """Return whether the user copied an object to have this one.
 
     The mesh notes its own name, which a copy of it cannot have. Copies that share the
@@ -139,7 +156,7 @@ def _is_copy(carrier: bpy.types.Object) -> bool:
 
 def _leave_to_user(carrier: bpy.types.Object) -> None:
     """Let a carrier be an object like others."""
-    for tag in (CARRIER_TAG, HIDDEN_TAG):
+    for tag in (CARRIER_TAG, HIDDEN_TAG, HIDDEN_IN_TAG):
         carrier.pop(tag, None)
     if carrier.data.users == 1:  # else a carrier may be known by it
         carrier.data.pop(CARRIER_TAG, None)
@@ -151,16 +168,25 @@ def clear_carrier(carrier: bpy.types.Object) -> None:
     A carrier that has children of the user's, or has lost its source, stays. So does a
     copy, and its source stays hidden for the carrier.
     """
-    source, layer = carrier.parent, bpy.context.view_layer.objects
+    source = carrier.parent
     if source is None:
         return
-    if _is_copy(carrier):
+    if is_copy(carrier):
         _remove(source, [])
         return
+    layers = _layers_with(carrier)
     _remove(source, [carrier])
-    if source.name in layer:
-        source.select_set(True)
-        layer.active = source
+    for layer in layers:
+        if source.name in layer.objects:
+            source.select_set(True, view_layer=layer)
+            layer.objects.active = source
+
+
+def _layers_with(carrier: bpy.types.Object) -> list[bpy.types.ViewLayer]:
+    """Return the view layers whose active object is a carrier, and the present one."""
+    present = bpy.context.view_layer
+    layers = [layer for scene in bpy.data.scenes for layer in scene.view_layers]
+    return [at for at in layers if at == present or at.objects.active == carrier]
 
 
 def discard_waiting() -> None:

@@ -6,9 +6,13 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from .names import LONGEST_NAME
+
 # Blender adds a number to a name that is taken: "Ear.001". Any digits behind a last dot
 # are such a number to it: where "Leg.1" is taken, comes "Leg.002".
 _NUMBERED = re.compile(r"\.\d+$")
+# Bytes that are left of the longest name with a number of three digits.
+_ROOM = LONGEST_NAME - len(".001")
 _USUAL = re.compile(r"Part \d{2,}$")
 
 
@@ -41,6 +45,23 @@ def part_name(number: int) -> str:
 def plain_name(name: str) -> str:
     """Return a name without the number that Blender adds to a name that is taken."""
     return _NUMBERED.sub("", name)
+
+
+def has_name(given: str, name: str) -> bool:
+    """Return whether Blender may have made a name of the one asked for.
+
+    Blender adds a number where a name is taken. Before 5.0, it cuts names of data so
+    that they have room for it: to 59 bytes, or 58 for numbers above 999, and fewer
+    where a letter has several bytes.
+    """
+    plain, asked = plain_name(given), plain_name(name)
+    if plain == asked:
+        return True
+    letters = asked.encode()
+    if len(letters) <= _ROOM:
+        return False
+    cut = (letters[:n].decode(errors="ignore") for n in (_ROOM, _ROOM - 1))
+    return plain in map(plain_name, cut)
 
 
 def without_side(name: str) -> str:

@@ -77,6 +77,8 @@ PICTURE_TAG = "wcd_picture_kind"
 CARRIER_TAG = "wcd_parts_of"
 # Custom property of such an object: how the curve was shown before we hid it.
 HIDDEN_TAG = "wcd_hidden"
+# And where we hid it: the names of the scene and the view layer.
+HIDDEN_IN_TAG = "wcd_hidden_in"
 
 # Bytes that Blender keeps of the name of a vertex group.
 LONGEST_NAME = 63

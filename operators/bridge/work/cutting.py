@@ -134,8 +134,10 @@ def _cut(
     order = order[np.isin(order, labels)]
     places = np.full(found.n_parts, -1)
     places[order] = np.arange(len(order))
+    # Should joining pieces lose a part, its polygons are measured with the largest.
+    measured = np.maximum(places[of_polygons], 0)
     after = replace(
-        (yield from _measured(refined, places[of_polygons], found, parameters)),
+        (yield from _measured(refined, measured, found, parameters)),
         labels=places[labels],
         areas=areas[order].astype(np.float64),
         face_counts=np.bincount(places[labels]),

@@ -137,17 +137,28 @@ def read_header(data: bytes) -> Header | None:
                     order = orders[kind]
                 case ["element", name, n_rows]:
                     elements.append(Element(name, int(n_rows), {}))
-                case ["property", "list", length, member, name]:
+                case ["property", "list", length, member, *name]:
                     codes = _TYPES[length] + _TYPES[member]
-                    elements[-1].properties[name] = codes
-                case ["property", kind, name]:
-                    elements[-1].properties[name] = _TYPES[kind]
+                    _add_property(elements[-1], name, codes)
+                case ["property", kind, *name]:
+                    _add_property(elements[-1], name, _TYPES[kind])
     except (KeyError, ValueError, IndexError):
         return None
     negative = any(element.n_rows < 0 for element in elements)
     if not mark or order is None or negative:
         return None
     return Header(order, tuple(elements), len(text) + len(mark) + newline)
+
+
+def _add_property(element: Element, words: list[str], codes: str) -> None:
+    """Give an element a property; Blender writes names of several words.
+
+    Of several with one name, the first one keeps it.
+    """
+    name = " ".join(words)
+    while name in element.properties:
+        name += " again"
+    element.properties[name] = codes
 
 
 def n_stl_triangles(head: bytes, size: int) -> int | None:

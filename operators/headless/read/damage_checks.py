@@ -13,6 +13,7 @@ from pathlib import Path
 from ....core.errors import DecompositionError
 from ..files.headers import MOST_DIGITS, n_stl_triangles, read_header
 from ..formats import READ_ENDINGS
+from .ply_faces import refers_to_missing
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {
@@ -27,9 +28,21 @@ _SIGNATURES = {
 }
 # Characters that no number has, not even "1e-5" or "-inf".
 _NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
+# A line of an .obj file that goes on in the next one.
+_OBJ_CONTINUED = re.compile(rb"\\[^\S\n]*\n")
 # A vertex or a face in an .obj file, and the numbers of the vertices of a face.
 _OBJ_LINE = re.compile(rb"^[ \t]*([vf])[ \t]([^#\n]*)", re.MULTILINE)
 _OBJ_CORNER = re.compile(rb"(?<!\S)-?\d+")
+# A vertex with a word among its first three numbers. Here, "nan" and "inf" are some.
+_OBJ_NUMBER = (
+    rb"[+-]?(?:(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?+(?![^\s#])"
+    rb"|(?i:nan|inf)[^\s#]*+)"
+)
+_OBJ_WORD = re.compile(
+    rb"\n[ \t]*v(?:[^\S\n]++%b){0,2}+[^\S\n]++(?!%b)[^\s#]" % (_OBJ_NUMBER, _OBJ_NUMBER)
+)
+# The mark with a line behind it that Blender then does not know.
+_OBJ_MARKED = re.compile(rb"\xef\xbb\xbf[ \t]*[vf]")
 # Numbers on a line of an .obj file, by keyword, at least.
 _N_OBJ_NUMBERS = {"v": 3, "vn": 3, "vt": 1, "f": 3}
 
@@ -72,7 +85,9 @@ def _check_content(path: Path, ending: str) -> None:
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if ending == ".obj":
         _check_last_line(path, tail)
-        _check_obj_corners(path)
+        data = _OBJ_CONTINUED.sub(b" ", path.read_bytes())
+        _check_obj_numbers(path, data)
+        _check_obj_corners(path, data)
 
 
 def _mislabelled(path: Path) -> DecompositionError:
@@ -115,9 +130,19 @@ def _check_ply(path: Path) -> None:
     if not header.is_whole(data):
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if not header.order and _NO_NUMBER.search(data, header.size):
+        raise _wordy(path)
+    if refers_to_missing(header, data):
         raise DecompositionError(
-            f"{path.name} has words where numbers should be; it is damaged."
+            f"{path.name} has a face that refers to vertices that are missing; export"
+            " it again."
         )
+
+
+def _wordy(path: Path) -> DecompositionError:
+    """Return the error for a file that has other words among its numbers."""
+    return DecompositionError(
+        f"{path.name} has words where numbers should be; it is damaged."
+    )
 
 
 def _check_last_line(path: Path, tail: bytes) -> None:
@@ -132,10 +157,22 @@ def _check_last_line(path: Path, tail: bytes) -> None:
         raise DecompositionError(f"{path.name} is truncated: it stops within a line.")
 
 
-def _check_obj_corners(path: Path) -> None:
+def _check_obj_numbers(path: Path, data: bytes) -> None:
+    """Raise for an OBJ file with vertices that Blender would misread or leave out."""
+    if _OBJ_MARKED.match(data):
+        raise DecompositionError(
+            f"{path.name} begins with a byte order mark, which hides its first vertex;"
+            " save it as UTF-8 without that."
+        )
+    # A line break is found sooner than the beginning of a line.
+    if _OBJ_WORD.search(b"\n" + data):
+        raise _wordy(path)
+
+
+def _check_obj_corners(path: Path, data: bytes) -> None:
     """Raise for an OBJ file with faces that Blender would leave out."""
     n_vertices = 0
-    for line in _OBJ_LINE.finditer(path.read_bytes().replace(b"\\\n", b" ")):
+    for line in _OBJ_LINE.finditer(data):
         if line[1] == b"v":
             n_vertices += 1
             continue

@@ -108,8 +108,10 @@ def _unreadable(path: Path, message: str) -> DecompositionError:
     """Return the error for a failed import, with the importer's reason."""
     reason = last_reason(message).removesuffix(", see console for detail")
     if path.name in reason:  # the reason itself follows the path
-        reason = reason.rpartition(": ")[2].strip("'")
-        reason = re.sub(rf"\S*{re.escape(path.name)}", f'"{path.name}', reason)
+        whole = "|".join(re.escape(str(each)) for each in (path.absolute(), path))
+        named = rf"""(["']?)(?:{whole}|\S*{re.escape(path.name)})\1"""
+        reason = re.sub(named, lambda _: f'"{path.name}"', reason)
+        reason = reason.rpartition(": ")[2]
     return DecompositionError(
         f"{path.name} cannot be read as {path.suffix.lower()}: it is incomplete,"
         f" damaged or of another kind ({reason})."

@@ -16,11 +16,13 @@ from ....core.results.hulls import HullDecomposition
 from ...bridge.hulls.hull_objects import figures_of_hull, write_hulls
 from ...bridge.hulls.placed import placed
 from ...bridge.parts.rows import hull_shapes
+from ...bridge.read.reading_notes import reading_notes
 from ...bridge.read.shape import have_equal_shapes
 from ...bridge.stored.record import record_of
 from ...bridge.work.computing_hulls import hull_summary
 from ..request.options import Request
 from ..screen import Screen, progress_title
+from ..write.hull_files import names_in_file
 from .hulls_ahead import HullsAhead
 from .results import ObjectResult
 
@@ -47,7 +49,30 @@ def build_hulls(
     with closing(HullsAhead(asked, request)) as ahead:
         hulls, told = _build_each(objects, results, request, screen, ahead)
     _show(hulls)
-    return hulls, told
+    return hulls, _named_as_in_file(told, hulls, request)
+
+
+def _named_as_in_file(
+    results: Sequence[ObjectResult],
+    hulls: Sequence[bpy.types.Object],
+    request: Request,
+) -> tuple[ObjectResult, ...]:
+    """Return results whose hulls have the names of the file of hulls, if one is asked.
+
+    `hulls` are those of all results, in their order.
+    """
+    files = [each.hulls for each in request.targets if each.hulls]
+    if not files:
+        return tuple(results)
+    ending = files[0].suffix.lower()  # of all files
+    names = iter(names_in_file(ending, hulls, request.body_parameters))
+    return tuple(
+        replace(
+            result,
+            hulls=tuple({**figures, "name": next(names)} for figures in result.hulls),
+        )
+        for result in results
+    )
 
 
 def _build_each(
@@ -98,6 +123,7 @@ class _Built:
     """The hulls of an object; others that would have equal ones get the same."""
 
     owner: bpy.types.Object
+    read: tuple[str, ...]  # notes on what was read of it
     found: HullDecomposition
     hulls: list[bpy.types.Object]
 
@@ -132,12 +158,17 @@ def _hulls_of(
     """
     title, parameters = _title(obj), request.hull_parameters
     built = next((each for each in known if _serves(each, obj, parameters)), None)
+    read = reading_notes(obj, for_parts=False, has_choice=True)
     if built is None:
         found = screen.follow(progress_title(title, *place), ahead.steps_of(obj))
-        for note in found.notes:
-            screen.warning(note, title)
+        of_hulls = [note for note in found.notes if note not in read]
     else:
-        found = built.found
+        found, of_hulls = built.found, []
+        # What was read of the other object is not said of this one.
+        kept = (note for note in found.notes if note not in built.read)
+        found = replace(found, notes=(*read, *kept))
+    for note in (*read, *of_hulls):
+        screen.warning(note, title)
     with screen.stages.during("hulls"):
         meshes = [hull.data for hull in built.hulls] if built else None
         hulls = write_hulls(obj, found, parameters, meshes)
@@ -146,6 +177,6 @@ def _hulls_of(
             for row, (hull, shape) in enumerate(zip(hulls, found.shapes, strict=True))
         )
     if built is None:
-        known.append(_Built(obj, found, hulls))
+        known.append(_Built(obj, read, found, hulls))
     screen.result(f"{title}: {hull_summary(found)}")
     return hulls, figures

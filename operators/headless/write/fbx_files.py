@@ -15,7 +15,7 @@ from ....core.parameters.hull_names import hull_names
 from ...bridge.hulls.fitting_names import names_that_fit
 from ...bridge.stored.noted_hulls import figures_on
 from ..addons import FBX, enable
-from ..shear import shear_in_meshes
+from ..shear import shear_in_meshes, without_parents
 from .names import hulls_by_owner
 from .one_scene import one_scene
 
@@ -60,16 +60,9 @@ def write_fbx(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
 @contextmanager
 def _for_unreal(hulls: Sequence[bpy.types.Object]) -> Iterator[None]:
     """Give hulls Unreal's names and no parents; take it back at the end."""
-    before = [
-        (h, h.name, h.parent, h.matrix_parent_inverse.copy(), h.matrix_basis.copy())
-        for h in hulls
-    ]
-    names = _unreal_names(hulls)
+    before = [(hull, hull.name) for hull in hulls]
     try:
-        for hull, name in zip(hulls, names, strict=True):
-            place = hull.matrix_world.copy()
-            hull.parent = None
-            hull.matrix_world = place
+        for hull, name in zip(hulls, _unreal_names(hulls), strict=True):
             if hull.name != name:
                 hull.name = name
             if hull.name != name:  # Blender cuts it off, or numbers it
@@ -77,13 +70,11 @@ def _for_unreal(hulls: Sequence[bpy.types.Object]) -> Iterator[None]:
                     f"A hull cannot be named {name}, as Unreal needs it: the name is"
                     " taken or too long; rename the object."
                 )
-        bpy.context.view_layer.update()
-        yield
+        with without_parents(hulls):
+            yield
     finally:
-        for hull, name, parent, inverse, basis in before:
-            hull.parent, hull.name = parent, name
-            hull.matrix_parent_inverse, hull.matrix_basis = inverse, basis
-        bpy.context.view_layer.update()
+        for hull, name in before:
+            hull.name = name
 
 
 def _unreal_names(hulls: Sequence[bpy.types.Object]) -> list[str]:

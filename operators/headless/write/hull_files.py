@@ -13,10 +13,12 @@ from ..files.output_folders import replacing_with_folder
 from ..files.replacing import explaining, replacing
 from ..formats import SIMULATOR_ENDINGS, axes, up_in
 from ..quiet import quiet_blender
-from ..shear import shear_in_meshes
+from ..shear import shear_in_meshes, without_parents
 from .collider_marks import mark_glb
+from .names import names_of_hulls
 from .obj_files import write_hulls_obj
-from .simulators.bodies import bodies_of, write_meshes
+from .one_scene import one_scene
+from .simulators.bodies import bodies_of, names_of_collisions, write_meshes
 from .simulators.mjcf import write_mjcf
 from .simulators.urdf import write_urdf
 from .usd_files import write_usd
@@ -65,6 +67,27 @@ def save_hulls(
     return ()
 
 
+def names_in_file(
+    ending: str, hulls: Sequence[bpy.types.Object], parameters: BodyParameters
+) -> list[str]:
+    """Return the name of each hull in a file that `save_hulls` writes.
+
+    Parameters
+    ----------
+    ending : str
+        One of `HULL_ENDINGS`.
+    hulls : sequence of Object
+        All that are in the file, children of their objects.
+    parameters : BodyParameters
+        For simulators.
+    """
+    if ending in SIMULATOR_ENDINGS:
+        return names_of_collisions(hulls, parameters)
+    if ending in _FORMS:
+        return names_of_hulls(hulls, _FORMS[ending])
+    return [hull.name for hull in hulls]
+
+
 def _save_bodies(
     path: Path,
     folder: Path,
@@ -86,9 +109,9 @@ def _save_bodies(
 
 def _glb(path: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:
     """Export .glb with colliders."""
-    select_only(hulls)
-    with quiet_blender(), shear_in_meshes(hulls):
-        enable(GLTF)
+    enable(GLTF)
+    with quiet_blender(), shear_in_meshes(hulls), without_parents(hulls), one_scene():
+        select_only(hulls)
         bpy.ops.export_scene.gltf(
             filepath=str(path),
             export_format="GLB",
@@ -98,8 +121,10 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:
             # Flat normals would copy each vertex for each of its faces.
             export_normals=False,
             export_extras=True,
+            export_animations=False,
+            export_current_frame=True,
         )
-    mark_glb(path)
+    mark_glb(path, len(hulls))
 
 
 def _stl(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
@@ -128,6 +153,8 @@ def select_only(objects: Sequence[bpy.types.Object]) -> None:
         obj.select_set(obj in chosen)
 
 
+# How names are made legal, by ending; other formats take any name.
+_FORMS = {".obj": "obj", ".usd": "usd"}
 _EXPORTERS: dict[str, Callable[[Path, Sequence[bpy.types.Object], str], None]] = {
     ".glb": _glb,
     ".obj": write_hulls_obj,

@@ -15,6 +15,7 @@ from ..files.replacing import explaining, replacing
 from ..files.whole import check_obj
 from ..formats import axes, up_in
 from ..quiet import quiet_blender
+from ..shear import without_parents
 from .collider_marks import mark_glb
 from .fbx_files import write_fbx
 from .obj_files import restore_digits
@@ -83,7 +84,12 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
     """Export .glb; hulls are marked as colliders."""
     enable(GLTF)
     # The extras hold the record, which is the custom property "wcd" of each object.
-    with _smooth(hulls), one_scene(), painted_clouds() as with_points:
+    with (
+        _smooth(hulls),
+        one_scene(),
+        without_parents(_orphans()),
+        painted_clouds() as with_points,
+    ):
         bpy.ops.export_scene.gltf(
             filepath=str(path),
             export_format="GLB",
@@ -91,9 +97,21 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
             use_active_scene=True,
             use_mesh_vertices=with_points,
             export_attributes=with_points,
+            # Hulls are around what is seen now.
+            export_current_frame=bool(hulls),
+            export_rest_position_armature=not hulls,
         )
     if hulls:
-        mark_glb(path)
+        mark_glb(path, len(hulls))
+
+
+def _orphans() -> list[bpy.types.Object]:
+    """Return the objects of the scene whose parents are not in it.
+
+    The exporter would leave them out.
+    """
+    objects = bpy.context.scene.objects
+    return [obj for obj in objects if obj.parent and obj.parent.name not in objects]
 
 
 @contextmanager

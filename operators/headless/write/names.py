@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import bpy
 
@@ -68,7 +68,11 @@ def names_of_objects(form: str) -> dict[str, str]:
     return dict(zip(names, legal_names(names, form), strict=True))
 
 
-def names_of_hulls(hulls: Sequence[bpy.types.Object], form: str) -> list[str]:
+def names_of_hulls(
+    hulls: Sequence[bpy.types.Object],
+    form: str,
+    owners: Mapping[str, str] | None = None,
+) -> list[str]:
     """Return a legal name for each hull: the legal name of its object is in it.
 
     Parameters
@@ -77,8 +81,10 @@ def names_of_hulls(hulls: Sequence[bpy.types.Object], form: str) -> list[str]:
         Children of their objects.
     form : {'obj', 'xml', 'usd'}
         The format.
+    owners : mapping of str to str, optional
+        The legal names of their objects; by default those of `names_of_objects`.
     """
-    owners = names_of_objects(form)
+    owners = owners or names_of_objects(form)
     own = [
         hull.name.replace(hull.parent.name, owners[hull.parent.name], 1)
         for hull in hulls

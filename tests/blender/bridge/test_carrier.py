@@ -131,6 +131,20 @@ def test_copies_of_a_carrier_are_the_users(command, linked):
     assert hand.hide_get() == (command == "decompose")
 
 
+def test_a_carrier_is_cleared_after_a_copy_that_shares_its_mesh():
+    hand = hand_curve()
+    placed = again(hand)
+    mine = copied(placed, linked=True)
+    bpy.ops.wcd.clear()  # it takes the parts off both
+    assert not bpy.ops.wcd.clear.poll()
+    assert hand.hide_get()
+    activate(placed)
+    assert "wcd" not in placed
+    bpy.ops.wcd.clear()
+    assert list(hand.children) == [mine]
+    assert not hand.hide_get()
+
+
 def test_a_copy_stays_the_users_once_the_carrier_is_deleted():
     hand = hand_curve()
     placed = again(hand)

@@ -6,8 +6,10 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from brute_caster import BruteCaster
 from computed import build_hulls, decompose, measure, prepare
 from weak_convex_decomposition import DecompositionError, HullParameters, Parameters
+from weak_convex_decomposition.core.sight.prepared import prepare_in_steps
 
 # Places of unit boxes that touch, and the number of faces between them.
 TOUCHING = {
@@ -45,6 +47,14 @@ def test_faces_between_boxes_bound_nothing(name, turned):
     assert shape.convex == (name != "L")
     assert f"{n_walls} face" in shape.notes[-1]
     assert shape.n_nodes == mesh.n_polygons
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_progress_never_goes_back(name):
+    places = TOUCHING[name][0]
+    doubled = shapes.joined(*[by_distance(boxes_at(places))] * 2)
+    shares = [step.fraction for step in prepare_in_steps(doubled, BruteCaster)]
+    assert shares == sorted(shares)
 
 
 def test_boxes_wound_against_each_other_may_be_merged():

@@ -15,7 +15,7 @@ from .....core.solids.mass_properties import MassProperties
 from ....bridge.hulls.placed import Solid, solid_of
 from ....bridge.mesh.attributes import read_ints
 from ....bridge.parts.palette import UNPAINTED
-from ..names import hulls_by_owner, legal_names
+from ..names import hulls_by_owner, legal_names, names_of_hulls
 from ..obj_files import write_obj
 from ..placed_meshes import Float64Array, TriangleArray, matrix_of, placed
 from .masses import mass_notes, mass_of_objects
@@ -89,22 +89,48 @@ def bodies_of(
     notes : tuple of str
         Sentences to the user.
     """
-    owned = hulls_by_owner(hulls)
+    owned, titles = hulls_by_owner(hulls), _titles(hulls, parameters)
     each = parameters.bodies == "EACH"
     groups = [[obj] for obj in owned] if each else [list(owned)]
-    names = [obj.name for obj in owned] if each else [name]
-    names = legal_names([*_TAKEN, *names], "xml")[len(_TAKEN) :]
+    names = list(titles.values()) if each else _free_names([name])
+    of_hulls = dict(zip(hulls, names_of_collisions(hulls, parameters), strict=True))
     bodies, opened = [], []
     for group, title in zip(groups, names, strict=True):
         frame = _frame_of(group[0]) if each else np.eye(4)
         parts = {obj: owned[obj] for obj in group}
         mass, without_solid = mass_of_objects(parts, frame, parameters.density)
         opened += without_solid
-        collisions = [_collision(h, frame) for its in parts.values() for h in its]
-        visuals = [piece for obj in group for piece in _visuals(obj, frame)]
+        own = [hull for its in parts.values() for hull in its]
+        collisions = [_collision(hull, of_hulls[hull], frame) for hull in own]
+        visuals = [p for obj in group for p in _visuals(obj, titles[obj.name], frame)]
         bodies.append(Body(title, frame, mass, tuple(collisions), tuple(visuals)))
     weights = {body.name: body.mass for body in bodies}
     return _named(bodies), mass_notes(weights, opened)
+
+
+def names_of_collisions(
+    hulls: Sequence[bpy.types.Object], parameters: BodyParameters
+) -> list[str]:
+    """Return the names of hulls in files for simulators; see `names_of_hulls`.
+
+    If each object is a body, the name of the body is in those of its hulls.
+    """
+    return names_of_hulls(hulls, "xml", _titles(hulls, parameters))
+
+
+def _titles(
+    hulls: Sequence[bpy.types.Object], parameters: BodyParameters
+) -> dict[str, str]:
+    """Return the legal names of the objects that hulls belong to, by their names."""
+    names = [obj.name for obj in hulls_by_owner(hulls)]
+    each = parameters.bodies == "EACH"
+    legal = _free_names(names) if each else legal_names(names, "xml")
+    return dict(zip(names, legal, strict=True))
+
+
+def _free_names(names: Sequence[str]) -> list[str]:
+    """Return legal names that simulators do not use themselves."""
+    return legal_names([*_TAKEN, *names], "xml")[len(_TAKEN) :]
 
 
 def write_meshes(folder: Path, bodies: Sequence[Body]) -> None:
@@ -126,14 +152,14 @@ def _frame_of(obj: bpy.types.Object) -> Float64Array:
     return frame
 
 
-def _collision(hull: bpy.types.Object, frame: Float64Array) -> Geometry:
+def _collision(hull: bpy.types.Object, name: str, frame: Float64Array) -> Geometry:
     """Return a hull in the frame of its body."""
     matrix = np.linalg.inv(frame) @ matrix_of(hull)
     vertices, triangles, _ = placed(hull, matrix)
-    return Geometry(hull.name, "", vertices, triangles, solid_of(hull, matrix))
+    return Geometry(name, "", vertices, triangles, solid_of(hull, matrix))
 
 
-def _visuals(obj: bpy.types.Object, frame: Float64Array) -> list[Geometry]:
+def _visuals(obj: bpy.types.Object, name: str, frame: Float64Array) -> list[Geometry]:
     """Return the mesh of an object in the frame of its body, a piece for each color.
 
     Simulators take one color for a mesh; MuJoCo reads no materials of .obj files.
@@ -150,7 +176,7 @@ def _visuals(obj: bpy.types.Object, frame: Float64Array) -> list[Geometry]:
             continue
         used, corners = np.unique(chosen, return_inverse=True)
         mesh = _four_vertices(vertices[used], corners.reshape(-1, 3))
-        title = f"{obj.name} {material.name if material else 'surface'}"
+        title = f"{name} {material.name if material else 'surface'}"
         pieces.append(Geometry(title, "", *mesh, color=_color_of(material)))
     return pieces
 
@@ -176,7 +202,10 @@ def _color_of(material: bpy.types.Material | None) -> tuple[float, ...]:
 
 
 def _named(bodies: Sequence[Body]) -> list[Body]:
-    """Return bodies whose shapes have files of their own, and legal distinct names."""
+    """Return bodies whose shapes have files of their own, and legal distinct names.
+
+    Those of hulls are legal already, and stay.
+    """
     shapes = [shape for body in bodies for shape in body.collisions]
     seen = [shape for body in bodies for shape in body.visuals]
     names = legal_names([shape.name for shape in (*shapes, *seen)], "xml")

@@ -223,7 +223,7 @@ def test_an_earlier_result_is_not_mistaken_for_that_of_an_instance(tmp_path):
     _, objects = run(saved(tmp_path / "a.blend"))
     assert [obj["name"] for obj in objects] == ["Rock", "Spot Rock"]
     (hull,) = objects[1]["hulls"]["hulls"]
-    assert hull["name"].startswith("Spot Rock")
+    assert hull["name"].startswith("Spot_Rock")
 
 
 def test_curves_texts_and_metaballs_are_no_models_nor_are_instances_of_them(tmp_path):

@@ -215,8 +215,12 @@ def test_a_part_that_got_the_hulls_of_its_object_can_be_cleared(suzanne):
     decompose_by_hand(suzanne, 2)
     build_hulls([suzanne], **QUICK)
     activate(suzanne)
-    bpy.ops.wcd.separate(original="REMOVE")
-    piece = next(obj for obj in bpy.data.objects if hulls_of(obj))
+    bpy.ops.wcd.separate()
+    piece = bpy.data.objects["Suzanne Part 01"]
+    for hull in hulls_of(suzanne):
+        hull.parent = piece
+    bpy.data.objects.remove(suzanne)
+    bpy.context.view_layer.update()
     clear(piece)
     assert left() == []
 

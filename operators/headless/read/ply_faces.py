@@ -1,0 +1,157 @@
+"""Finds faces of .ply files that refer to vertices which the file does not have.
+
+Blender leaves them out without a word.
+"""
+
+from __future__ import annotations
+
+import struct
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..files.headers import Element, Header, whole_number
+
+# What the list of the vertices of a face is called.
+_CORNERS = ("vertex_indices", "vertex_index")
+
+
+def refers_to_missing(header: Header, data: bytes) -> bool:
+    """Return whether a face has a vertex that the file does not have.
+
+    Parameters
+    ----------
+    header : Header
+    data : bytes
+        The whole file, which has all rows that its header promises.
+    """
+    n_vertices = sum(each.n_rows for each in header.elements if each.name == "vertex")
+    read = _text_corners if not header.order else _binary_corners
+    corners = read(header, data)
+    return not ((corners >= 0) & (corners < n_vertices)).all()
+
+
+def _place_of_corners(element: Element) -> int | None:
+    """Return which property of a face lists its vertices, None if there is none."""
+    if element.name != "face" or not element.n_rows:
+        return None
+    for place, (name, codes) in enumerate(element.properties.items()):
+        if name in _CORNERS and len(codes) > 1:
+            return place
+    return None
+
+
+def _text_corners(header: Header, data: bytes) -> NDArray[Any]:
+    """Return the vertices of all faces of a file in text form, of any shape."""
+    rows = [row for row in data[header.size :].splitlines() if row.strip()]
+    found: list[bytes] = []
+    for element in header.elements:
+        place = _place_of_corners(element)
+        if place is not None:
+            kinds = list(element.properties.values())
+            table = _equal_rows(rows[: element.n_rows]) if len(kinds) == 1 else None
+            if table is not None:
+                return table
+            for row in rows[: element.n_rows]:
+                found += _listed_last(row.split(), kinds[: place + 1])
+        del rows[: element.n_rows]
+    try:
+        return np.array(found, dtype=np.float64)
+    except ValueError:  # such as "1-2", which the importer decides on
+        return np.zeros(0)
+
+
+def _equal_rows(rows: Sequence[bytes]) -> NDArray[np.int64] | None:
+    """Return the members of lists of whole numbers; None if they differ in length."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)  # of other words
+            numbers = np.fromstring(b" ".join(rows), dtype=np.int64, sep=" ")
+    except (ValueError, DeprecationWarning):
+        return None
+    if not len(numbers) or len(numbers) % len(rows):
+        return None
+    table = numbers.reshape(len(rows), -1)
+    is_equal = (table[:, 0] == table.shape[1] - 1).all()
+    return table[:, 1:] if is_equal else None
+
+
+def _listed_last(words: list[bytes], kinds: Sequence[str]) -> list[bytes]:
+    """Return the members of a list, the last of several properties on a line."""
+    start = end = 0
+    for codes in kinds:
+        start = end + 1
+        length = words[end] if len(codes) > 1 and end < len(words) else b""
+        end = start + (whole_number(length.decode("latin-1")) or 0)
+    return words[start:end]
+
+
+def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:
+    """Return the vertices of all faces of a file in binary form, of any shape."""
+    start = header.size
+    for element in header.elements:
+        place = _place_of_corners(element)
+        table = _table(element, header.order, data, start)
+        if table is not None:
+            if place is not None:
+                found: NDArray[Any] = table[f"members {place}"]
+                return found
+            start += table.nbytes
+            continue
+        pieces, start = _walk(element, header.order, data, start, place)
+        if place is not None:
+            code = list(element.properties.values())[place][1]
+            return np.frombuffer(b"".join(pieces), header.order + code)
+    return np.zeros(0)
+
+
+def _table(
+    element: Element, order: str, data: bytes, start: int
+) -> NDArray[np.void] | None:
+    """Return the rows of an element; None if their lists differ in length."""
+    if not element.n_rows or not element.properties:
+        return np.zeros(0, np.dtype([]))
+    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
+    lengths, end = {}, start
+    for place, codes in enumerate(element.properties.values()):
+        if len(codes) > 1:  # as long as in the first row
+            (length,) = struct.unpack_from(order + codes[0], data, end)
+            end += struct.calcsize(codes[0])
+            lengths[f"length {place}"] = length = max(int(length), 0)
+            fields.append((f"length {place}", order + codes[0]))
+            fields.append((f"members {place}", order + codes[1], (length,)))
+        else:
+            length = 1
+            fields.append((f"member {place}", order + codes))
+        end += length * struct.calcsize(codes[-1])
+    if start + (end - start) * element.n_rows > len(data):
+        return None
+    table = np.frombuffer(data, np.dtype(fields), element.n_rows, start)
+    same = all((table[name] == length).all() for name, length in lengths.items())
+    return table if same else None
+
+
+def _walk(
+    element: Element, order: str, data: bytes, start: int, wanted: int | None
+) -> tuple[list[bytes], int]:
+    """Go through rows whose lists differ; return those that are wanted, and the end."""
+    pieces: list[bytes] = []
+    kinds = [
+        (place == wanted, len(codes) > 1 and struct.Struct(order + codes[0]), codes)
+        for place, codes in enumerate(element.properties.values())
+    ]
+    sizes = {codes: struct.calcsize(codes[-1]) for _, _, codes in kinds}
+    for _ in range(element.n_rows):
+        for is_wanted, length, codes in kinds:
+            n_members = 1
+            if length:
+                n_members = max(int(length.unpack_from(data, start)[0]), 0)
+                start += length.size
+            end = start + n_members * sizes[codes]
+            if is_wanted:
+                pieces.append(data[start:end])
+            start = end
+    return pieces, start

@@ -1,0 +1,166 @@
+"""Damaged .ply and .obj files whose faces or coordinates Blender would leave out."""
+
+import struct
+import time
+
+import bpy
+import numpy as np
+import pytest
+from hand_made import add_ring, decompose_by_hand
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.headless.files.headers import read_header
+from weak_convex_decomposition.operators.headless.read.load import load
+from weak_convex_decomposition.operators.headless.read.ply_faces import (
+    refers_to_missing,
+)
+
+VERTICES = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+TRIANGLES = [(0, 2, 1), (0, 1, 3), (0, 3, 2)]
+MIXED = [(0, 2, 1), (0, 1, 3, 2), (1, 2, 3)]
+ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+EXTRA = ("", "property uchar flag")
+MISSING = "refers to vertices that are missing"
+
+
+def ply(form, faces, extra="", strips=""):
+    """Return a .ply file; `extra` is a property of faces, before and after their lists.
+
+    `strips` are lists of an element of its own, between vertices and faces.
+    """
+    order = ORDERS[form]
+    head = f"ply\nformat {form} 1.0\nelement vertex {len(VERTICES)}\n"
+    head += "".join(f"property float {axis}\n" for axis in "xyz")
+    if strips:
+        head += f"element strip {len(strips)}\nproperty list uchar int members\n"
+    head += f"element face {len(faces)}\n"
+    first, last = (f"{extra}_{n}\n" if extra else "" for n in (1, 2))
+    head += f"{first}property list uchar int vertex_indices\n{last}end_header\n"
+    flag = [7] if extra else []
+    if not order:
+        rows = [*VERTICES, *((len(each), *each) for each in strips)]
+        rows += [(*flag, len(face), *face, *flag) for face in faces]
+        return (head + "".join(" ".join(map(str, row)) + "\n" for row in rows)).encode()
+    data = b"".join(struct.pack(f"{order}3f", *vertex) for vertex in VERTICES)
+    for each in strips:
+        data += struct.pack(f"{order}B{len(each)}i", len(each), *each)
+    for face in faces:
+        row = struct.pack(f"{order}B{len(face)}i", len(face), *face)
+        data += bytes(flag) + row + bytes(flag)
+    return head.encode() + data
+
+
+def with_corner(faces, corner):
+    """Return faces of which the second one has another vertex."""
+    (_, *rest) = faces[1]
+    return [faces[0], (corner, *rest), *faces[2:]]
+
+
+@pytest.mark.parametrize("form", ORDERS)
+@pytest.mark.parametrize("faces", [TRIANGLES, MIXED], ids=["equal", "mixed"])
+@pytest.mark.parametrize("extra", EXTRA)
+def test_ply_faces_without_their_vertices(tmp_path, unexpected, form, faces, extra):
+    cases = {
+        f"{corner}.ply": (ply(form, with_corner(faces, corner), extra), MISSING)
+        for corner in (4, 1000, -1)
+    }
+    assert unexpected(cases) == {}
+    (tmp_path / "a.ply").write_bytes(ply(form, faces, extra))
+    assert len(load(tmp_path / "a.ply")[0].data.polygons) == len(faces)
+
+
+@pytest.mark.parametrize("form", ORDERS)
+@pytest.mark.parametrize("strips", [[(9, 9), (9, 9)], [(9, 9), (9,)]])
+def test_other_lists_before_the_faces(form, strips):
+    for corner, is_missing in ((0, False), (4, True)):
+        data = ply(form, with_corner(MIXED, corner), strips=strips)
+        assert refers_to_missing(read_header(data), data) == is_missing
+
+
+@pytest.mark.parametrize("form", ORDERS)
+def test_properties_of_several_words_and_of_one_name(tmp_path, form):
+    path = tmp_path / "a.ply"
+    data = ply(form, MIXED, "property uchar flag")
+    for names in ("Part 01", "Part 02"), ("flag", "flag"):
+        path.write_bytes(
+            data.replace(b"flag_1", names[0].encode()).replace(
+                b"flag_2", names[1].encode()
+            )
+        )
+        assert len(load(path)[0].data.polygons) == len(MIXED)
+    header = read_header(data.replace(b"flag_1", b"x y").replace(b"flag_2", b"x y"))
+    names = ["x y", "vertex_indices", "x y again"]
+    assert list(header.elements[1].properties) == names
+
+
+def test_models_with_weights_come_back(tmp_path):
+    ring = add_ring("Ring")
+    decompose_by_hand(ring, 2)
+    bpy.ops.wm.ply_export(filepath=str(tmp_path / "a.ply"))
+    assert b"property float Part 01" in (tmp_path / "a.ply").read_bytes()
+    assert len(load(tmp_path / "a.ply")[0].data.polygons) == 288
+
+
+def test_large_files_take_little_time():
+    n_faces = 1_000_000
+    head = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\n"
+    head += f"element face {n_faces}\nproperty list uchar int vertex_indices\n"
+    row = struct.pack(">B3i", 3, 0, 1, 2)
+    data = f"{head}end_header\n".encode() + bytes(12) + row * n_faces
+    started = time.perf_counter()
+    assert not refers_to_missing(read_header(data), data)
+    assert time.perf_counter() - started < 1.0
+
+
+def test_other_numbers_in_text(tmp_path, unexpected):
+    for index, message in (("3.0", "no error"), ("4.0", MISSING), ("9" * 40, MISSING)):
+        text = ply("ascii", [(0, 1, 3)]).decode().replace("3 0 1 3", f"3 0 1 {index}")
+        assert unexpected({"a.ply": (text.encode(), message)}) == {}
+
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+
+
+@pytest.mark.parametrize("word", ["0,5", "0x1", "1f", "1.2.3", "one", "-", "1e"])
+def test_obj_with_words_where_numbers_should_be(unexpected, word):
+    text = TRIANGLE.replace("v 1 0 0", f"v 1 \t{word} 0")
+    sentence = "has words where numbers should be"
+    assert unexpected({"a.obj": (text.encode(), sentence)}) == {}
+
+
+def test_obj_with_unusual_numbers(tmp_path):
+    path = tmp_path / "a.obj"
+    rows = ["1. .5 +1", "1E2 -1e-2 \\ \r\n 1", "\t1 0 0 red # 0,5", "0 0", "1 2 3#4"]
+    text = (
+        TRIANGLE + "".join(f"v {row}\n" for row in rows) + "f -1 -2 -3 -4 -5\n# v x\n"
+    )
+    path.write_bytes(text.encode())
+    (obj,) = load(path, "Z")
+    found = np.array([vertex.co for vertex in obj.data.vertices][3:])
+    expected = [(1, 0.5, 1), (100, -0.01, 1), (1, 0, 0), (0, 0, 0), (1, 2, 3)]
+    assert found == pytest.approx(np.array(expected), abs=1e-5)
+
+
+def test_obj_with_a_byte_order_mark(tmp_path, unexpected):
+    mark = b"\xef\xbb\xbf"
+    for text in (TRIANGLE, f"vn 0 0 1\n{TRIANGLE}"):
+        case = mark + text.encode(), "begins with a byte order mark"
+        assert unexpected({"a.obj": case}) == {}
+    path = tmp_path / "b.obj"
+    path.write_bytes(mark + f"# of another program\n{TRIANGLE}".encode())
+    assert len(load(path)[0].data.polygons) == 1
+
+
+def test_the_reasons_of_importers_name_the_file_in_quotes(tmp_path):
+    folder = tmp_path / "a folder: 1"
+    folder.mkdir()
+    heads = b"; FBX 7.3.0 project file\n", b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0"
+    for name in ("a.fbx", "it's.fbx"):
+        for head in heads:
+            (folder / name).write_bytes(head + b"hello")
+            with pytest.raises(DecompositionError) as caught:
+                load(folder / name)
+            reason = str(caught.value).partition("(")[2]
+            assert reason.count(f'"{name}"') == 1
+            assert reason.count('"') == 2
+            assert reason.replace("it's", "").replace("n't", "").count("'") == 0
+            assert "folder" not in reason
