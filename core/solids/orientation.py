@@ -18,6 +18,8 @@ from .winding import winding_number
 # Greatest missing area of a solid open shell, as a share of its area. A cube without
 # its lid misses 0.2.
 _MOST_MISSING = 0.25
+# A volume below this, in cubed diagonals, is rounding: that of a sheet with two sides.
+_NO_VOLUME = 1e-12
 
 
 def oriented(
@@ -49,7 +51,7 @@ def oriented(
     nearly = shells.windable & (missing <= _MOST_MISSING * areas)
     solid = shells.closed | nearly
     turned = np.zeros(len(solid), dtype=bool)
-    inward = np.flatnonzero(solid & (volumes < 0))
+    inward = np.flatnonzero(solid & (volumes < -_NO_VOLUME * mesh.diagonal**3))
     if len(inward):
         yield Progress("Surface", 0.6)
         inverted = yield from _inverted(mesh, shells, solid, inward)

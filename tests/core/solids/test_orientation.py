@@ -142,3 +142,12 @@ def test_what_is_open_turns_with_an_object_that_is_inside_out():
     result, notes = facing_out(changes.inside_out(both))
     assert_same_winding(result, both)
     assert "inside out" in notes[0]
+
+
+def test_a_sheet_with_two_sides_is_not_inside_out():
+    sheet = shapes.sheet(8)
+    bent = sheet.vertices + np.sin(5 * sheet.vertices[:, :1]) * [0, 0, 0.3]
+    sheet = replace(sheet, vertices=bent)
+    for seed in range(5):
+        turned = changes.moved(sheet, rotation=changes.any_rotation(seed))
+        assert_untouched(shapes.joined(turned, changes.inside_out(turned)))
