@@ -189,7 +189,9 @@ def _prepare_mesh(
     whole, its_edges = bare.wound_as(turned), bare.edges
     if turned is not bare.mesh:  # turned triangles have other sides
         its_edges = yield from within(sort_edges(turned), 0.8, 0.85)
-    if whole is not mesh:
+    if whole is turned:
+        edges = its_edges
+    elif whole is not mesh:
         edges = yield from within(sort_edges(whole), 0.85, 0.9)
     convex = yield from within(is_convex(turned, shells, its_edges), 0.9, 1.0)
     return PreparedShape(

@@ -39,7 +39,9 @@ class BareMesh:
 
     def wound_as(self, turned: TriangleMesh) -> TriangleMesh:
         """Return `whole` with the windings of `mesh` after it was turned."""
-        if turned is self.mesh is self.whole:
+        if turned is self.mesh:
+            return self.whole
+        if self.mesh is self.whole:
             return turned
         outer = self.rows >= 0
         triangles = self.whole.triangles.copy()

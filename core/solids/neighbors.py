@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.frames import cross, unit
-from ..geometry.graphs.edges import Edges
+from ..geometry.graphs.edges import Edges, ends_of_sides
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
@@ -70,8 +70,9 @@ def _pairs_at_crowded(
 ) -> Steps[_Sides]:
     """Return pairs (2, N) of sides at edges of more than two triangles."""
     inside_out = (yield from within(signed_volume(mesh), 0.6, 0.7)) < 0
-    crowded = np.flatnonzero((edges.uses > 2) & (edges.uses <= _MOST_USES))
-    uses, first = edges.uses[crowded], edges.first[crowded]
+    uses = edges.uses
+    crowded = np.flatnonzero((uses > 2) & (uses <= _MOST_USES))
+    uses, first = uses[crowded], edges.first[crowded]
     pairs = [np.zeros((2, 0), dtype=np.int32)]
     for n_uses in np.unique(uses).tolist():
         chosen = first[uses == n_uses]
@@ -138,8 +139,7 @@ def _with_own_vertices(mesh: TriangleMesh, sides: _Sides) -> _Sides:
 
     Objects that were joined keep their vertices.
     """
-    corners = mesh.triangles.ravel()
-    ends = corners[sides], corners[sides + np.where(sides % 3 < 2, 1, -2)]
+    ends = ends_of_sides(mesh, sides)
     keys = np.minimum(*ends) * len(mesh.vertices) + np.maximum(*ends)
     order = np.argsort(keys, axis=1, kind="stable")
     keys = np.take_along_axis(keys, order, axis=1)

@@ -101,13 +101,7 @@ def _inverted(
     inward: NDArray[np.int64],
 ) -> Steps[NDArray[np.int64]]:
     """Return the outermost inward-facing solid shells and all solid shells inside."""
-    order = np.argsort(shells.of_triangle, kind="stable")
-    starts = np.cumsum(np.bincount(shells.of_triangle))[:-1]
-    members = np.split(order, starts)
-    firsts = np.concatenate([[0], starts])
-    corners = mesh.vertices[mesh.triangles[order]]
-    lows = np.minimum.reduceat(corners.min(axis=1), firsts)
-    highs = np.maximum.reduceat(corners.max(axis=1), firsts)
+    members = shells.members
 
     def encloses(outer: int, inner: int) -> bool:
         rows = members[outer]
@@ -116,7 +110,7 @@ def _inverted(
         around = mesh.vertices[mesh.triangles[rows]]
         return abs(winding_number(point, around, turned)) > 0.5
 
-    around, inside = _nested_boxes(lows, highs, np.flatnonzero(solid))
+    around, inside = _nested_boxes(*shells.bounds(mesh), np.flatnonzero(solid))
     inverted: set[int] = set()
     for shell in inward.tolist():
         yield Progress("Surface", 0.6)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,22 @@ class Shells:
     against: NDArray[np.bool_]
     windable: NDArray[np.bool_]
     closed: NDArray[np.bool_]
+
+    @cached_property
+    def members(self) -> list[NDArray[np.int64]]:
+        """Triangles of each shell, ascending."""
+        order = np.argsort(self.of_triangle, kind="stable")
+        return np.split(order, np.cumsum(np.bincount(self.of_triangle))[:-1])
+
+    def bounds(
+        self, mesh: TriangleMesh
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the lowest and highest coordinates of each shell of a mesh, (S, 3)."""
+        counts = np.bincount(self.of_triangle)
+        firsts = np.cumsum(counts) - counts
+        corners = mesh.vertices[mesh.triangles[np.concatenate(self.members)]]
+        lows = np.minimum.reduceat(corners.min(axis=1), firsts)
+        return lows, np.maximum.reduceat(corners.max(axis=1), firsts)
 
 
 def shells_of(mesh: TriangleMesh) -> Steps[Shells]:

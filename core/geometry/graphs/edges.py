@@ -138,9 +138,23 @@ def lengths_of_sides(
     mesh : TriangleMesh
     sides : (S,) int
     """
+    starts, ends = ends_of_sides(mesh, sides)
+    return np.linalg.norm(mesh.vertices[starts] - mesh.vertices[ends], axis=1)
+
+
+def ends_of_sides(
+    mesh: TriangleMesh, sides: NDArray[np.int32]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the vertices where sides of triangles start, and where they end.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    sides : (...) int
+        Numbered as in `Edges`.
+    """
     corners = mesh.triangles.ravel()
-    ends = mesh.vertices[corners[sides + np.where(sides % 3 < 2, 1, -2)]]
-    return np.linalg.norm(mesh.vertices[corners[sides]] - ends, axis=1)
+    return corners[sides], corners[sides + np.where(sides % 3 < 2, 1, -2)]
 
 
 def _order(numbers: NDArray[np.int32]) -> NDArray[np.int32]:

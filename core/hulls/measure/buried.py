@@ -53,7 +53,7 @@ def unburied(
     for turn, (shell, others) in enumerate(around.items()):
         yield Progress("Solid", turn / len(around))
         inside, targets = InsideTest(corners[others], 1), Targets(corners[others])
-        rows = np.flatnonzero(shells.of_triangle == shell)
+        rows = shells.members[shell]
         touched, kept = _outside(corners[rows], inside, targets)
         whole[rows[touched]] = False
         pieces.append(kept)
@@ -76,11 +76,7 @@ def _others(mesh: TriangleMesh, shells: Shells) -> Steps[dict[int, NDArray[np.in
     """
     volumes, n_shells = (yield from volumes_of(mesh)), len(shells.closed)
     solid = np.bincount(shells.of_triangle, volumes, n_shells) > 0
-    places = mesh.vertices[mesh.triangles].reshape(-1, 3)
-    of_place = shells.of_triangle.repeat(3)
-    lows, highs = np.full((n_shells, 3), np.inf), np.full((n_shells, 3), -np.inf)
-    np.minimum.at(lows, of_place, places)
-    np.maximum.at(highs, of_place, places)
+    lows, highs = shells.bounds(mesh)
     found: dict[int, NDArray[np.int64]] = {}
     n_compared = 0
     for shell in np.flatnonzero(solid).tolist():

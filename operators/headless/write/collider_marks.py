@@ -17,7 +17,7 @@ _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
 
 
-def mark_glb(path: Path, n_hulls: int | None = None) -> None:
+def mark_glb(path: Path, n_hulls: int) -> None:
     """Mark every node that is a hull as a convex collider (KHR_physics_rigid_bodies).
 
     The extras of a node are the custom properties of its object. The extension is a
@@ -26,7 +26,7 @@ def mark_glb(path: Path, n_hulls: int | None = None) -> None:
     Parameters
     ----------
     path : Path
-    n_hulls : int, optional
+    n_hulls : int
         How many hulls the file has to have.
 
     Raises
@@ -41,7 +41,7 @@ def mark_glb(path: Path, n_hulls: int | None = None) -> None:
     scene = json.loads(data[start : start + length])
     nodes = enumerate(scene.get("nodes", ()))
     marked = {n: node for n, node in nodes if _is_hull(node)}
-    if n_hulls not in (None, len(marked)):
+    if n_hulls != len(marked):
         raise DecompositionError(
             f"The file would have {len(marked)} of {n_hulls} hulls, because Blender's"
             " exporter leaves some out; choose another format, such as .usd."

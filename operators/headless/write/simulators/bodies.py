@@ -93,7 +93,7 @@ def bodies_of(
     each = parameters.bodies == "EACH"
     groups = [[obj] for obj in owned] if each else [list(owned)]
     names = list(titles.values()) if each else _free_names([name])
-    of_hulls = dict(zip(hulls, names_of_collisions(hulls, parameters), strict=True))
+    of_hulls = dict(zip(hulls, names_of_hulls(hulls, "xml", titles), strict=True))
     bodies, opened = [], []
     for group, title in zip(groups, names, strict=True):
         frame = _frame_of(group[0]) if each else np.eye(4)
