@@ -16,6 +16,7 @@ from ..solids.mass import mass_of_surface
 from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
 from .chords import chords_along
+from .measure.buried import unburied
 from .measure.inside import InsideTest
 from .measure.line_crossings import LineCrossings
 
@@ -26,6 +27,8 @@ _SOME_CHORDS = 20_000
 # A volume below this is noise, such as that of a two-sided sheet, and counts as 0; the
 # longest side is 2.
 _NO_VOLUME = 1e-6
+# Shells with this overlap, or more, count as apart from each other.
+_NO_OVERLAP = 0.999
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +39,8 @@ class Solid:
     ----------
     mesh : TriangleMesh
         Oriented: normals point outwards.
+    surface : TriangleMesh
+        What of it is not buried in other shells.
     vertices : (V, 3) float
         Distinct corners of its triangles.
     samples : (N, 3) float
@@ -55,6 +60,7 @@ class Solid:
     """
 
     mesh: TriangleMesh
+    surface: TriangleMesh
     vertices: NDArray[np.float64]
     samples: NDArray[np.float64]
     triangles: NDArray[np.int64]
@@ -87,8 +93,9 @@ class Solid:
 
     @cached_property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest coordinates of each triangle, (T, 3) each."""
-        return self.corners.min(axis=1), self.corners.max(axis=1)
+        """Lowest and highest coordinates of each triangle of the surface, (N, 3)."""
+        corners = self.surface.vertices[self.surface.triangles]
+        return corners.min(axis=1), corners.max(axis=1)
 
     @cached_property
     def inside(self) -> InsideTest:
@@ -170,26 +177,40 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     corners = mesh.vertices[mesh.triangles]
     vertices = np.unique(corners.reshape(-1, 3), axis=0)
     yield Progress("Solid", 0.0)
-    crossings, along = LineCrossings(corners), []
-    for axis in range(3):
-        yield Progress("Solid", axis / 3)
-        along.append(chords_along(crossings, vertices, axis))
-    found = (np.concatenate(each) for each in zip(*along, strict=True))
-    chords, volumes, depths = found
-    sum_of_shells = float((volumes * depths).sum())  # the same on any number of cores
-    overlap = float(volumes.sum()) / sum_of_shells if sum_of_shells else 1.0
+    measured = _chords_in(corners, vertices)
+    chords, volumes, overlap = yield from within(measured, 0.0, 1.0)
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
-    volumes = volumes / 3
-    if volumes.sum() < _NO_VOLUME:
-        chords, volumes = chords[:0], volumes[:0]
+    surface, closed = mesh, bool(shells.closed.all())
+    if closed and overlap < _NO_OVERLAP:
+        steps = unburied(mesh, shells, samples)
+        surface, samples = yield from within(steps, 1.0, 1.0)
     return Solid(
         mesh,
+        surface,
         vertices,
         samples.positions,
         samples.triangles,
         chords,
         volumes,
         float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
-        bool(shells.closed.all()),
+        closed,
         overlap,
     )
+
+
+def _chords_in(
+    corners: NDArray[np.float64], vertices: NDArray[np.float64]
+) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64], float]]:
+    """Return chords, volumes and the overlap, as in `Solid`."""
+    crossings, along = LineCrossings(corners), []
+    for axis in range(3):
+        yield Progress("Solid", axis / 3)
+        along.append(chords_along(crossings, vertices, axis))
+    found = (np.concatenate(each) for each in zip(*along, strict=True))
+    chords, volumes, depths = found
+    volumes = volumes / 3
+    sum_of_shells = float((volumes * depths).sum())  # the same on any number of cores
+    overlap = float(volumes.sum()) / sum_of_shells if sum_of_shells else 1.0
+    if volumes.sum() < _NO_VOLUME:
+        chords, volumes = chords[:0], volumes[:0]
+    return chords, volumes, overlap

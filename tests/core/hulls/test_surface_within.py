@@ -1,8 +1,10 @@
 """What of a surface lies within a collision shape."""
 
+import changes
 import numpy as np
 import pytest
 import shapes
+from computed import build_hulls
 from weak_convex_decomposition.core.hulls.convex_hull import THIN, convex_hull
 from weak_convex_decomposition.core.hulls.fitting import fit_for
 from weak_convex_decomposition.core.hulls.measure.surface_within import surface_within
@@ -25,3 +27,57 @@ def test_triangles_at_the_rim_are_clipped(kind, area):
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     assert areas.sum() == pytest.approx(area, rel=0.03)
     assert shape.heights(found.reshape(-1, 3)).max() <= THIN / 5
+
+
+CUBE = shapes.box((0, 0, 0), (4, 4, 4))
+# Boxes within a cube, through its face, and through all of it; and their union.
+BURIED = {
+    "within": (shapes.box((1, 1, 1), (2, 2, 2)), 96.0, 1),
+    "face": (shapes.box((1, 1, 3), (2, 2, 6)), 96.0 + 8, 2),
+    "across": (shapes.box((-2, 1, 1), (6, 2, 2)), 96.0 + 16, 5),
+}
+
+
+def test_a_solid_alone_keeps_its_surface():
+    for mesh in (CUBE, shapes.hollow_sphere(0.5, 1), shapes.open_box()):
+        solid = run(solid_of(mesh, 0))
+        assert solid.surface is solid.mesh
+        assert len(solid.samples) == 6000
+
+
+@pytest.mark.parametrize("seed", [None, 1])
+@pytest.mark.parametrize("name", BURIED)
+def test_what_is_buried_in_another_solid_is_no_surface(name, seed):
+    mesh, area = shapes.joined(CUBE, BURIED[name][0]), BURIED[name][1]
+    rotation = None if seed is None else changes.any_rotation(seed)
+    scale = 2 / np.ptp(mesh.vertices, axis=0).max()
+    solid = run(solid_of(changes.moved(mesh, scale, rotation), 0))
+    # Fragments beside the other surface stay.
+    assert 0.9999 * area < solid.surface.areas.sum() / scale**2 < 1.02 * area
+    original = (solid.samples / scale) @ (np.eye(3) if seed is None else rotation)
+    within_cube = ((original > 1e-6) & (original < 4 - 1e-6)).all(axis=1)
+    assert not within_cube.any()
+    assert len(solid.samples) == pytest.approx(6000 * area / mesh.areas.sum(), rel=0.03)
+
+
+@pytest.mark.parametrize("name", BURIED)
+def test_hulls_of_a_union_ignore_what_is_buried(name):
+    mesh, _, most = BURIED[name]
+    found = build_hulls(shapes.joined(CUBE, mesh), HullParameters())
+    assert found.n_hulls <= most
+    assert found.errors.max() <= 0.05
+    assert found.volume_ratio == pytest.approx(1.0, abs=0.02)
+
+
+def test_a_cavity_and_what_is_in_it_are_surface():
+    core = shapes.sphere(2, 0.2)
+    solid = run(solid_of(shapes.joined(shapes.hollow_sphere(0.5, 2), core), 0))
+    assert solid.surface is solid.mesh
+    bar = shapes.box((-2, -0.1, -0.1), (2, 0.1, 0.1))
+    mixed = shapes.joined(shapes.hollow_sphere(0.5, 2), bar)
+    solid = run(solid_of(changes.moved(mixed, 0.5), 0))
+    radii = 2 * np.linalg.norm(solid.samples, axis=1)
+    assert (np.abs(radii - 0.5) < 0.03).any()  # the wall of the cavity
+    of_bar = solid.triangles >= len(mixed.triangles) - 12
+    assert (radii[of_bar] < 0.45).any()  # in the cavity, the bar is surface
+    assert not ((radii[of_bar] > 0.53) & (radii[of_bar] < 0.9)).any()

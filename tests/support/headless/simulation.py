@@ -51,9 +51,12 @@ def hulls_in(spec):
 
 def run(spec, seconds):
     """Return the state after so long."""
-    model = spec.compile()
-    data = mujoco.MjData(model)
-    mujoco.mj_step(model, data, int(seconds / model.opt.timestep))
+    return go_on(mujoco.MjData(spec.compile()), seconds)
+
+
+def go_on(data, seconds):
+    """Return the state so much later."""
+    mujoco.mj_step(data.model, data, int(seconds / data.model.opt.timestep))
     assert np.isfinite(data.qpos).all()
     return data
 

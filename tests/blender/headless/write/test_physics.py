@@ -29,11 +29,14 @@ def simulated(folder, name, loose):
 def test_compounds_come_to_rest(tmp_path, name):
     _, spec = simulated(tmp_path, name, loose=True)
     assert len(simulation.hulls_in(spec)) >= 2
-    data = simulation.dropped(spec, 4)
+    data = simulation.dropped(spec, 4.5)
     assert np.abs(data.qvel).max() < 0.02
-    assert data.ncon >= 3
     assert -0.05 < data.qpos[2] < 1.5
     assert min(contact.dist for contact in data.contact) > -0.01
+    # MuJoCo takes few points of a hull on a floor: their number tells little.
+    before = data.qpos.copy()
+    assert np.abs(simulation.go_on(data, 1).qpos - before).max() < 0.002
+    assert data.body(1).xmat[8] > 0.999  # as it stood before it was tilted
 
 
 @pytest.mark.parametrize("name", ["chair", "mug", "dumbbell"])
