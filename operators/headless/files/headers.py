@@ -24,6 +24,8 @@ _TYPES = {
     **dict.fromkeys(("float", "float32"), "f"),
     **dict.fromkeys(("double", "float64"), "d"),
 }
+# Those that lengths of lists may have.
+_COUNTS = {name: code for name, code in _TYPES.items() if code not in "fd"}
 
 
 @dataclass(frozen=True)
@@ -138,7 +140,7 @@ def read_header(data: bytes) -> Header | None:
                 case ["element", name, n_rows]:
                     elements.append(Element(name, int(n_rows), {}))
                 case ["property", "list", length, member, *name]:
-                    codes = _TYPES[length] + _TYPES[member]
+                    codes = _COUNTS[length] + _TYPES[member]
                     _add_property(elements[-1], name, codes)
                 case ["property", kind, *name]:
                     _add_property(elements[-1], name, _TYPES[kind])
