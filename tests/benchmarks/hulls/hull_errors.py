@@ -118,10 +118,23 @@ class Ruler:
             if away[row] < LEAST or self.is_outside(places[row]):
                 far = away[row]
                 break
-        error = max(far, -heights.min(), LEAST)
+        error = max(far, self.depth(heights), LEAST)
         if volume_term(shape.volume) <= error:  # that of what is outside is less
             return error
         return max(error, volume_term(self.volume_outside(shape, outline)))
+
+    def depth(self, heights):
+        """Return how deep the surface lies within a shape, but for what is buried."""
+        for row in np.argsort(heights):
+            if -heights[row] < LEAST or not self.is_buried(row):
+                return -heights[row]
+        return 0.0
+
+    def is_buried(self, row):
+        """Return whether both sides of the surface are inside at one of the points."""
+        beside = 1e-3 * self.facing[self.rows[row]]
+        point = Vector(self.points[row])
+        return self.is_inside(point + beside) and self.is_inside(point - beside)
 
     def volume_outside(self, shape, outline):
         """Return the volume of the shape outside the mesh."""
