@@ -6,6 +6,7 @@ from typing import ClassVar
 
 import bpy
 
+from .bridge.homes import is_in
 from .bridge.parts.present_parts import present_parts
 from .bridge.parts.separating import separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
@@ -47,7 +48,7 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
             obj.hide_render = True
         layer = context.view_layer
         layer.update()
-        there = [piece for piece in pieces if piece.name in layer.objects]
+        there = [piece for piece in pieces if is_in(layer, piece)]
         for piece in there:
             piece.select_set(True)
         if there and (was_active or layer.objects.active is None):  # or a hull was

@@ -1,4 +1,4 @@
-"""Which collections hold an object, so that what belongs to it goes there, too."""
+"""Where an object is: in which collections, and whether in a view layer."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import bpy
 def homes_of(obj: bpy.types.Object) -> list[bpy.types.Collection]:
     """Return the collections that hold an object, without those of simulations.
 
-    What is in the collection of a simulation is a rigid body, and may be in no view.
+    What belongs to the object goes there, too. What is in the collection of a
+    simulation is a rigid body, and may be in no view.
     """
     worlds = [scene.rigidbody_world for scene in bpy.data.scenes]
     simulated = {
@@ -18,6 +19,14 @@ def homes_of(obj: bpy.types.Object) -> list[bpy.types.Collection]:
         for collection in (world.collection, world.constraints)
     }
     return [each for each in obj.users_collection if each not in simulated]
+
+
+def is_in(layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> bool:
+    """Return whether a view layer has an object.
+
+    Names do not tell: a linked object may have the same.
+    """
+    return any(each == obj for each in layer.objects)
 
 
 def new_collection(obj: bpy.types.Object, name: str) -> bpy.types.Collection:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import bpy
 from mathutils import Matrix
@@ -65,10 +66,7 @@ def without_parents(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
     The exporter of .glb leaves out what hangs on objects of other scenes, and puts what
     hangs on bones where their armature rests. Unreal takes no hulls with parents.
     """
-    before = [
-        (each, each.parent, each.matrix_parent_inverse.copy(), each.matrix_basis.copy())
-        for each in objects
-    ]
+    before = [(each, _hanging(each)) for each in objects]
     try:
         for obj in objects:
             place = obj.matrix_world.copy()
@@ -77,7 +75,19 @@ def without_parents(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
         bpy.context.view_layer.update()
         yield
     finally:
-        for obj, parent, inverse, basis in before:
-            obj.parent = parent
-            obj.matrix_parent_inverse, obj.matrix_basis = inverse, basis
+        for obj, values in before:
+            for name, value in values.items():
+                setattr(obj, name, value)
         bpy.context.view_layer.update()
+
+
+def _hanging(obj: bpy.types.Object) -> dict[str, Any]:
+    """Return how an object hangs on its parent: values to set in their order."""
+    return {
+        "parent": obj.parent,
+        "parent_type": obj.parent_type,
+        "parent_bone": obj.parent_bone,
+        "parent_vertices": tuple(obj.parent_vertices),
+        "matrix_parent_inverse": obj.matrix_parent_inverse.copy(),
+        "matrix_basis": obj.matrix_basis.copy(),
+    }

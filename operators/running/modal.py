@@ -107,7 +107,7 @@ def stop() -> None:
         return
     run.job.cancel()
     bpy.context.window_manager.event_timer_remove(run.timer)
-    show_status(run.workspace, None)
+    _show_status(run.workspace, None)
     redraw_sidebars()
 
 
@@ -119,18 +119,27 @@ def _show(run: Running) -> None:
     run.shown, run.look = now, math.nan
     progress = run.job.progress
     text = f"{run.title}: {progress.stage}, {progress.fraction:.0%}. Esc cancels"
-    show_status(run.workspace, text)
+    _show_status(run.workspace, text)
     redraw_sidebars()
 
 
-def show_status(name: str, text: str | None) -> None:
+def show_hint(name: str, text: str | None) -> None:
+    """Show a text in the status bar of a workspace, None for the usual one.
+
+    The progress of a computation stays if there is any.
+    """
+    if current is None:
+        _show_status(name, text)
+
+
+def _show_status(name: str, text: str | None) -> None:
     """Show a text in the status bar of a workspace; None shows the usual one again.
 
     While Blender closes a window it is shown a moment later: the end of an override of
     the context would crash Blender then.
     """
     if bpy.context.window not in (None, *bpy.context.window_manager.windows):
-        bpy.app.timers.register(partial(show_status, name, text))
+        bpy.app.timers.register(partial(_show_status, name, text))
         return
     workspace = bpy.data.workspaces.get(name)
     if workspace is None:

@@ -12,6 +12,7 @@ import bpy
 from ..bridge.read.target import object_with
 from ..bridge.stored.identity import Identity
 from ..running import modal
+from ..running.watching import unwatch, watch
 from .shown_parts import n_parts_of, shown_identities
 from .turning import Turning
 from .viewports import redraw, show_header
@@ -91,8 +92,7 @@ def stop(*_: object) -> None:
     picking, current = current, None
     if picking is not None:
         show_header(None)
-        if modal.busy() is None:  # its own text would go, too
-            modal.show_status(picking.workspace, None)
+        modal.show_hint(picking.workspace, None)
         redraw()
 
 
@@ -101,8 +101,7 @@ def tell(context: bpy.types.Context) -> None:
     if current is None:
         return
     show_header(_header(context))
-    if modal.busy() is None:
-        modal.show_status(current.workspace, _keys(context))
+    modal.show_hint(current.workspace, _keys(context))
     redraw()
 
 
@@ -123,12 +122,15 @@ def _header(context: bpy.types.Context) -> str:
     return "  |  ".join(each for each in (doing, part.name if part else "", of) if each)
 
 
+_HANDLERS = {"load_pre": stop}
+
+
 def register() -> None:
     """End the picking at each file load."""
-    bpy.app.handlers.load_pre.append(stop)
+    watch(_HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`, and end the picking."""
-    bpy.app.handlers.load_pre.remove(stop)
+    unwatch(_HANDLERS)
     stop()

@@ -98,7 +98,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     def _wait(self) -> set[str]:
         """Wait for clicks."""
-        modal.show_status(self._overlay.workspace, _HINT)
+        modal.show_hint(self._overlay.workspace, _HINT)
         return {"RUNNING_MODAL"}
 
     def _press(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -109,7 +109,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             stop()
             return {"FINISHED"}
         if event.type in {"RET", "NUMPAD_ENTER"}:
-            modal.show_status(self._overlay.workspace, None)
+            modal.show_hint(self._overlay.workspace, None)
             return {"FINISHED"}
         if event.type != "LEFTMOUSE" or place is None or not ours:
             return {"PASS_THROUGH"}
@@ -177,7 +177,7 @@ def stop(*_: object) -> None:
     overlay = sight_overlay.current
     sight_overlay.hide()
     if overlay is not None:
-        modal.show_status(overlay.workspace, None)
+        modal.show_hint(overlay.workspace, None)
 
 
 @bpy.app.handlers.persistent

@@ -9,6 +9,7 @@ from typing import Any
 import bpy
 
 from ....core.errors import DecompositionError
+from ..homes import is_in
 from ..stored.names import RIGID_TAG
 
 
@@ -34,9 +35,8 @@ def make_rigid(
         raise DecompositionError(
             f"{obj.name} is a rigid body already; remove that before its hulls get it."
         )
-    unseen = [
-        o.name for o in (obj, *hulls) if o.name not in bpy.context.view_layer.objects
-    ]
+    layer = bpy.context.view_layer
+    unseen = [each.name for each in (obj, *hulls) if not is_in(layer, each)]
     if unseen:
         raise DecompositionError(
             f"{unseen[0]} is not in the view layer; rigid bodies have to be."

@@ -84,7 +84,7 @@ def converted(obj: bpy.types.Object) -> bpy.types.Mesh:
     return mesh
 
 
-def fingerprint(obj: bpy.types.Object) -> str:
+def digest_of_shown(obj: bpy.types.Object) -> str:
     """Return a text that changes if `converted` would return another mesh.
 
     It comes from the mesh that Blender itself shows, which is at hand; filling and
@@ -92,13 +92,15 @@ def fingerprint(obj: bpy.types.Object) -> str:
     """
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
-    arrays = (
-        read_floats(mesh.vertices, "co", 3),
-        read_ints(mesh.edges, "vertices", 2),
-        read_ints(mesh.polygons, "loop_total"),
-        corner_vertices(mesh),
-    )
-    evaluated.to_mesh_clear()
+    try:
+        arrays = (
+            read_floats(mesh.vertices, "co", 3),
+            read_ints(mesh.edges, "vertices", 2),
+            read_ints(mesh.polygons, "loop_total"),
+            corner_vertices(mesh),
+        )
+    finally:
+        evaluated.to_mesh_clear()
     digest = hashlib.sha1(str([array.shape for array in arrays]).encode())
     for array in arrays:
         digest.update(array.tobytes())
@@ -151,15 +153,17 @@ def _plane(places: np.ndarray) -> Matrix | None:
 def _divide(mesh: bpy.types.Mesh, diagonal: float) -> None:
     """Cut the faces of a flat mesh into small triangles."""
     bm = bmesh.new()
-    bm.from_mesh(mesh)
-    bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6 * diagonal)
-    bmesh.ops.triangulate(bm, faces=bm.faces)
-    for _ in range(_MOST_HALVINGS):
-        bmesh.ops.beautify_fill(bm, faces=bm.faces, edges=bm.edges)
-        long = [e for e in bm.edges if e.calc_length() > _LONGEST * diagonal]
-        if not long:
-            break
-        bmesh.ops.subdivide_edges(bm, edges=long, cuts=1)
+    try:
+        bm.from_mesh(mesh)
+        bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6 * diagonal)
         bmesh.ops.triangulate(bm, faces=bm.faces)
-    bm.to_mesh(mesh)
-    bm.free()
+        for _ in range(_MOST_HALVINGS):
+            bmesh.ops.beautify_fill(bm, faces=bm.faces, edges=bm.edges)
+            long = [e for e in bm.edges if e.calc_length() > _LONGEST * diagonal]
+            if not long:
+                break
+            bmesh.ops.subdivide_edges(bm, edges=long, cuts=1)
+            bmesh.ops.triangulate(bm, faces=bm.faces)
+        bm.to_mesh(mesh)
+    finally:
+        bm.free()

@@ -163,7 +163,6 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
         centers = read_floats(shown.polygons, "center", 3)
         origins = _origins(shown, name)
         n_left_out = count_instances(obj, depsgraph)
-        found.to_mesh_clear()
     known = (origins >= 0) & (origins < len(own))
     seen = np.zeros(len(own), dtype=bool)
     seen[origins[known]] = True

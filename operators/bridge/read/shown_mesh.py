@@ -46,7 +46,8 @@ def evaluated(
 ) -> Iterator[tuple[bpy.types.Object, bpy.types.Depsgraph]]:
     """Give the evaluated object, without the modifiers of ours that show parts.
 
-    Instances that Geometry Nodes make are faces of its mesh.
+    Instances that Geometry Nodes make are faces of its mesh. What its `to_mesh` makes
+    is removed at the end.
     """
     views = [m for m in obj.modifiers if m.show_viewport and is_view(m)]
     active = obj.modifiers.active
@@ -56,7 +57,11 @@ def evaluated(
         if any(each.type == "NODES" for each in shown_modifiers(obj)):
             _realize_instances(obj)
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        yield obj.evaluated_get(depsgraph), depsgraph
+        found = obj.evaluated_get(depsgraph)
+        try:
+            yield found, depsgraph
+        finally:
+            found.to_mesh_clear()
     finally:
         remove_modifier(obj, REALIZE_TAG)
         obj.modifiers.active = active

@@ -10,7 +10,7 @@ from ....core.errors import DecompositionError
 from ..mesh.layers import flush_edits
 from ..mesh.points import count_points, is_cloud
 from ..refusals import CONVERTIBLE, WORKED_ON
-from .converting import fingerprint
+from .converting import digest_of_shown
 
 
 def object_with(uid: int, name: str = "") -> bpy.types.Object | None:
@@ -63,7 +63,7 @@ def _state(obj: bpy.types.Object) -> tuple[int, int] | str:
     """Return what shows that the faces or points of an object are other ones."""
     flush_edits(obj)
     if obj.type in CONVERTIBLE:
-        return fingerprint(obj)
+        return digest_of_shown(obj)
     if is_cloud(obj):
         return count_points(obj), 0
     return len(obj.data.vertices), len(obj.data.polygons)

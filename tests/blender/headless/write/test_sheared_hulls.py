@@ -8,6 +8,7 @@ from hand_made import build_hulls, mesh_object
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import is_hull
 from weak_convex_decomposition.operators.headless.read.known_hulls import adopt_hulls
+from weak_convex_decomposition.operators.headless.shear import without_parents
 from weak_convex_decomposition.operators.headless.write.hull_files import save_hulls
 from weak_convex_decomposition.operators.headless.write.model_files import save
 
@@ -85,3 +86,33 @@ def test_hulls_of_others_keep_their_shear():
     adopt_hulls()
     assert hull.parent == model
     assert places(hull) == pytest.approx(before, abs=1e-4)
+
+
+def armature():
+    """Return an armature with a bone that points up and begins at z = 5."""
+    bpy.ops.object.armature_add(enter_editmode=True)
+    obj = bpy.context.active_object
+    (bone,) = obj.data.edit_bones
+    bone.head, bone.tail = (0, 0, 5), (0, 0, 7)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+@pytest.mark.parametrize("kind", ["OBJECT", "BONE", "VERTEX", "VERTEX_3"])
+def test_objects_hang_on_their_parents_again(kind):
+    cube = mesh_object("Cube", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    above = [(0, 0, 5), (1, 0, 5), (0, 2, 5)]
+    parent = armature() if kind == "BONE" else mesh_object("Above", above, [(0, 1, 2)])
+    cube.parent, cube.parent_type, cube.location.x = parent, kind, 3
+    if kind == "BONE":
+        cube.parent_bone = parent.data.bones[0].name
+    cube.parent_vertices = (1, 2, 0)
+    bpy.context.view_layer.update()
+    before = places(cube)
+    assert kind == "OBJECT" or before[0, 2] >= 4
+    with without_parents([cube]):
+        assert cube.parent is None
+        assert places(cube) == pytest.approx(before, abs=1e-5)
+    assert (cube.parent, cube.parent_type) == (parent, kind)
+    assert cube.parent_vertices[:] == (1, 2, 0)
+    assert places(cube) == pytest.approx(before, abs=1e-5)

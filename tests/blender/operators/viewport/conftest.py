@@ -24,7 +24,7 @@ class Viewport:
         monkeypatch.setattr(pick_parts, "part_at", lambda *_: self.under)
         monkeypatch.setattr(picking, "show_header", self.show_header)
         monkeypatch.setattr(
-            picking.modal, "show_status", lambda _, text: setattr(self, "status", text)
+            picking.modal, "_show_status", lambda _, text: setattr(self, "status", text)
         )
         self.pressed = Pressed(pick_parts.WCD_OT_pick_parts)
 
