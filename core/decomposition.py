@@ -72,7 +72,7 @@ def decompose_in_steps(
         parameters=(parameters, Parameters),
         cache=(cache, ShapeCache),
     )
-    check_members("members", members, shape)
+    check_members(members, shape)
     steps = partial(_decompose, shape, parameters, cache, members, rough)
     if rough:  # it is as good as what is known
         return (yield from steps())

@@ -29,7 +29,7 @@ def measure_in_steps(
     shape: Shape,
     parameters: Parameters,
     cache: ShapeCache,
-    faces: NDArray[np.bool_] | None = None,
+    members: NDArray[np.bool_] | None = None,
 ) -> Steps[Measurement]:
     """Estimate the convexity rank of a shape, or of some of its faces (eq. 1).
 
@@ -40,12 +40,12 @@ def measure_in_steps(
     shape : TriangleMesh or PointCloud
         In any units.
     parameters : Parameters
-        Only the settings of samples and lines of sight are used. With `faces`, only
+        Only the settings of samples and lines of sight are used. With `members`, only
         `samples` and `seed` are: all pairs of samples are tested. Blocks are not used:
         random pairs are tested in their place.
     cache : ShapeCache
         Keeps the prepared shape for the next call.
-    faces : (P,) bool, optional
+    members : (P,) bool, optional
         Polygons to measure, or points of a cloud; all if left out. Lines of sight run
         through the whole shape.
 
@@ -58,28 +58,28 @@ def measure_in_steps(
     TypeError
         If an argument has a wrong type.
     DecompositionError
-        If the shape cannot be normalized, or if the faces do not fit it, have no area,
-        or do not lie at the outline of a flat mesh.
+        If the shape cannot be normalized, or if the members do not fit it, have no
+        area, or do not lie at the outline of a flat mesh.
     """
     check_types(
         shape=(shape, Shape),
         parameters=(parameters, Parameters),
         cache=(cache, ShapeCache),
     )
-    check_members("faces", faces, shape)
+    check_members(members, shape)
     prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
-    if faces is not None:
-        prepared = yield from within(_members(prepared, faces), 0.1, 0.1)
-    tested = _without_blocks(parameters, faces is not None)
+    if members is not None:
+        prepared = yield from within(_part_of(prepared, members), 0.1, 0.1)
+    tested = _without_blocks(parameters, members is not None)
     steps = find_lines_of_sight(prepared, tested)
     sight = yield from within(steps, 0.1, 1.0)
     n_samples, pairs = len(sight.samples), sight.rank_pairs
     return Measurement(*pairs.rank_of_all(), n_samples, prepared.notes, pairs.n_cast)
 
 
-def _without_blocks(parameters: Parameters, of_faces: bool) -> Parameters:
+def _without_blocks(parameters: Parameters, of_members: bool) -> Parameters:
     """Return parameters with which all pairs of samples are tested, or random ones."""
-    if of_faces:
+    if of_members:
         n_samples = min(parameters.samples, _MOST_SAMPLES)
         return Parameters(sight="ALL_PAIRS", samples=n_samples, seed=parameters.seed)
     if parameters.sight == "BLOCKS":
@@ -88,14 +88,14 @@ def _without_blocks(parameters: Parameters, of_faces: bool) -> Parameters:
     return parameters
 
 
-def _members(shape: PreparedShape, faces: NDArray[np.bool_]) -> Steps[PreparedShape]:
+def _part_of(shape: PreparedShape, members: NDArray[np.bool_]) -> Steps[PreparedShape]:
     """Return the chosen faces as a shape; raise if no sample can lie on them."""
     graph = yield from shape.graph_in_steps()
-    area = graph.areas[shape.nodes[faces]].sum()
-    members = shape.part(faces)
-    if area <= LEAST_AREA or len(members.sampled) == 0:
+    area = graph.areas[shape.nodes[members]].sum()
+    part = shape.part(members)
+    if area <= LEAST_AREA or len(part.sampled) == 0:
         raise DecompositionError(
             "The chosen faces have no area, lie within the solid, or none lies at the"
             " outline of the flat mesh; select other faces."
         )
-    return members
+    return part

@@ -47,7 +47,7 @@ def register() -> None:
     from .bridge.work import session_cache
     from .headless import command_line
     from .running import ahead, joins, refine
-    from .viewport import picking, show_sight, shown_parts
+    from .viewport import picking, show_sight, shown_figures, shown_parts
 
     for cls in _classes():
         bpy.utils.register_class(cls)
@@ -60,6 +60,7 @@ def register() -> None:
     joins.register()
     show_sight.register()
     shown_parts.register()
+    shown_figures.register()
     picking.register()
     rows.register()
 
@@ -73,13 +74,14 @@ def unregister() -> None:
     from .bridge.work import libraries, session_cache
     from .headless import command_line
     from .running import ahead, joins, modal, refine
-    from .viewport import picking, show_sight, shown_parts
+    from .viewport import picking, show_sight, shown_figures, shown_parts
 
     recut.unregister()
     modal.stop()
     libraries.unregister()
     rows.unregister()
     picking.unregister()
+    shown_figures.unregister()
     shown_parts.unregister()
     show_sight.unregister()
     joins.unregister()

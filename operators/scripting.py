@@ -17,11 +17,10 @@ from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
 from ..core.results.hulls import HullDecomposition
 from ..core.results.parts import Decomposition, Measurement
-from ..core.steps.progress import Progress, Steps, mapped, run
+from ..core.steps.progress import Progress, Steps, T, mapped, run
 from .bridge.rays.choice import choose_ray_caster
 from .bridge.read.arrays import mesh_of, scene_unit_of, shape_of
 
-T = TypeVar("T")
 Settings = TypeVar("Settings", Parameters, HullParameters)
 ShowProgress = Callable[[str, float], None]
 

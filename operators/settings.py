@@ -41,7 +41,7 @@ MEASURE = ("sampling", "samples", "sight", "rays", "cone_angle", "seed")
 SELECTION = ("samples", "seed")
 
 
-def properties_for(names: Iterable[str] = ALL) -> dict[str, Any]:
+def properties_for(names: Iterable[str]) -> dict[str, Any]:
     """Return settings as Blender properties, for the annotations of a class."""
     return {name: property_for(name) for name in names}
 

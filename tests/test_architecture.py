@@ -175,9 +175,11 @@ def test_no_modules_import_each_other_in_a_circle():
     assert not circle, circle
 
 
-@pytest.mark.parametrize("house", ["core", "operators.headless"])
-def test_no_rooms_import_each_other_in_a_circle(house):
-    """A room is a folder of the house, or a module beside the folders."""
+def rooms_in(house):
+    """Return the rooms that each room of a house imports.
+
+    A room is a folder of the house, or a module beside the folders.
+    """
 
     def rooms_of(names):
         # Not the door, the house itself: it opens rooms when first asked for them.
@@ -189,8 +191,20 @@ def test_no_rooms_import_each_other_in_a_circle(house):
         for room in rooms_of([name]):
             rooms.setdefault(room, set()).update(rooms_of(found) - {room})
     assert len(rooms) > 8
-    circle = circle_in(rooms)
+    return rooms
+
+
+@pytest.mark.parametrize("house", ["core", "operators.headless"])
+def test_no_rooms_import_each_other_in_a_circle(house):
+    circle = circle_in(rooms_in(house))
     assert not circle, circle
+
+
+def test_only_these_rooms_of_the_bridge_import_each_other():
+    rooms = rooms_in("operators.bridge")
+    mutual = {(a, b) for a in rooms for b in rooms[a] if a < b and a in rooms[b]}
+    with_parts = {("cuts", "parts"), ("hulls", "parts"), ("parts", "views")}
+    assert mutual == {*with_parts, ("mesh", "stored")}
 
 
 def test_no_floor_knows_one_above_it():

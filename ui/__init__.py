@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import menus, part_drawing, shown_figures, sight_drawing
+from . import menus, part_drawing, sight_drawing
 from .chart import WCD_PT_chart
 from .edit_panel import WCD_PT_edit
 from .hulls_panel import WCD_PT_hulls
@@ -44,12 +44,10 @@ def register() -> None:
     menus.register()
     sight_drawing.register()
     part_drawing.register()
-    shown_figures.register()
 
 
 def unregister() -> None:
     """Undo `register`."""
-    shown_figures.unregister()
     part_drawing.unregister()
     sight_drawing.unregister()
     menus.unregister()

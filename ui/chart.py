@@ -14,8 +14,8 @@ import bpy
 
 from ..core.results.psi import good_numbers
 from ..operators.bridge.stored.noted_parts import psi_by_k_of
-from .panels import WCD_PT_parts, paragraph
-from .sidebar import Sidebar, result_of
+from .panels import WCD_PT_parts
+from .sidebar import Sidebar, paragraph, result_of
 
 # Share of the width for the number of parts, and height of a row, in usual rows.
 _NUMBER = 0.22

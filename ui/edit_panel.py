@@ -8,8 +8,8 @@ import blf
 import bpy
 
 from ..operators.bridge.parts.rows import active_row, chosen_numbers
+from ..operators.viewport.shown_figures import shown_figures
 from .parts_table import places_of
-from .shown_figures import shown_figures
 from .sidebar import Sidebar, width_of
 
 # Widths at interface scale 1: of tabs and margins; of the margins of the text of a

@@ -10,14 +10,14 @@ from typing import Any, ClassVar
 import bpy
 
 from ..operators.settings import HULL_RUN, HULLS, draw, hand_over, other_error
-from .panels import line
-from .shown_figures import shown_figures
+from ..operators.viewport.shown_figures import shown_figures
 from .sidebar import (
     OUT_OF_DATE,
     Sidebar,
     draw_choices,
     hulls_of,
     hulls_of_now,
+    line,
     result_of,
 )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import Any, ClassVar
 
 import bpy
@@ -14,15 +13,18 @@ from ..operators.bridge.work.libraries import load_while_idle
 from ..operators.running import modal as running
 from ..operators.running.modal import Running
 from ..operators.settings import ADVANCED, FRONT, MEASURE, RUN, draw, hand_over
+from ..operators.viewport.shown_figures import is_of_now, shown_figures
 from .parts_table import draw_table
-from .shown_figures import is_of_now, shown_figures
-from .sidebar import Sidebar, hulls_of_now, rank_text, result_of, width_of
-
-# Widths at interface scale 1: of tabs, margins and an icon together; of a letter.
-_MARGINS = 80
-_LETTER = 6
-# Share of the width that Blender gives to the names of settings.
-_LABELS = 0.4
+from .sidebar import (
+    LABELS,
+    Sidebar,
+    hulls_of_now,
+    line,
+    paragraph,
+    rank_text,
+    result_of,
+    width_of,
+)
 
 
 def notes_of(obj: bpy.types.Object | None) -> list[str]:
@@ -143,7 +145,7 @@ def _progress(row: bpy.types.UILayout, run: Running) -> None:
 
 def _draw_parts(layout: bpy.types.UILayout, settings: bpy.types.AnyType) -> None:
     """Draw the number of parts: Auto, or a number and the way back to Auto."""
-    split = layout.split(factor=_LABELS)
+    split = layout.split(factor=LABELS)
     label = split.row()
     label.alignment = "RIGHT"
     label.label(text="Parts")
@@ -157,29 +159,8 @@ def _draw_quality(layout: bpy.types.UILayout, result: dict[str, Any]) -> None:
     """Draw the quality of the parts in a word; psi is in its tooltip."""
     alpha = result["parameters"]["alpha"]
     word = quality_word(result["psi"], result["psi_before"], alpha)
-    split = layout.split(factor=_LABELS)
+    split = layout.split(factor=LABELS)
     split.label(text="Quality")
     row = split.row()
     row.alignment = "LEFT"
     row.operator("wcd.tell_quality", text=word, emboss=False)
-
-
-def paragraph(
-    layout: bpy.types.UILayout,
-    text: str,
-    context: bpy.types.Context,
-    icon: str = "ERROR",
-) -> None:
-    """Draw a sentence, by default a warning, broken into lines that fit the sidebar."""
-    width = int((width_of(context) - _MARGINS) / _LETTER)
-    column = layout.column(align=True)
-    column.scale_y = 0.8
-    for number, line in enumerate(textwrap.wrap(text, max(width, 10))):
-        column.label(text=line, icon="BLANK1" if number else icon)
-
-
-def line(layout: bpy.types.UILayout, name: str, value: str) -> None:
-    """Draw a name and a value."""
-    split = layout.split(factor=_LABELS)
-    split.label(text=name)
-    split.label(text=value)

@@ -11,7 +11,7 @@ import bpy
 from ..operators.bridge.parts.figures import PartFigures
 from ..operators.bridge.views.isolating import isolating
 from ..operators.viewport import picking
-from .shown_figures import shown_figures
+from ..operators.viewport.shown_figures import shown_figures
 from .sidebar import hulls_of, hulls_of_now, width_of
 
 # Rows that are seen at once, at least and at most.
@@ -92,9 +92,7 @@ def places_of(figures: PartFigures | None) -> dict[int, int]:
     return {each.number: place for place, each in enumerate(identities)}
 
 
-def headings(
-    hulls: Sequence[dict[str, Any]], width: float, n_rows: int = 0
-) -> list[str]:
+def headings(hulls: Sequence[dict[str, Any]], width: float, n_rows: int) -> list[str]:
     """Return the headings of the columns that fit into a table of this width."""
     names = ["Faces", "Area", "Rank"]
     if any(hull["part"] is not None for hull in hulls):

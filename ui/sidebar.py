@@ -1,7 +1,8 @@
-"""What all panels share: their tab, and the record that they draw."""
+"""What all panels share: their tab, the record that they draw, and their texts."""
 
 from __future__ import annotations
 
+import textwrap
 from functools import lru_cache
 from typing import Any
 
@@ -11,10 +12,15 @@ from ..operators.bridge.hulls.listed import listed_hulls
 from ..operators.bridge.stored.names import RESULT
 from ..operators.bridge.stored.noted_hulls import noted_hulls
 from ..operators.bridge.stored.record import parse_record
-from .shown_figures import is_of_now, shown_figures
+from ..operators.viewport.shown_figures import is_of_now, shown_figures
 
 # What stands for figures of a mesh that has changed since.
 OUT_OF_DATE = "out of date"
+# Share of the width that Blender gives to the names of settings.
+LABELS = 0.4
+# Widths at interface scale 1: of tabs, margins and an icon together; of a letter.
+_MARGINS = 80
+_LETTER = 6
 
 
 class Sidebar:
@@ -67,6 +73,27 @@ def rank_text(obj: bpy.types.Object, measured: dict[str, Any]) -> str:
 def width_of(context: bpy.types.Context) -> float:
     """Return how wide the sidebar is at interface scale 1, in points."""
     return context.region.width / context.preferences.system.ui_scale
+
+
+def paragraph(
+    layout: bpy.types.UILayout,
+    text: str,
+    context: bpy.types.Context,
+    icon: str = "ERROR",
+) -> None:
+    """Draw a sentence, by default a warning, broken into lines that fit the sidebar."""
+    width = int((width_of(context) - _MARGINS) / _LETTER)
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    for number, words in enumerate(textwrap.wrap(text, max(width, 10))):
+        column.label(text=words, icon="BLANK1" if number else icon)
+
+
+def line(layout: bpy.types.UILayout, name: str, value: str) -> None:
+    """Draw a name and a value."""
+    split = layout.split(factor=LABELS)
+    split.label(text=name)
+    split.label(text=value)
 
 
 def draw_choices(

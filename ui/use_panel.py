@@ -11,8 +11,7 @@ from ..operators.bridge.views.colors import CHOICES, MATERIALS, OVERLAY
 from ..operators.bridge.views.exploding import exploding, slider
 from ..operators.settings import SELECTION, hand_over
 from ..operators.viewport import sight_overlay
-from .panels import line
-from .sidebar import Sidebar, draw_choices, rank_text, result_of
+from .sidebar import Sidebar, draw_choices, line, rank_text, result_of
 
 
 class WCD_PT_use(Sidebar, bpy.types.Panel):

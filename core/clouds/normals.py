@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .jets import jet_normals
+from .outward import outward_directions
 from .splats import areas_of_points, noise_of, normal_weight, thinned_splats
-from .winding import outward_directions
 
 # Nearest points that a jet is fitted to: the least, the most, and the most as a share
 # of the cloud. More points average out noise, fewer resolve thin limbs, which have

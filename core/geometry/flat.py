@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull
 
 from ..steps.progress import Steps, within
 from .frames import frames, unit
-from .graphs.edges import shared_edges, sort_edges
+from .graphs.edges import ends_of_sides, shared_edges, sort_edges
 from .graphs.face_graph import FaceGraph, face_graph
 from .mesh import TriangleMesh
 
@@ -68,9 +68,8 @@ class FlatMesh:
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)
         # Between two concave corners of the outline is a crease: people cut there.
         sides = shared_edges(self.faces, edges)[1]
-        ends = sides, sides + np.where(sides % 3 < 2, 1, -2)
-        corners = self.faces.welded_triangles.ravel()
-        bends = self._concave_angles()[corners[np.stack(ends)]].min(axis=0)
+        ends = ends_of_sides(self.faces.welded_triangles, sides)
+        bends = self._concave_angles()[np.stack(ends)].min(axis=0)
         return replace(graph, outline=outline.astype(np.float64), bends=bends)
 
     def _concave_angles(self) -> NDArray[np.float64]:

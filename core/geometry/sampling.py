@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from .cutting.halving import halved
 from .frames import cross
 from .mesh import TriangleMesh
 
@@ -184,26 +185,14 @@ def sample_faces(mesh: TriangleMesh) -> Samples:
     while len(corners) < enough:
         largest = np.argsort(-areas, kind="stable")[: enough - len(corners)]
         largest = largest[areas[largest] > areas[largest[0]] / 2]
-        halves = _halves(corners[largest])
-        corners[largest] = halves[0]
+        some = corners[largest]
+        lengths = np.linalg.norm(np.roll(some, -1, axis=1) - some, axis=2)
+        corners[largest], others = np.split(halved(some, lengths), 2)
         areas[largest] /= 2
-        corners = np.concatenate([corners, halves[1]])
+        corners = np.concatenate([corners, others])
         areas = np.concatenate([areas, areas[largest]])
         triangles = np.concatenate([triangles, triangles[largest]])
     return Samples(corners.mean(axis=1), mesh.normals[triangles], triangles)
-
-
-def _halves(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return triangles (T, 3, 3) cut in two at their longest edges, (2, T, 3, 3).
-
-    The edge from corner i to i + 1 is cut at its middle; corner i + 2 lies opposite.
-    """
-    rows = np.arange(len(corners))
-    edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-    first = edges.argmax(axis=1)
-    a, b, c = (corners[rows, (first + step) % 3] for step in range(3))
-    middle = (a + b) / 2
-    return np.stack([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
 
 
 def _spread() -> NDArray[np.int64]:
@@ -225,21 +214,3 @@ def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
     x, y, z = _SPREAD[cells.T]
     codes: NDArray[np.int64] = x | y << 1 | z << 2
     return codes
-
-
-def single(points: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the rows of the points that occur once only, in an order of their own.
-
-    Parameters
-    ----------
-    points : (N, 3) float
-
-    Returns
-    -------
-    (M,) int
-    """
-    # The same points have the same key; to sort by all coordinates takes longer.
-    x, y, z = points.T
-    order = np.argsort(x + np.sqrt(2) * y + np.sqrt(3) * z)
-    same = (points[order[1:]] == points[order[:-1]]).all(axis=1)
-    return order[~(np.r_[False, same] | np.r_[same, False])[: len(points)]]

@@ -69,13 +69,11 @@ def size_of(shape: Shape) -> int:
     return sum(array.size for array in _arrays(shape) if array is not None)
 
 
-def check_members(name: str, members: object, shape: Shape) -> None:
+def check_members(members: object, shape: Shape) -> None:
     """Raise an error if an argument does not choose faces, or points, of a shape.
 
     Parameters
     ----------
-    name : str
-        Name of the argument.
     members : object
         (P,) bool, or None for all.
     shape : TriangleMesh or PointCloud
@@ -90,11 +88,13 @@ def check_members(name: str, members: object, shape: Shape) -> None:
     if members is None:
         return
     if not isinstance(members, np.ndarray) or members.dtype != np.bool_:
-        raise TypeError(f"`{name}` must be an array of bool, not {described(members)}.")
+        raise TypeError(
+            f"`members` must be an array of bool, not {described(members)}."
+        )
     size = shape.n_polygons if isinstance(shape, TriangleMesh) else len(shape)
     if members.shape != (size,) or not members.any():
         raise DecompositionError(
-            f"`{name}` must be {size} values, one for each face or point, and at least"
+            f"`members` must be {size} values, one for each face or point, and at least"
             " one of them True."
         )
 

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.primitives import CollisionShape, Hull
-from ..geometry.sampling import single
 from .convex_hull import THIN, convex_hull
 from .fitting import Fit
 from .measure.error_bound import ErrorBound
@@ -179,7 +178,7 @@ def join(one: Piece, other: Piece) -> Piece:
     one, other : Piece
     """
     boundary = np.concatenate([one.boundary, other.boundary])
-    once = single(boundary)
+    once = _rows_that_occur_once(boundary)
     return Piece(
         np.concatenate([one.hull.vertices, other.hull.vertices]),
         boundary[once],
@@ -190,3 +189,12 @@ def join(one: Piece, other: Piece) -> Piece:
         np.concatenate([one.all_witnesses, other.all_witnesses]),
         max(one, other, key=lambda piece: round(piece.hull.volume, 6)).part,
     )
+
+
+def _rows_that_occur_once(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the rows (M,) of points (N, 3) that equal no other; in some order."""
+    # The same points have the same key; to sort by all coordinates takes longer.
+    x, y, z = points.T
+    order = np.argsort(x + np.sqrt(2) * y + np.sqrt(3) * z)
+    same = (points[order[1:]] == points[order[:-1]]).all(axis=1)
+    return order[~(np.r_[False, same] | np.r_[same, False])[: len(points)]]

@@ -28,7 +28,7 @@ _SOME_CHORDS = 20_000
 # longest side is 2.
 _NO_VOLUME = 1e-6
 # Shells with this overlap, or more, count as apart from each other.
-_NO_OVERLAP = 0.999
+_NO_OVERLAP = 1 - 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ class Solid:
         return self.mesh.vertices[self.mesh.triangles]
 
     @cached_property
-    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def triangle_bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest coordinates of each triangle of the surface, (N, 3)."""
         corners = self.surface.vertices[self.surface.triangles]
         return corners.min(axis=1), corners.max(axis=1)

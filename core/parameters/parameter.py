@@ -95,7 +95,7 @@ def info_of(parameter_field: Field[Any]) -> ParameterInfo:
     Parameters
     ----------
     parameter_field : dataclasses.Field
-        One of the fields of `Parameters` or `HullParameters`.
+        One of the fields of `Parameters`, `HullParameters` or `BodyParameters`.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def settle(parameters: Any) -> None:
 
     Parameters
     ----------
-    parameters : Parameters or HullParameters
+    parameters : Parameters, HullParameters or BodyParameters
         Changed in place, although it is frozen.
 
     Raises
@@ -138,7 +138,7 @@ def check(parameter_field: Field[Any], value: Any) -> None:
     Parameters
     ----------
     parameter_field : dataclasses.Field
-        One of the fields of `Parameters` or `HullParameters`.
+        One of the fields of `Parameters`, `HullParameters` or `BodyParameters`.
     value : object
         The value to check.
 

@@ -1,4 +1,4 @@
-"""Finds about the parts that a search finds, in a tenth of a second.
+"""Finds parts much like those of a search, in a tenth of a second.
 
 While settings change in a window, these are shown until the parts themselves are found.
 """
@@ -18,7 +18,7 @@ _SWEEPS = 1
 
 
 def likely_number(search: PartCountSearch, tried: dict[int, Candidate]) -> int:
-    """Return about the number of parts that is best, 0 if nothing was tried.
+    """Return roughly the best number of parts, 0 if nothing was tried.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def likely_number(search: PartCountSearch, tried: dict[int, Candidate]) -> int:
 def guess(
     search: PartCountSearch, n_parts: int, memo: Memo[SeamsKey, Seams]
 ) -> Steps[Search]:
-    """Return about the parts that the search gives for a number of parts.
+    """Return parts much like those that the search gives for a number of parts.
 
     Parameters
     ----------

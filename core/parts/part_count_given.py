@@ -109,8 +109,9 @@ def _resized(
 
 
 def least_psi(search: PartCountSearch, n_parts: int) -> float | None:
-    """Return what psi may fall to as the seams of `own_parts` are cut.
+    """Return the least psi that `own_parts` may have once their seams are cut.
 
-    None stands for what k-means alone finds. For many parts that takes long to know.
+    None stands for the psi of the parts that k-means alone finds. Many parts have no
+    limit: to find those of k-means would take long.
     """
     return None if n_parts <= search.high else -np.inf

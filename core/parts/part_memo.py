@@ -43,7 +43,7 @@ class Candidate(NamedTuple):
 
 
 class CutMemo:
-    """Results for one set of clusters, refinement, balance and smallest part.
+    """Results for one set of clusters, refinement, alpha and smallest part.
 
     Attributes
     ----------

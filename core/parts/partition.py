@@ -86,6 +86,31 @@ class Partitioner(PartPsi):
                 found.append(Candidate(even, self.psi(even), True))
         return found
 
+    def evened(
+        self,
+        parts: NDArray[np.int64],
+        wanted: Container[int],
+        enough: float = -np.inf,
+    ) -> Steps[NDArray[np.int64]]:
+        """Return symmetric parts, or the same ones if psi is clearly lower then.
+
+        Parameters
+        ----------
+        parts : (P,) int
+        wanted : container of int
+            Numbers of parts that there may be.
+        enough : float, optional
+            Least psi.
+
+        Returns
+        -------
+        Steps of (P,) int
+        """
+        even = yield from self.symmetric(parts, wanted)
+        least = max(enough, self.psi(parts) - 2 * self.negligible)
+        best = max(even, key=lambda each: each.psi, default=None)
+        return parts if best is None or best.psi < least else best.parts
+
     def _mirrored(self, parts: NDArray[np.int64], side: Side) -> NDArray[np.int64]:
         """Return the parts after those on one side are copied to the other side."""
         return self._pieces(side.copied(parts, self.graph))

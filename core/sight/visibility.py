@@ -54,7 +54,7 @@ class LinesOfSight:
 
 @dataclass(frozen=True, eq=False)
 class Visibility:
-    """What parts are computed from, for any number of parts, balance and smoothness.
+    """What parts are computed from, for any number of parts, alpha and smoothness.
 
     Attributes
     ----------

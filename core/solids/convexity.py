@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from ..geometry.frames import heights_above
-from ..geometry.graphs.edges import Edges
+from ..geometry.graphs.edges import Edges, corner_of_sides
 from ..geometry.mesh import TriangleMesh
 from ..steps.beside import beside
 from ..steps.progress import Progress, Steps, within
@@ -79,9 +79,8 @@ def _has_concave_edge(mesh: TriangleMesh, edges: Edges) -> Steps[bool]:
     for start in range(0, len(pairs), _MOST_EDGES):
         yield Progress("Surface", start / len(pairs))
         one, other = pairs[start : start + _MOST_EDGES].T
-        # Side i of a triangle runs from corner i to the next: i + 2 lies opposite.
-        opposite = mesh.triangles[other // 3, (other + 2) % 3]
-        starts = mesh.triangles[one // 3, one % 3]
+        opposite = corner_of_sides(mesh.triangles, other, 2)
+        starts = corner_of_sides(mesh.triangles, one, 0)
         offsets = mesh.vertices[opposite] - mesh.vertices[starts]
         heights = np.einsum("ed,ed->e", offsets, mesh.normals[one // 3])
         if heights.max() > _ROUNDING * mesh.diagonal:

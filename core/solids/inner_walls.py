@@ -7,12 +7,11 @@ from numpy.typing import NDArray
 
 from ..geometry.frames import cross, unit
 from ..geometry.graphs.components import components
-from ..geometry.graphs.edges import Edges
+from ..geometry.graphs.edges import Edges, places_of_sides, sides_forward
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .volume import volumes_of
-from .winding import corners_of, sides_forward
 
 # A cell with less volume, in cubed diagonals, is none.
 _LEAST_VOLUME = 1e-9
@@ -85,7 +84,7 @@ def _in_turn(
     """
     if sides.shape[1] < 3:  # any order will do
         return sides
-    starts, ends, opposite = corners_of(mesh, sides)
+    starts, ends, opposite = places_of_sides(mesh, sides)
     along = np.where(ahead[..., None], ends - starts, starts - ends)[:, :1]
     along = unit(along.reshape(-1, 3))[:, None]
     away = opposite - starts

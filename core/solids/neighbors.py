@@ -1,4 +1,4 @@
-"""Which triangles go on in each other across an edge, also where solids touch."""
+"""Which triangles are neighbors across an edge, also where solids touch."""
 
 from __future__ import annotations
 
@@ -6,12 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.frames import cross, unit
-from ..geometry.graphs.edges import Edges, ends_of_sides
+from ..geometry.graphs.edges import (
+    Edges,
+    ends_of_sides,
+    places_of_sides,
+    sides_forward,
+)
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .volume import signed_volume
-from .winding import corners_of, sides_forward
 
 # Angle between triangles on top of each other, in radians: more than rounding.
 _SAME_ANGLE = 1e-3
@@ -26,7 +30,7 @@ _Sides = NDArray[np.int32]
 def find_neighbors(
     mesh: TriangleMesh, edges: Edges
 ) -> Steps[tuple[NDArray[np.int32], NDArray[np.bool_]]]:
-    """Return pairs of triangles that go on in each other across an edge.
+    """Return pairs of triangles that are neighbors across an edge.
 
     Those are the two triangles of an edge. Where solids touch, edges have more. If as
     many run along an edge one way as the other way, those pair up that have the least
@@ -114,12 +118,12 @@ def _angles(
     `one` (E, H) are sides that run along an edge, `other` (E, H) those against it.
     Triangles on top of each other have all of the inside between them.
     """
-    starts, ends, _ = corners_of(mesh, one[:, :1])
+    starts, ends, _ = places_of_sides(mesh, one[:, :1])
     along = unit((ends - starts).reshape(-1, 3))[:, None]
 
     def away(some: _Sides) -> NDArray[np.float64]:
         """Directions (E, H, 3) of triangles, at right angles to the edge."""
-        offsets = corners_of(mesh, some)[2] - starts
+        offsets = places_of_sides(mesh, some)[2] - starts
         offsets -= (offsets * along).sum(axis=2, keepdims=True) * along
         return unit(offsets.reshape(-1, 3)).reshape(offsets.shape)
 
@@ -139,7 +143,7 @@ def _with_own_vertices(mesh: TriangleMesh, sides: _Sides) -> _Sides:
 
     Objects that were joined keep their vertices.
     """
-    ends = ends_of_sides(mesh, sides)
+    ends = ends_of_sides(mesh.triangles, sides)
     keys = np.minimum(*ends) * len(mesh.vertices) + np.maximum(*ends)
     order = np.argsort(keys, axis=1, kind="stable")
     keys = np.take_along_axis(keys, order, axis=1)

@@ -19,7 +19,7 @@ from .winding import winding_number
 # its lid misses 0.2.
 _MOST_MISSING = 0.25
 # A volume below this, in cubed diagonals, is rounding: that of a sheet with two sides.
-_NO_VOLUME = 1e-12
+_NO_VOLUME = 1e-12 / 6
 
 
 def oriented(
@@ -73,24 +73,25 @@ def oriented(
 def _measured(
     mesh: TriangleMesh, shells: Shells
 ) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
-    """Return the area of each shell (S,), missing area, and six times its volume.
+    """Return the area of each shell (S,), its missing area, and its volume.
 
     Triangles are taken as wound consistently.
     """
-    # Number of triangles, their area, area vectors and centers, and volume about 0.
+    # Number of triangles, their area, area vectors and centers, and three times the
+    # volume about 0.
     sums = np.zeros((9, len(shells.closed)))
     for rows in blocks(len(mesh.triangles)):
         yield Progress("Surface", 0.6 * rows.start / len(mesh.triangles))
         areas, corners = mesh.areas[rows], mesh.vertices[mesh.triangles[rows]]
         signs = np.where(shells.against[rows], -areas, areas)
         vectors, centers = signs[:, None] * mesh.normals[rows], corners.mean(axis=1)
-        volumes = 2 * np.einsum("td,td->t", centers, vectors)
-        columns = [np.ones_like(areas), areas, *vectors.T, *centers.T, volumes]
+        tripled = np.einsum("td,td->t", centers, vectors)
+        columns = [np.ones_like(areas), areas, *vectors.T, *centers.T, tripled]
         for total, column in zip(sums, columns, strict=True):
             np.add.at(total, shells.of_triangle[rows], column)
     # The volume of an open shell depends on the point it is measured about.
     middles = sums[5:8] / sums[0]
-    volumes = sums[8] - 2 * (middles * sums[2:5]).sum(axis=0)
+    volumes = (sums[8] - (middles * sums[2:5]).sum(axis=0)) / 3
     return sums[1], np.linalg.norm(sums[2:5], axis=0), volumes
 
 

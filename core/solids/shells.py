@@ -13,7 +13,7 @@ from ..geometry.graphs.components import components
 from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
-from ..steps.rows import blocks
+from ..steps.rows import blocks, used_rows
 from .neighbors import find_neighbors
 
 # Shells are moved inwards by multiples of this depth, in diagonals.
@@ -26,7 +26,7 @@ GAP = 4 * _LAYER * _LAYERS
 
 @dataclass(frozen=True, eq=False)
 class Shells:
-    """The shells of a mesh: triangles connected where they go on in each other.
+    """The shells of a mesh: triangles that are connected across edges.
 
     Attributes
     ----------
@@ -159,15 +159,18 @@ def _own_vertices(
         Shell of each vertex.
     vertices : (V, 3) float
     """
-    places = yield from within(mesh.welded_in_steps(), 0.0, 0.2)
-    n_places = int(places.max()) + 1
+    places = yield from within(mesh.welded_in_steps(), 0.0, 0.1)
+    # Places of vertices without triangles are left out.
+    used = yield from within(used_rows(places, int(places.max()) + 1), 0.1, 0.2)
+    rows, row_of_place = np.empty(places.shape, dtype=np.int64), np.cumsum(used) - 1
+    n_places = int(row_of_place[-1]) + 1
     shell_of = np.empty(n_places, dtype=np.int64)
     vertices = np.empty((n_places, 3))
     for some in blocks(len(places)):
         yield Progress("Surface", 0.2)
-        shell_of[places[some]] = shells.of_triangle[some, None]
-        vertices[places[some]] = mesh.vertices[mesh.triangles[some]]
-    rows = places.astype(np.int64)
+        rows[some] = row_of_place[places[some]]
+        shell_of[rows[some]] = shells.of_triangle[some, None]
+        vertices[rows[some]] = mesh.vertices[mesh.triangles[some]]
     yield Progress("Surface", 0.4)
     # Where shells share a place, all but one of them get a further vertex.
     strange = np.flatnonzero(shell_of[rows] != shells.of_triangle[:, None])

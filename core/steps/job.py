@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import Generic
 
-from .progress import Progress, Steps
-
-T = TypeVar("T")
+from .progress import Progress, Steps, T
 
 
 class Job(Generic[T]):

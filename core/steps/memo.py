@@ -16,11 +16,11 @@ Value = TypeVar("Value")
 
 
 def digest(labels: NDArray[np.int64 | np.bool_]) -> bytes:
-    """Return a hash of labels, to be used as a key.
+    """Return a hash of labels or of a mask, to be used as a key.
 
     Parameters
     ----------
-    labels : (P,) int
+    labels : (P,) int64 or bool
         Not negative.
 
     Returns

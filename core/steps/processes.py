@@ -68,7 +68,7 @@ def serve() -> None:
 
 
 def available() -> int:
-    """Return how many processes keep the processors busy that this one may use."""
+    """Return how many processes to start: one for each processor, up to a limit."""
     if hasattr(os, "sched_getaffinity"):  # not on macOS and Windows
         return min(len(os.sched_getaffinity(0)), _MOST)
     return min(os.cpu_count() or 1, _MOST)
@@ -94,13 +94,17 @@ class Processes:
         self._answers: Memo[bytes, Future[Any]] = Memo(_ANSWERS)
         self._idle: queue.SimpleQueue[subprocess.Popen[bytes]] = queue.SimpleQueue()
 
-    def steps(self, compute: Callable[..., Steps[T]], *arguments: Any) -> Steps[T]:
+    def steps(
+        self, stage: str, compute: Callable[..., Steps[T]], *arguments: Any
+    ) -> Steps[T]:
         """Start a computation at once; return steps that wait for its value.
 
         A call that equals one of the latest gets the same answer.
 
         Parameters
         ----------
+        stage : str
+            What the steps report while they wait, in words for the user.
         compute : callable
             A function of a module in the core; returns steps.
         *arguments
@@ -119,7 +123,7 @@ class Processes:
         answer = self._answers.recall(
             blake2b(call).digest(), lambda: self._threads.submit(self._answer, call)
         )
-        return _waiting(answer, compute, arguments)
+        return _waiting(answer, stage, compute, arguments)
 
     def close(self) -> None:
         """End all processes, whatever they do."""
@@ -175,11 +179,14 @@ def _start() -> subprocess.Popen[bytes]:
 
 
 def _waiting(
-    answer: Future[Any], compute: Callable[..., Steps[T]], arguments: tuple[Any, ...]
+    answer: Future[Any],
+    stage: str,
+    compute: Callable[..., Steps[T]],
+    arguments: tuple[Any, ...],
 ) -> Steps[T]:
     """Wait for the answer to a call; compute here if there is none."""
     while not answer.done():
-        yield Progress("Cutting", 0.0)
+        yield Progress(stage, 0.0)
         with contextlib.suppress(TimeoutError):
             answer.exception(_SECONDS)
     found = answer.result()

@@ -27,7 +27,7 @@ def blocks(n_rows: int, size: int = _BLOCK) -> Iterator[slice]:
         yield slice(start, min(start + size, n_rows))
 
 
-def used_rows(numbers: NDArray[np.int64], n_rows: int) -> Steps[NDArray[np.bool_]]:
+def used_rows(numbers: NDArray[np.integer], n_rows: int) -> Steps[NDArray[np.bool_]]:
     """Return which of the rows 0…N − 1 an array names.
 
     Parameters

@@ -1,7 +1,21 @@
 """The only code that turns Blender's data into arrays and back.
 
-The order is `mesh` (arrays and layers), `stored` (what a file keeps), `refusals` (why
-an object cannot be worked on), `parts` (parts in Blender), `read` (an object becomes a
-shape), `hulls` (hulls in Blender), `work` (computations on objects). Each imports only
-from those before it. `rays` needs none of them, and `work` uses it.
+By package and module:
+
+- `stored`: what a file keeps: names, notes and records.
+- `mesh`: faces, points and layers as arrays.
+- `homes`: where what belongs to an object goes in a file.
+- `rays`: rays that Blender or Embree casts.
+- `read`: an object becomes a shape.
+- `parts`: parts on an object: read, written, named, colored and erased.
+- `cuts`: faces that are cut where parts meet on them, and whole ones again.
+- `views`: colors, the exploded view and isolated parts.
+- `hulls`: hulls as objects.
+- `work`: computations on objects.
+- `refusals`: why an object cannot be worked on.
+- `removal_refusals`: why nothing can be removed from an object.
+- `converted`: what is left on an object that the user made a curve of.
+
+Modules never import each other in a circle. Some packages do:
+`tests/test_architecture.py` names the pairs.
 """

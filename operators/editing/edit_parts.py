@@ -79,8 +79,9 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[Edited]:
         chosen, into = chosen_parts(obj), active_part(obj)
-        if len(chosen) < 2:  # other ticked parts have no faces any more
-            raise DecompositionError("Tick two or more parts in the list to merge.")
+        reason = merge_refusal(obj, len(chosen))  # other ticked parts have no faces
+        if reason:
+            raise DecompositionError(f"{reason}.")
         change = edits.merging(chosen, into if into in chosen else chosen[0])
         return edit_object(obj, change)
 

@@ -1,4 +1,4 @@
-"""The file that is open in Blender: emptied before a load, and its objects."""
+"""The file that is open in Blender: emptied before a load, its objects, their names."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def has_shape(obj: bpy.types.Object) -> bool:
     return bool(count_points(obj) if is_cloud(obj) else obj.data.polygons)
 
 
-def first_of(names: Sequence[str]) -> str:
-    """Return the first names of many objects, and how many more there are."""
+def some_of(names: Sequence[str]) -> str:
+    """Return the first of many names for a note, and how many more there are."""
     more = len(names) - _MOST_NAMES
     shown = ", ".join(names[:_MOST_NAMES])
     return f"{shown} and {more} more" if more > 0 else shown

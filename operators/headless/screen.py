@@ -7,13 +7,11 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from typing import TextIO, TypeVar
+from typing import TextIO
 
-from ...core.steps.progress import Progress, Steps, mapped, run
+from ...core.steps.progress import Progress, Steps, T, mapped, run
 from .request.option_names import with_options
 from .stages import Stages
-
-T = TypeVar("T")
 
 # Time between two lines of progress at least.
 _TERMINAL_SECONDS = 0.1

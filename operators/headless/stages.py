@@ -8,11 +8,8 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TypeVar
 
-from ...core.steps.progress import Steps
-
-T = TypeVar("T")
+from ...core.steps.progress import Steps, T
 
 # The stages of the report, in their order.
 STAGES = (

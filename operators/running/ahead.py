@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
-from typing import TypeAlias, TypeVar
+from typing import TypeAlias
 
 import bpy
 
@@ -17,14 +17,13 @@ from ...core.errors import DecompositionError
 from ...core.parameters.parameter import field_of, info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
-from ...core.steps.progress import Steps
+from ...core.steps.progress import Steps, T
 from ..bridge.work.file_end import call_at_end, call_now_instead
 from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
 from .watching import stop_timer
 
-T = TypeVar("T")
 # Parameters, and whether a first look at the parts is enough.
 Wanted: TypeAlias = tuple[Parameters, bool]
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import bpy
 
 from ...core.errors import DecompositionError
-from ...core.steps.progress import Progress, Steps, in_turn, mapped, run
+from ...core.steps.progress import Progress, Steps, T, in_turn, mapped, run
 from ..bridge.read.carrier import discard_waiting
 from ..bridge.read.target import Target
 from ..bridge.work.computing import summary
 from ..bridge.work.run_edit import Edited
 from . import modal
 from .on_objects import OnActive, OnObjects
-
-T = TypeVar("T")
 
 _ENDS = {"FINISHED", "CANCELLED"}
 

@@ -19,6 +19,7 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 import weak_convex_decomposition as package
 from hand_made import decomposition_of
+from headless.loading import load
 from over_models import parse, parser
 from princeton import mean_error, overlaps, read_humans
 from scipy.optimize import linear_sum_assignment
@@ -26,8 +27,7 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
 from weak_convex_decomposition.operators.bridge.work.computing import decompose_object
-from weak_convex_decomposition.operators.headless.read.load import load
-from weak_convex_decomposition.operators.headless.write.picture import save_picture
+from weak_convex_decomposition.operators.headless.write import picture
 from weak_convex_decomposition.operators.headless.write.render_engine import (
     EngineTrial,
     RenderEngine,
@@ -60,14 +60,14 @@ class Drawing:
         (obj,) = load(self.directory / "off" / f"{model}.off")
         parts = run(decompose_object(obj, self.parameters))
         write_parts(obj, parts, self.parameters)
-        save_picture(path, [obj], self.engine, SIDE)
+        picture.save_picture(path, [obj], self.engine)
         if not self.with_human:
             return [path]
         human = most_agreed(read_humans(self.directory, model))
         human = decomposition_of(alike(human, parts.labels))
         write_parts(obj, human, self.parameters)
         human_path = path.with_stem(f"{model}_human")
-        save_picture(human_path, [obj], self.engine, SIDE)
+        picture.save_picture(human_path, [obj], self.engine)
         return [path, human_path]
 
 
@@ -140,6 +140,7 @@ def write_png(path: Path, pixels: np.ndarray) -> None:
 def main() -> int:
     """Draw every model of a directory, and put the pictures on sheets."""
     package.register()  # objects have a table of parts then
+    picture.SIZE = SIDE
     options = parser(__doc__)
     options.add_argument("folder", type=Path)
     options.add_argument(

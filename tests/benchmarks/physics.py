@@ -14,8 +14,8 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 import weak_convex_decomposition as package
 from headless import simulation
+from headless.loading import load
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
-from weak_convex_decomposition.operators.headless.read.load import load
 
 SECONDS = 40
 HEADING = ("model", "hulls", "error", "speed", "deepest", "balls", "lowest", "highest")

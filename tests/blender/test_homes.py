@@ -15,7 +15,8 @@ def linked(suzanne, tmp_path):
     with bpy.data.libraries.load(path, link=True) as (_, wanted):
         wanted.objects = [name]
     (obj,) = wanted.objects
-    assert obj.library and obj.name == name
+    assert obj.library
+    assert obj.name == name
     return obj
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...steps.progress import run
 from ..frames import unit
 from ..graphs.components import components_at_once
-from ..graphs.edges import shared_edges, sort_edges
+from ..graphs.edges import ends_of_sides, shared_edges, sort_edges
 from ..graphs.face_graph import face_graph
 from .refined import Cut, RefinedMesh, RowsByNumber
 
@@ -108,11 +108,7 @@ def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
     one, other = neighbors.T
     kept = labels[one] != labels[other]
     one, other, sides = one[kept], other[kept], sides[kept]
-    owners = sides // 3
-    corners = sides % 3
-    first = mesh.triangles[owners, corners]
-    last = mesh.triangles[owners, (corners + 1) % 3]
-    starts, ends = mesh.vertices[first], mesh.vertices[last]
+    starts, ends = mesh.vertices[np.stack(ends_of_sides(mesh.triangles, sides))]
     graph = run(face_graph(mesh, edges))
     normals = unit(graph.normals[one] + graph.normals[other])
     creases = graph.bends[kept] > _LEAST_CREASE
@@ -125,24 +121,23 @@ def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
         normals,
         weights,
         np.where(inside, refined.faces[one], -1),
-        _connected(mesh.welded_triangles, owners, corners, labels[one], labels[other]),
+        _connected(mesh.welded_triangles, sides, labels[one], labels[other]),
     )
 
 
 def _connected(
     welded: NDArray[np.int32],
-    owners: NDArray[np.int64],
-    corners: NDArray[np.int64],
+    sides: NDArray[np.int32],
     one: NDArray[np.int64],
     other: NDArray[np.int64],
 ) -> NDArray[np.int64]:
     """Return the number of the connected seam of each edge; `one`, `other`: parts."""
-    if len(owners) == 0:
+    if len(sides) == 0:
         return np.zeros(0, dtype=np.int64)
     pair = np.minimum(one, other) * (max(one.max(), other.max()) + 1)
     pair = pair + np.maximum(one, other)
     stride = int(welded.max()) + 1
-    ends = np.stack([welded[owners, corners], welded[owners, (corners + 1) % 3]], 1)
+    ends = np.stack(ends_of_sides(welded, sides), axis=1)
     _, nodes = np.unique(pair[:, None] * stride + ends, return_inverse=True)
     nodes = nodes.reshape(-1, 2)
     seams = components_at_once(nodes, int(nodes.max()) + 1)[nodes[:, 0]]

@@ -1,4 +1,4 @@
-"""Which nodes of a graph are connected."""
+"""Which nodes of a graph are connected, and which lie beside other labels."""
 
 from __future__ import annotations
 
@@ -102,6 +102,22 @@ def components_of_labels(
     within = sparse.csr_array(rest, graph.shape)
     found: NDArray[np.int32] = connected_components(within, directed=False)[1]
     return found
+
+
+def nodes_at_seams(
+    neighbors: NDArray[np.integer[Any]], labels: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """Return the nodes that have a neighbor with another label, (N,).
+
+    Parameters
+    ----------
+    neighbors : (E, 2) int
+    labels : (N,) int
+    """
+    at_seams = np.zeros(len(labels), dtype=bool)
+    one, other = labels[neighbors].T
+    at_seams[neighbors[one != other]] = True
+    return at_seams
 
 
 def graph_of(pairs: NDArray[np.integer[Any]], n_nodes: int) -> sparse.csr_array:

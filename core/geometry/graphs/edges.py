@@ -1,8 +1,8 @@
-"""Which triangles share an edge."""
+"""Which triangles share an edge, and the sides of triangles along edges."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,8 @@ from ..mesh import TriangleMesh
 
 # About the most sides of triangles that are sorted in one step.
 _MOST_SIDES = 2**20
+
+Whole = TypeVar("Whole", np.int32, np.int64)
 
 
 class Edges(NamedTuple):
@@ -138,23 +140,82 @@ def lengths_of_sides(
     mesh : TriangleMesh
     sides : (S,) int
     """
-    starts, ends = ends_of_sides(mesh, sides)
+    starts, ends = ends_of_sides(mesh.triangles, sides)
     return np.linalg.norm(mesh.vertices[starts] - mesh.vertices[ends], axis=1)
 
 
-def ends_of_sides(
-    mesh: TriangleMesh, sides: NDArray[np.int32]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the vertices where sides of triangles start, and where they end.
+def sides_forward(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
+    """Return the sides that run from the lower to the higher place.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    sides : (...) int
+
+    Returns
+    -------
+    Steps of (3T,) bool
         Numbered as in `Edges`.
     """
-    corners = mesh.triangles.ravel()
-    return corners[sides], corners[sides + np.where(sides % 3 < 2, 1, -2)]
+    corners = mesh.welded_triangles
+    forward = np.empty(corners.size, dtype=bool)
+    for rows in blocks(len(corners)):
+        yield Progress("Surface", rows.start / len(corners))
+        some, along = corners[rows], forward[3 * rows.start : 3 * rows.stop]
+        np.less(some, some[:, [1, 2, 0]], out=along.reshape(-1, 3))
+    return forward
+
+
+def corner_of_sides(
+    triangles: NDArray[Whole], sides: NDArray[np.int32], step: int
+) -> NDArray[Whole]:
+    """Return a corner of the triangle of each side, numbered as in `Edges`.
+
+    Parameters
+    ----------
+    triangles : (T, 3) int32 or int64
+        What stands at the corners of all triangles: vertices, or welded ones.
+    sides : (...) int32
+    step : int
+        0 for the corner where a side starts, 1 for that where it ends, 2 for the one
+        opposite.
+
+    Returns
+    -------
+    (...) of the dtype of `triangles`
+    """
+    return triangles.ravel()[sides - sides % 3 + (sides + step) % 3]
+
+
+def ends_of_sides(
+    triangles: NDArray[Whole], sides: NDArray[np.int32]
+) -> tuple[NDArray[Whole], NDArray[Whole]]:
+    """Return the corners (...) where sides of triangles start, and where they end.
+
+    Parameters
+    ----------
+    triangles : (T, 3) int32 or int64
+        As in `corner_of_sides`.
+    sides : (...) int32
+    """
+    return corner_of_sides(triangles, sides, 0), corner_of_sides(triangles, sides, 1)
+
+
+def places_of_sides(
+    mesh: TriangleMesh, sides: NDArray[np.int32]
+) -> NDArray[np.float64]:
+    """Return where sides of triangles start and end, and the corners opposite.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    sides : (...) int32
+
+    Returns
+    -------
+    (3, ..., 3) float
+    """
+    corners = [corner_of_sides(mesh.triangles, sides, step) for step in range(3)]
+    return mesh.vertices[np.stack(corners)]
 
 
 def _order(numbers: NDArray[np.int32]) -> NDArray[np.int32]:

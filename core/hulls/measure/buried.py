@@ -2,31 +2,122 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.cutting.halving import edge_lengths, halved
 from ...geometry.mesh import TriangleMesh
 from ...geometry.sampling import Samples
 from ...solids.shells import Shells
 from ...solids.volume import volumes_of
 from ...steps.progress import Progress, Steps
-from .fragments import edge_lengths, halved, reach_of
+from ...steps.rows import blocks
+from .fragments import reach_of
 from .inside import InsideTest
 from .targets import Targets
 
 # Longest edge of fragments that stay although they may be buried: they cross another
 # solid's surface, or are close to it. The longest side of the whole is 2.
 _GRAIN = 0.01
+# Fragments no farther from a surface lie on it: they stay, and are cut no more.
+_FLUSH = 1e-9
 # Most triangles that are compared, counted once for each solid they are compared to.
-_MOST_COMPARED = 4_000_000
-# Most fragments of one solid. With more of them, none is cut any further.
-_MOST_FRAGMENTS = 100_000
+_MOST_COMPARED = 100_000_000
+# So many fragments there may be more than triangles: each solid has a share of them.
+_MOST_MORE = 30_000
+# Fragments that are looked at in one step.
+_AT_ONCE = 5_000
+
+
+@dataclass
+class _Surface:
+    """What is left of a surface.
+
+    Attributes
+    ----------
+    pieces : (N, 3, 3) float
+        Corners of whole triangles, and of fragments of others.
+    rows : (N,) int
+        Triangle that each is, or is a piece of.
+    lost : (T,) bool
+        Triangles that are buried, or that some piece is missing of.
+    """
+
+    pieces: NDArray[np.float64]
+    rows: NDArray[np.int64]
+    lost: NDArray[np.bool_]
+
+    @property
+    def n_more(self) -> int:
+        """How many more pieces than triangles there are."""
+        return max(len(self.pieces) - len(self.lost), 0)
+
+    def joined(self, mesh: TriangleMesh) -> TriangleMesh:
+        """Return the whole triangles of the mesh, and the pieces of others."""
+        more = self.pieces[self.lost[self.rows]]
+        vertices = np.concatenate([mesh.vertices, more.reshape(-1, 3)])
+        triangles = len(mesh.vertices) + np.arange(3 * len(more)).reshape(-1, 3)
+        triangles = np.concatenate([mesh.triangles[~self.lost], triangles])
+        return TriangleMesh(vertices, triangles, np.arange(len(triangles)))
+
+    def bury(
+        self, solid: _Container, others: NDArray[np.int64], most: int
+    ) -> Steps[None]:
+        """Leave out what is inside a solid, of some of the pieces.
+
+        They become about so many more at most.
+        """
+        done, rows = [np.delete(self.pieces, others, axis=0)], self.rows[others]
+        of_done, small = [np.delete(self.rows, others)], self.pieces[others]
+        while len(small):
+            n_more = sum(map(len, done[1:])) + len(small) - len(others)
+            clear, buried = yield from solid.holds(*reach_of(small))
+            self.lost[rows[buried]] = True
+            lengths = edge_lengths(small)
+            cut = ~clear & (lengths.max(axis=1) > _GRAIN) & (n_more < most)
+            cut[cut] = ~(yield from solid.has_on_it(small[cut]))
+            stays = ~cut & ~buried
+            done.append(small[stays])
+            of_done.append(rows[stays])
+            small, rows = halved(small[cut], lengths[cut]), np.tile(rows[cut], 2)
+        self.pieces, self.rows = np.concatenate(done), np.concatenate(of_done)
+
+
+class _Container:
+    """A solid, with the cavities near it, that others may be buried in."""
+
+    def __init__(self, corners: NDArray[np.float64]) -> None:
+        self._inside, self._targets = InsideTest(corners, 1), Targets(corners)
+
+    def holds(
+        self, centers: NDArray[np.float64], radii: NDArray[np.float64]
+    ) -> Steps[tuple[NDArray[np.bool_], NDArray[np.bool_]]]:
+        """Return which balls (M,) its surface does not meet, and which are inside."""
+        clear, inside = np.zeros((2, len(centers)), dtype=bool)
+        for some in blocks(len(centers), _AT_ONCE):
+            yield Progress("Solid", 0.0)
+            clear[some] = ~self._targets.are_within(centers[some], radii[some])
+            rows = some.start + np.flatnonzero(clear[some])
+            inside[rows] = self._inside.holds(centers[rows])
+        return clear, inside
+
+    def has_on_it(self, pieces: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
+        """Return which pieces (M,) have their corners and centers on its surface."""
+        places = np.concatenate([pieces, pieces.mean(axis=1, keepdims=True)], axis=1)
+        points = places.reshape(-1, 3)
+        clear, _ = yield from self.holds(points, np.full(len(points), _FLUSH))
+        on_it: NDArray[np.bool_] = np.all(~clear.reshape(-1, 4), axis=1)
+        return on_it
 
 
 def unburied(
     mesh: TriangleMesh, shells: Shells, samples: Samples
 ) -> Steps[tuple[TriangleMesh, Samples]]:
     """Return the surface of a union of closed solids, and the samples on it.
+
+    What is inside one other solid is buried.
 
     Parameters
     ----------
@@ -43,78 +134,59 @@ def unburied(
         Whole triangles of `mesh` and pieces of others; `mesh` itself if nothing is
         buried, or if it would take long to tell. Pieces next to another surface stay.
     samples : Samples
-        Those that are not buried.
+        Those that are not buried, or next to another surface.
     """
     corners = mesh.vertices[mesh.triangles]
-    around = yield from _others(mesh, shells)
-    whole, pieces = np.ones(len(corners), dtype=bool), [corners[:0]]
+    left = _Surface(corners, np.arange(len(corners)), np.zeros(len(corners), bool))
     buried = np.zeros(len(samples), dtype=bool)
-    of_sample = shells.of_triangle[samples.triangles]
-    for turn, (shell, others) in enumerate(around.items()):
+    of_sample, places = shells.of_triangle[samples.triangles], samples.positions
+    boxes = np.stack(shells.bounds(mesh), axis=1)
+    around = yield from _containers(mesh, shells)
+    for turn, (shell, own) in enumerate(around.items()):
         yield Progress("Solid", turn / len(around))
-        inside, targets = InsideTest(corners[others], 1), Targets(corners[others])
-        rows = shells.members[shell]
-        touched, kept = _outside(corners[rows], inside, targets)
-        whole[rows[touched]] = False
-        pieces.append(kept)
-        mine = np.flatnonzero(of_sample == shell)
-        buried[mine] = inside.holds(samples.positions[mine])
-    if whole.all():
+        solid, box = _Container(corners[own]), boxes[shell]
+        others = _meeting(left.pieces, *box) & (shells.of_triangle[left.rows] != shell)
+        most = (_MOST_MORE - left.n_more) // (len(around) - turn)
+        yield from left.bury(solid, np.flatnonzero(others), most)
+        near = (of_sample != shell) & _meeting(places[:, None], *box) & ~buried
+        some = np.flatnonzero(near)
+        radii = np.full(len(some), _GRAIN)
+        _, buried[some] = yield from solid.holds(places[some], radii)
+    if not left.lost.any():
         return mesh, samples
-    more = np.concatenate(pieces)
-    vertices = np.concatenate([mesh.vertices, more.reshape(-1, 3)])
-    triangles = len(mesh.vertices) + np.arange(3 * len(more)).reshape(-1, 3)
-    triangles = np.concatenate([mesh.triangles[whole], triangles])
-    surface = TriangleMesh(vertices, triangles, np.arange(len(triangles)))
-    return surface, samples.at(np.flatnonzero(~buried))
+    return left.joined(mesh), samples.at(np.flatnonzero(~buried))
 
 
-def _others(mesh: TriangleMesh, shells: Shells) -> Steps[dict[int, NDArray[np.int64]]]:
-    """Return the triangles of all shells whose boxes meet that of each solid, if any.
+def _meeting(
+    pieces: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return whether the boxes around pieces (N, K, 3) meet another one, (N,)."""
+    meets = np.ones(len(pieces), dtype=bool)
+    for axis in range(3):
+        along = pieces[..., axis]
+        meets &= along.min(axis=1) < high[axis]
+        meets &= along.max(axis=1) > low[axis]
+    return meets
 
-    Walls of cavities are no solids: they are never buried. None if there are too many.
+
+def _containers(
+    mesh: TriangleMesh, shells: Shells
+) -> Steps[dict[int, NDArray[np.int64]]]:
+    """Return the triangles of solids whose boxes meet others, and of cavities there.
+
+    They are those of a shell and of each cavity whose box meets its own. None if there
+    are so many that it would take long.
     """
     volumes, n_shells = (yield from volumes_of(mesh)), len(shells.closed)
     solid = np.bincount(shells.of_triangle, volumes, n_shells) > 0
     lows, highs = shells.bounds(mesh)
+    if np.count_nonzero(solid) * len(mesh.triangles) > _MOST_COMPARED:
+        return {}
     found: dict[int, NDArray[np.int64]] = {}
-    n_compared = 0
     for shell in np.flatnonzero(solid).tolist():
-        meets = (lows <= highs[shell]).all(axis=1) & (highs >= lows[shell]).all(axis=1)
+        meets = (lows < highs[shell]).all(axis=1) & (highs > lows[shell]).all(axis=1)
         meets[shell] = False
         if meets.any():
-            found[shell] = np.flatnonzero(meets[shells.of_triangle])
-            n_compared += len(found[shell])
-        if n_compared > _MOST_COMPARED:
-            return {}
+            own = [shell, *np.flatnonzero(meets & ~solid)]
+            found[shell] = np.concatenate([shells.members[each] for each in own])
     return found
-
-
-def _outside(
-    corners: NDArray[np.float64], inside: InsideTest, targets: Targets
-) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which triangles (T, 3, 3) are partly in other solids, and what is not.
-
-    `inside` and `targets` are of these solids.
-
-    The rest of those triangles is in pieces (N, 3, 3).
-    """
-    rows = np.arange(len(corners))
-    touched, kept = np.zeros(len(corners), dtype=bool), []
-    small = corners
-    while len(small):
-        centers, radii = reach_of(small)
-        buried = inside.holds(centers)
-        # Where no surface is near, all of a fragment is where its center is.
-        clear = targets.nearest(centers) > radii
-        touched[rows[clear & buried]] = True
-        lengths = edge_lengths(small)
-        ready = clear | (lengths.max(axis=1) <= _GRAIN)
-        if len(small) > _MOST_FRAGMENTS:
-            ready[:] = True
-        stays = ready & ~(clear & buried)
-        kept.append((rows[stays], small[stays]))
-        small = halved(small[~ready], lengths[~ready])
-        rows = np.tile(rows[~ready], 2)
-    of, pieces = (np.concatenate(each) for each in zip(*kept, strict=True))
-    return touched, pieces[touched[of]]

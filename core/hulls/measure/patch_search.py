@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .fragments import edge_lengths, halved
+from ...geometry.cutting.halving import edge_lengths, halved
 
 # Patches looked at in one round; with more to halve, the highest ones go first.
 _MOST_PATCHES = 60_000

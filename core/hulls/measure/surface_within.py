@@ -30,7 +30,7 @@ def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
     -------
     (N, 3, 3) float
     """
-    (low, high), (lowest, highest) = shape.bounds, solid.bounds
+    (low, high), (lowest, highest) = shape.bounds, solid.triangle_bounds
     surface = solid.surface
     rows = np.arange(len(surface.triangles))
     for axis in range(3):  # at once takes ten times as long

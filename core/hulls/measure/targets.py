@@ -65,6 +65,18 @@ class Targets:
         # The distance from a triangle is convex: largest at a corner of the patch.
         return at_least, nearest, away.max(axis=1).min(axis=1)
 
+    def are_within(
+        self, points: NDArray[np.float64], radii: NDArray[np.float64]
+    ) -> NDArray[np.bool_]:
+        """Return which points (M, 3) have a triangle within radii (M,)."""
+        farthest = float(radii.max(initial=0.0)) + self._reach
+        apart, _ = self._tree.query(points, distance_upper_bound=farthest)
+        # The center of a fragment is on it, and none of it is farther than its reach.
+        within: NDArray[np.bool_] = apart <= radii
+        unsure = np.flatnonzero(~within & (apart - self._reach <= radii))
+        within[unsure] = self.nearest(points[unsure]) <= radii[unsure]
+        return within
+
     def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
         found = np.empty(len(points))

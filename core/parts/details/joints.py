@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
@@ -16,6 +17,7 @@ from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..merging.pieces import connected_parts
 from ..part_memo import PartMemo
+from ..part_psi import count_parts
 from ..partition import Partitioner
 from ..seams.smoothing import smooth_seams
 from .limb_joints import LimbJoints
@@ -63,22 +65,12 @@ def cut_joints(
     if nodes.max() < found.n_parts:
         return found
     if memo.patches is None:
-        nodes = yield from _evened(memo, nodes, parameters)
+        wanted = range(2, int(nodes.max()) * 2)
+        nodes = yield from Partitioner(memo, parameters).evened(nodes, wanted)
     numbered = by_size(nodes, shape.graph)[shape.nodes]
     visibility, ks = memo.visibility, (found.psi_by_k, found.best_k)
     cut_parts = describe(visibility, numbered, parameters, *ks)
     return replace(cut_parts, notes=found.notes)
-
-
-def _evened(
-    memo: PartMemo, nodes: NDArray[np.int64], parameters: Parameters
-) -> Steps[NDArray[np.int64]]:
-    """Return parts (P,) symmetric to the mirror plane, if psi is as high then."""
-    by = Partitioner(memo, parameters)
-    even = yield from by.symmetric(nodes, range(2, int(nodes.max()) * 2))
-    least = by.psi(nodes) - 2 * by.negligible
-    best = max(even, key=lambda each: each.psi, default=None)
-    return nodes if best is None or best.psi < least else best.parts
 
 
 def _smooth(
@@ -90,7 +82,7 @@ def _smooth(
     """Return the pieces (P,) of a part after their seams are smoothed, 0 elsewhere."""
     kept = np.flatnonzero(members)
     part = graph.part(kept)
-    n_pieces, smoothness = int(labels.max()) + 1, parameters.smoothness
+    n_pieces, smoothness = count_parts(labels), parameters.smoothness
     least = parameters.smallest_part * graph.areas.sum()
     pieces = labels[kept]
     if smoothness > 0:
@@ -110,9 +102,7 @@ def _pieces(
     transfer = yield from memo.transfer_in_steps()
     graph, patches = transfer.graph, memo.patches
     parts = nodes if patches is None else patches.labels_of_patches(nodes)
-    one, other = parts[graph.neighbors].T
-    at_seams = np.zeros(len(parts), dtype=bool)
-    at_seams[graph.neighbors[one != other]] = True
+    at_seams = nodes_at_seams(graph.neighbors, parts)
     least = parameters.smallest_part * float(graph.areas.sum())
     spiky, limbs = {}, LimbJoints(parameters.bends != "KEEP")
     for turn, part in enumerate(chosen.tolist()):
@@ -126,7 +116,7 @@ def _pieces(
         surface = memo.surfaces.recall(digest(place), make)
         count = partial(count_pairs, memo, kept)
         found = find_spikes(surface, least)
-        spikes = seen_apart(np.zeros_like(kept), found, count, parameters.alpha)
+        spikes = seen_apart(len(kept), found, count, parameters.alpha)
         if spikes.any():
             spiky[part] = kept, spikes
         else:

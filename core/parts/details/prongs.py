@@ -10,9 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps
-from .surface import distances, hills, roads
+from .surface import distances, meetings, roads
 
 # A prong is long if its squared length is at least this share of its area. A cylinder
 # has that share if it is 2.5 times as long as its radius; a heel has less.
@@ -45,9 +46,7 @@ def find_tips(
     Steps of (T,) int
         Different nodes, ascending; at least two of each part that has prongs.
     """
-    ends = graph.neighbors
-    at_seams = np.zeros(len(parts), dtype=bool)
-    at_seams[ends[parts[ends[:, 0]] != parts[ends[:, 1]]]] = True
+    at_seams = nodes_at_seams(graph.neighbors, parts)
     kept = np.flatnonzero(chosen[parts])
     if not at_seams[kept].any():
         return kept[:0]
@@ -58,30 +57,23 @@ def find_tips(
     yield Progress("Details", 0.5)
     reach = np.zeros(len(chosen))
     np.maximum.at(reach, parts, far)
-    tops, saddles = hills(far, pairs)
     least = _LEAST_LENGTH * reach[parts]
-    return kept[_long_prongs(far, some.areas, tops, saddles, least)]
+    return kept[_long_prongs(far, some.areas, pairs, least)]
 
 
 def _long_prongs(
     far: NDArray[np.float64],
     areas: NDArray[np.float64],
-    tops: NDArray[np.int64],
-    saddles: NDArray[np.int64],
+    pairs: NDArray[np.int32],
     least: NDArray[np.float64],
 ) -> NDArray[np.int64]:
     """Return the tips of prongs that are long where they meet another, ascending."""
-    tips = tops.copy()  # of the prong that each top belongs to by now
     found = set()
-    for one, other, saddle in saddles.tolist():
-        short, long = sorted((tips[one], tips[other]), key=far.__getitem__)
-        length = far[short] - far[saddle]
-        if short == long:
-            continue
+    for short, long, between, prong in meetings(far, pairs):
+        length = far[short] - far[between]
         if length > least[short]:
-            beyond = np.flatnonzero((tips[tops] == short) & (far > far[saddle]))
+            beyond = np.flatnonzero(prong & (far > far[between]))
             is_long = length**2 >= _LONG * areas[beyond].sum()
             if is_long and len(beyond) >= _LEAST_NODES:
-                found |= {int(short), int(long)}
-        tips[tips == short] = long
+                found |= {short, long}
     return np.array(sorted(found), dtype=np.int64)

@@ -51,7 +51,7 @@ def count_pairs(
 
 
 def seen_apart(
-    labels: NDArray[np.int64],
+    n_nodes: int,
     spikes: list[NDArray[np.int64]],
     count: Count,
     alpha: float,
@@ -62,8 +62,8 @@ def seen_apart(
 
     Parameters
     ----------
-    labels : (M,) int
-        All 0.
+    n_nodes : int
+        Number of nodes M.
     spikes : list of (S,) int
         Nodes of each.
     count : callable
@@ -71,6 +71,7 @@ def seen_apart(
     alpha : float
         Weight in psi.
     """
+    labels = np.zeros(n_nodes, dtype=np.int64)
     for number, spike in enumerate(spikes, 1):
         labels[spike] = number
     if not spikes:

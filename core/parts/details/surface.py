@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -27,7 +28,35 @@ def distances(ways: sparse.csr_array, starts: NDArray[np.int64]) -> NDArray[np.f
     return np.where(np.isfinite(far), far, 0.0)
 
 
-def hills(
+def meetings(
+    far: NDArray[np.float64], pairs: NDArray[np.integer[Any]]
+) -> Iterator[tuple[int, int, int, NDArray[np.bool_]]]:
+    """Yield where two hills meet, the highest places first; they are one from then on.
+
+    Parameters
+    ----------
+    far : (P,) float
+        Height of each node.
+    pairs : (E, 2) int
+        Neighbors.
+
+    Yields
+    ------
+    lower, higher, between : int
+        The top of the lower hill, that of the higher one, and the node between them.
+    hill : (P,) bool
+        Nodes of the lower hill.
+    """
+    tops, saddles = _hills(far, pairs)
+    for one, other, between in saddles.tolist():
+        low, high = sorted((int(tops[one]), int(tops[other])), key=far.__getitem__)
+        if low != high:
+            hill = tops == low
+            yield low, high, between, hill
+            tops[hill] = high
+
+
+def _hills(
     far: NDArray[np.float64], pairs: NDArray[np.integer[Any]]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the top that each node climbs to, (P,), and where hills meet, (S, 3).
@@ -117,13 +146,8 @@ class PartSurface:
         most : int
             So many tips are returned at most, the clearest first.
         """
-        tops, saddles = hills(self.far, self.graph.neighbors)
         over = {int(self.far.argmax()): float(self.far.max())}
-        tips = tops.copy()
-        for one, other, saddle in saddles.tolist():
-            short, long = sorted((tips[one], tips[other]), key=self.far.__getitem__)
-            if short != long:
-                over[int(short)] = float(self.far[short] - self.far[saddle])
-                tips[tips == short] = long
+        for tip, _, between, _ in meetings(self.far, self.graph.neighbors):
+            over[tip] = float(self.far[tip] - self.far[between])
         clear = [tip for tip in over if over[tip] >= least]
         return sorted(clear, key=lambda tip: -over[tip])[:most]

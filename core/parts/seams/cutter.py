@@ -183,13 +183,10 @@ class SeamCutter:
         self, parts: NDArray[np.int64], enough: float
     ) -> Steps[NDArray[np.int64]]:
         """Return parts symmetric to the mirror plane, if psi is still high enough."""
-        partitioner = self._partitioner
         if not self._even:
             return parts
-        even = yield from partitioner.symmetric(parts, {count_parts(parts)})
-        best = max(even, key=lambda each: each.psi, default=None)
-        least = max(enough, partitioner.psi(parts) - 2 * partitioner.negligible)
-        return parts if best is None or best.psi < least else best.parts
+        wanted = {count_parts(parts)}
+        return (yield from self._partitioner.evened(parts, wanted, enough))
 
     def _costs_of_nodes(
         self, parts: NDArray[np.int64], n_parts: int

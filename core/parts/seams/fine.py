@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.patches import Patches
 from ...parameters.parts import Parameters
 from ...steps.memo import Memo, digest
@@ -80,9 +81,7 @@ def _cut(
     """
     yield Progress("Seams", 0.0)
     coarse, parts = patches.coarse, seams.parts
-    one, other = parts[coarse.neighbors].T
-    chosen = np.zeros(len(parts), dtype=bool)
-    chosen[coarse.neighbors[one != other]] = True
+    chosen = nodes_at_seams(coarse.neighbors, parts)
     for _ in range(_RINGS):
         beside = chosen[coarse.neighbors].any(axis=1)
         chosen[coarse.neighbors[beside]] = True

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
+from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps, within
+from ..part_psi import count_parts
 from .graph_cut import SWEEPS, cut_seams
 
 # Distance from a part at which a polygon's cost for that part is 1, as a share of the
@@ -53,7 +55,7 @@ def smooth_seams(
         The new labels. No part vanishes: nodes deep inside a part stay in it. The steps
         yield `Progress`; `run` returns the labels.
     """
-    n_parts = int(labels.max()) + 1
+    n_parts = count_parts(labels)
     free = np.isin(np.arange(n_parts), chosen)
     costs = yield from within(_costs(graph, labels, free), 0.0, 0.4)
     cut = cut_seams(graph, labels, costs, smoothness, sweeps)
@@ -78,8 +80,7 @@ def _costs(
         shape=(graph.n_polygons,) * 2,
     ).tocsr()
     costs = np.full((graph.n_polygons, n_parts), _NEVER)
-    ends = labels[graph.neighbors]
-    rim = np.unique(graph.neighbors[ends[:, 0] != ends[:, 1]])
+    rim = np.flatnonzero(nodes_at_seams(graph.neighbors, labels))
     depths = np.full(graph.n_polygons, 4 * unit)
     for part in range(n_parts):
         yield Progress("Seams", part / n_parts)

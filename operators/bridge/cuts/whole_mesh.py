@@ -14,7 +14,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray, read_floats, read_ints, read_labels, write_ints
+from ..mesh.attributes import (
+    FIELDS,
+    IntArray,
+    read_floats,
+    read_ints,
+    read_labels,
+    write_ints,
+)
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
 from ..mesh.known import corner_vertices
@@ -25,21 +32,6 @@ from ..stored.record import beside_parts, record_of, write_record
 from ..stored.restore import read_restore, sharers
 from .beside_faces import has_work_beside_faces
 
-# How Blender names the values of an attribute, and how many numbers each has.
-_VALUES = {
-    "FLOAT": ("value", 1),
-    "INT": ("value", 1),
-    "INT8": ("value", 1),
-    "BOOLEAN": ("value", 1),
-    "FLOAT_VECTOR": ("vector", 3),
-    "FLOAT2": ("vector", 2),
-    "FLOAT_COLOR": ("color", 4),
-    "BYTE_COLOR": ("color", 4),
-    "INT16_2D": ("value", 2),
-    "INT32_2D": ("value", 2),
-    "QUATERNION": ("value", 4),
-    "FLOAT4X4": ("value", 16),
-}
 # Beginnings of the names of attributes that are no edits: ours, and what is selected or
 # hidden.
 _PASSING = ("wcd_", ".select", ".hide", ".uv_select", ".vs.", ".es.", ".pn.")
@@ -199,9 +191,9 @@ def _state_of(obj: bpy.types.Object) -> str:
 
 def _values_of(attribute: bpy.types.Attribute) -> Any:
     """Return the values of an attribute as an array."""
-    if attribute.data_type not in _VALUES:
+    if attribute.data_type not in FIELDS:
         return np.array([str(each.value) for each in attribute.data])
-    field, width = _VALUES[attribute.data_type]
+    field, width = FIELDS[attribute.data_type]
     whole = "INT" in attribute.data_type or attribute.data_type == "BOOLEAN"
     values = np.empty(len(attribute.data) * width, np.int32 if whole else np.float32)
     if attribute.data_type == "BOOLEAN":

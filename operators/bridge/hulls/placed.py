@@ -23,8 +23,8 @@ _SAME = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Solid:
-    """A primitive.
+class Primitive:
+    """A box, sphere, cylinder or capsule in some space.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Solid:
         'BOX', 'SPHERE', 'CYLINDER' or 'CAPSULE'.
     center : (3,) float
     rotation : (3, 3) float
-        Its columns are the axes of the solid; cylinders and capsules lie along the
+        Its columns are the axes of the primitive; cylinders and capsules lie along the
         last one.
     sizes : (3,) float
         Box: half of each side. Others: radius, radius, half of the height; that of a
@@ -61,7 +61,7 @@ def pose_of(shape: CollisionShape, scale: NDArray[np.float64]) -> dict[str, Any]
     }
 
 
-def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Solid | None:
+def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive | None:
     """Return the primitive of a pose, moved by a matrix; None if that distorts it."""
     kind, sizes = pose["kind"], np.array(pose["sizes"], dtype=np.float64)
     axes = matrix[:3, :3] @ np.array(pose["axes"], dtype=np.float64).T
@@ -73,13 +73,15 @@ def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Solid | None:
         return None
     if kind != "BOX" and np.ptp(lengths) > _SAME * lengths.max():
         return None
-    if np.linalg.det(rotation) < 0:  # solids are their own mirror images
+    if np.linalg.det(rotation) < 0:  # primitives are their own mirror images
         rotation[:, 0] *= -1
     center = matrix[:3, :3] @ np.array(pose["center"]) + matrix[:3, 3]
-    return Solid(kind, center, rotation, sizes * lengths)
+    return Primitive(kind, center, rotation, sizes * lengths)
 
 
-def solid_of(hull: bpy.types.Object, matrix: NDArray[np.float64]) -> Solid | None:
+def primitive_of(
+    hull: bpy.types.Object, matrix: NDArray[np.float64]
+) -> Primitive | None:
     """Return the primitive that a hull stands for, moved by a matrix.
 
     Parameters
@@ -87,19 +89,19 @@ def solid_of(hull: bpy.types.Object, matrix: NDArray[np.float64]) -> Solid | Non
     hull : Object
         Its figures have the kind of the shape and its pose.
     matrix : (4, 4) float
-        From the space of the hull's mesh to where the solid is wanted.
+        From the space of the hull's mesh to where the primitive is wanted.
 
     Returns
     -------
-    Solid or None
+    Primitive or None
         None for a convex hull, and for a primitive that the matrix distorts: a scale
         that differs by axis turns spheres into ellipsoids. Its mesh has that shape.
     """
     figures = figures_on(hull)
-    solid = _moved(figures, matrix) if "axes" in figures else None
-    if solid and solid.kind == "CAPSULE" and solid.sizes[2] <= _SAME * solid.sizes[0]:
-        return replace(solid, kind="SPHERE")  # MuJoCo refuses a capsule without length
-    return solid
+    found = _moved(figures, matrix) if "axes" in figures else None
+    if found and found.kind == "CAPSULE" and found.sizes[2] <= _SAME * found.sizes[0]:
+        return replace(found, kind="SPHERE")  # MuJoCo refuses a capsule without length
+    return found
 
 
 def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
@@ -123,12 +125,12 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
     to_scene, scale = np.array(obj.matrix_world, dtype=np.float64), stretch(obj)
     turn = to_scene[:3, :3] / scale  # it keeps angles, and may mirror
     volume = float(shape.volume) * abs(float(np.linalg.det(turn)))
-    solid = _moved(pose_of(shape, scale), to_scene) if shape.kind != "HULL" else None
-    if solid is not None:
+    found = _moved(pose_of(shape, scale), to_scene) if shape.kind != "HULL" else None
+    if found is not None:
         return {
-            "position": solid.center.tolist(),
-            "rotation": quaternion_of(solid.rotation).tolist(),
-            "size": _size(solid),
+            "position": found.center.tolist(),
+            "rotation": quaternion_of(found.rotation).tolist(),
+            "size": _size(found),
             "volume": volume,
         }
     vertices = shape.hull.vertices @ turn.T + to_scene[:3, 3]
@@ -141,12 +143,12 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
     }
 
 
-def _size(solid: Solid) -> dict[str, Any]:
+def _size(primitive: Primitive) -> dict[str, Any]:
     """Return the size of a primitive by name."""
-    radius, length = float(solid.sizes[0]), float(2 * solid.sizes[2])
-    if solid.kind == "BOX":
-        return {"extents": (2 * solid.sizes).tolist()}
-    if solid.kind == "SPHERE":
+    radius, length = float(primitive.sizes[0]), float(2 * primitive.sizes[2])
+    if primitive.kind == "BOX":
+        return {"extents": (2 * primitive.sizes).tolist()}
+    if primitive.kind == "SPHERE":
         return {"radius": radius}
     return {"radius": radius, "length": length}
 

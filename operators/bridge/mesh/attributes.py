@@ -16,6 +16,23 @@ IntArray: TypeAlias = NDArray[np.int32]
 FloatArray: TypeAlias = NDArray[np.float32]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
+# How Blender names the values of an attribute of each type, and how many numbers each
+# has.
+FIELDS = {
+    "FLOAT": ("value", 1),
+    "INT": ("value", 1),
+    "INT8": ("value", 1),
+    "BOOLEAN": ("value", 1),
+    "FLOAT_VECTOR": ("vector", 3),
+    "FLOAT2": ("vector", 2),
+    "FLOAT_COLOR": ("color", 4),
+    "BYTE_COLOR": ("color", 4),
+    "INT16_2D": ("value", 2),
+    "INT32_2D": ("value", 2),
+    "QUATERNION": ("value", 4),
+    "FLOAT4X4": ("value", 16),
+}
+
 
 def read_ints(elements: Any, name: str, width: int = 1) -> IntArray:
     """Return a property of N elements.

@@ -140,14 +140,19 @@ def sums_of_all(obj: bpy.types.Object) -> NDArray[np.float64]:
     return sums
 
 
+def areas_of(obj: bpy.types.Object, n_elements: int) -> NDArray[np.floating]:
+    """Return the area of each face, or point; points have an area of 1 each."""
+    if is_cloud(obj):
+        return np.ones(n_elements, dtype=np.float32)
+    return face_areas(obj.data)
+
+
 def _areas_and_centers(
     obj: bpy.types.Object,
 ) -> tuple[NDArray[np.floating], FloatArray]:
-    """Return the area (P,) and center (P, 3) of each face of a mesh, or point."""
-    if is_cloud(obj):
-        points = vertices_now(obj)
-        return np.ones(len(points)), points
-    return face_areas(obj.data), face_centers(obj.data)
+    """Return the area (P,) and center (P, 3) of each face, or point."""
+    centers = vertices_now(obj) if is_cloud(obj) else face_centers(obj.data)
+    return areas_of(obj, len(centers)), centers
 
 
 def _sums(

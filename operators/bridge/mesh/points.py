@@ -10,17 +10,11 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import FloatArray, read_floats, write_floats
+from .attributes import FIELDS, FloatArray, read_floats, write_floats
 
 # Names that programs and importers give to attributes with normals.
 _NORMALS = ("normal", "Normal", "normals", "Normals", "custom_normal", "N")
 _NORMALS_BY_AXIS = ("nx", "ny", "nz")
-# Where Blender keeps the values of an attribute, and how many numbers each has.
-_FIELDS = {
-    "FLOAT": ("value", 1),
-    "FLOAT_VECTOR": ("vector", 3),
-    "FLOAT_COLOR": ("color", 4),
-}
 
 
 def is_cloud(obj: bpy.types.Object) -> bool:
@@ -73,7 +67,7 @@ def _read(obj: bpy.types.Object, name: str, kind: str) -> FloatArray | None:
     attribute = obj.data.attributes.get(name)
     if attribute is None or (attribute.data_type, attribute.domain) != (kind, "POINT"):
         return None
-    return read_floats(attribute.data, *_FIELDS[kind])
+    return read_floats(attribute.data, *FIELDS[kind])
 
 
 def set_points(
@@ -83,5 +77,5 @@ def set_points(
     attribute = obj.data.attributes.get(name)
     if attribute is None:
         attribute = obj.data.attributes.new(name, kind, "POINT")
-    field, _ = _FIELDS[kind]
+    field, _ = FIELDS[kind]
     write_floats(attribute.data, field, values)

@@ -11,8 +11,7 @@ import numpy as np
 from .... import core
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
-from ..mesh import known
-from ..mesh.by_label import ByLabel
+from ..mesh.by_label import ByLabel, areas_of
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
 from ..stored.restore import sharers
@@ -61,7 +60,7 @@ class BeforeWriting:
         self,
         obj: bpy.types.Object,
         decomposition: Decomposition,
-        faces: NewFaces | None = None,
+        faces: NewFaces | None,
     ) -> tuple[Identity, ...]:
         """Return who the parts of a new run are, by the area shared with those here.
 
@@ -73,7 +72,7 @@ class BeforeWriting:
             gone = self.found.identities
             labels = self.found.labels
             if faces is None:
-                areas = face_areas(obj, len(decomposition.labels))
+                areas = areas_of(obj, len(decomposition.labels))
             else:
                 labels, areas = faces.former_labels(obj, labels), faces.areas
             places = core.match_parts(labels, decomposition.labels, areas)
@@ -105,10 +104,3 @@ def by_number(
         pairs=tuple((int(places[a]), int(places[b])) for a, b in parts.pairs),
     )
     return ordered, ready.in_order(order), [identities[row] for row in order]
-
-
-def face_areas(obj: bpy.types.Object, n_rows: int) -> np.ndarray:
-    """Return the area of each face, ones for points."""
-    if is_cloud(obj):
-        return np.ones(n_rows)
-    return known.face_areas(obj.data)

@@ -24,7 +24,7 @@ from .materials import discard, discard_unused, none_missing
 from .read import find_parts_on, part_materials
 
 
-def separate(obj: bpy.types.Object, stays: bool = True) -> list[bpy.types.Object]:
+def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
     """Make an object of each part, and return them.
 
     Each is a copy of the object from before it was decomposed, with the faces of one

@@ -26,7 +26,7 @@ _SHAPES = (
 )
 
 
-def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
+def shape_of(shape: object, faces: object) -> TriangleMesh | PointCloud:
     """Return the shape that a script passed, as a mesh or a point cloud.
 
     Parameters
@@ -35,7 +35,7 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
         Vertices (V, 3), a TriangleMesh, a PointCloud, a Blender object, or any object
         with attributes `vertices` and `faces` or `triangles`, such as a
         `trimesh.Trimesh`; one that has `vertices` alone is a point cloud.
-    faces : sequence of sequences of int, optional
+    faces : sequence of sequences of int, or None
         Vertex rows of each polygon. Vertices without faces are points.
 
     Returns
@@ -69,7 +69,7 @@ def shape_of(shape: object, faces: object = None) -> TriangleMesh | PointCloud:
     return TriangleMesh(vertices, *_triangles_of(vertices, faces))
 
 
-def mesh_of(shape: object, faces: object = None) -> TriangleMesh:
+def mesh_of(shape: object, faces: object) -> TriangleMesh:
     """Return the mesh that a script passed.
 
     Parameters
@@ -77,7 +77,7 @@ def mesh_of(shape: object, faces: object = None) -> TriangleMesh:
     shape : object
         Vertices (V, 3), a TriangleMesh, a Blender object, or any object with
         attributes `vertices` and `faces`.
-    faces : sequence of sequences of int, optional
+    faces : sequence of sequences of int, or None
         Vertex rows of each polygon.
 
     Returns

@@ -161,14 +161,14 @@ def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
 
 
 def have_equal_shapes(
-    obj: bpy.types.Object, other: bpy.types.Object, of_equal_size: bool = False
+    obj: bpy.types.Object, other: bpy.types.Object, of_equal_size: bool
 ) -> bool:
     """Return whether `read_shape` gives the same for two objects.
 
     Parameters
     ----------
     obj, other : bpy.types.Object
-    of_equal_size : bool, optional
+    of_equal_size : bool
         Whether they must have the same size in the scene, too.
 
     Raises

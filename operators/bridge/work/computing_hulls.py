@@ -73,7 +73,7 @@ def build_hulls_of(
     rest = labels, parameters.seed, unit, kinds
     if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
         job = run(read), hull_parameters, core.ShapeCache(core.no_rays), *rest
-        steps = processes.steps(core.build_hulls_in_steps, *job)
+        steps = processes.steps("Cutting", core.build_hulls_in_steps, *job)
     else:
         steps = _hulls_here(read, parameters, hull_parameters, *rest)
     return with_libraries(notes, _enlarged(steps, size))

@@ -32,7 +32,7 @@ _NEAR = 0.5
 
 
 def gets_new_faces(
-    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None = None
+    obj: bpy.types.Object, parameters: Parameters, seen: SeenMesh | None
 ) -> bool:
     """Return whether a run cuts faces of an object, or makes cut ones whole.
 

@@ -20,7 +20,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
-from ..parts.continuing import face_areas
+from ..mesh.by_label import areas_of
 from ..parts.present_parts import (
     PresentParts,
     faces_by_hand,
@@ -140,7 +140,7 @@ def _decompose_rest(
     before, by_hand = parts.labels, parts.by_hand
     notes, reading = read_seen(obj, seen)
     if seen is None:
-        areas = face_areas(obj, len(before))
+        areas = areas_of(obj, len(before))
     else:
         areas = seen.areas
         before, by_hand = before[seen.origins], by_hand[seen.origins]

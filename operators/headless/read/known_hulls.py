@@ -10,7 +10,7 @@ import bpy
 from ....core.parameters.hull_names import UNREAL_PREFIXES
 from ...bridge.hulls.listed import is_hull
 from ...bridge.stored.names import HULL_TAG
-from ..current_file import first_of
+from ..current_file import some_of
 from ..shear import put_below
 
 # How Unreal knows hulls: UCX_Name_01, of the mesh called Name.
@@ -40,9 +40,7 @@ def hull_note() -> str | None:
     names = sorted(obj.name for obj in bpy.data.objects if is_hull(obj))
     if not names:
         return None
-    return (
-        f"Hulls in the file are no models and were not decomposed: {first_of(names)}."
-    )
+    return f"Hulls in the file are no models and were not decomposed: {some_of(names)}."
 
 
 def _is_named_hull(obj: bpy.types.Object) -> bool:

@@ -44,11 +44,6 @@ class LoadedFile:
         return (self.notes[obj.name_full],) if obj.name_full in self.notes else ()
 
 
-def load(path: Path, up: str | None = None) -> list[bpy.types.Object]:
-    """Load `path` and return its mesh objects, by name; see `load_file`."""
-    return load_file(path, up, with_modifiers=False).objects
-
-
 def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
     """Load `path` into an empty scene; instances become objects, links local.
 

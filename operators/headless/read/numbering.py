@@ -9,7 +9,9 @@ from typing import Any
 
 import bpy
 
-# What Blender appends to a name that is taken.
+# What Blender appends to a name that is taken. Names of USD hold no dots, and fewer
+# digits, as in "Wheel.1", belong to a name. `plain_name` asks something else: which
+# digits Blender would count on from.
 _NUMBER = re.compile(r"\.\d{3,}$")
 _DIGITS = 5  # of coordinates that are compared
 

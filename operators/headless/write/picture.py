@@ -20,15 +20,14 @@ from .render_engine import RenderEngine
 
 # Angles about the vertical axis: three quarters from the front, and from behind.
 _VIEWS = (radians(35.0), radians(215.0))
+# Width and height of each view, in pixels.
+SIZE = 900
 # Gray behind the objects, in sRGB.
 _BACKGROUND = 0.96
 
 
 def save_picture(
-    path: Path,
-    objects: Sequence[bpy.types.Object],
-    engine: RenderEngine,
-    size: int = 900,
+    path: Path, objects: Sequence[bpy.types.Object], engine: RenderEngine
 ) -> None:
     """Write a picture of `objects` from the front and the back, side by side.
 
@@ -42,8 +41,6 @@ def save_picture(
     objects : sequence of Object
         Meshes and point clouds.
     engine : {'BLENDER_WORKBENCH', 'CYCLES'}
-    size : int, optional
-        Width and height of each view, in pixels.
 
     Raises
     ------
@@ -55,17 +52,17 @@ def save_picture(
         replacing(path) as unfinished,
         quiet_blender(),
     ):
-        views = _render(list(filter(has_place, objects)), engine, size)
+        views = _render(list(filter(has_place, objects)), engine)
         _write_png(unfinished, np.concatenate(views, axis=1))
 
 
 def _render(
-    objects: Sequence[bpy.types.Object], engine: RenderEngine, size: int
+    objects: Sequence[bpy.types.Object], engine: RenderEngine
 ) -> list[NDArray[np.float32]]:
     """Return the view of `objects` from each side, (height, width, 4) in sRGB."""
     with picture_scene(objects) as scene, tempfile.TemporaryDirectory() as folder:
         set_up_engine(scene, engine)
-        scene.render.resolution_x = scene.render.resolution_y = size
+        scene.render.resolution_x = scene.render.resolution_y = SIZE
         points = face_points([obj for obj in scene.objects if obj.type == "MESH"])
         view = Path(folder, "view.png")
         scene.render.filepath = str(view)

@@ -14,6 +14,7 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 import weak_convex_decomposition as package
 from convexity_check import heights_above_shape
+from headless.loading import load
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from mathutils.geometry import intersect_ray_tri, normal
@@ -21,7 +22,6 @@ from scipy.spatial import cKDTree
 from weak_convex_decomposition.core.hulls.measure.inside import AXES
 from weak_convex_decomposition.core.hulls.outline import outline_of
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
-from weak_convex_decomposition.operators.headless.read.load import load
 
 SHAPES = ("HULL", "BOX", "SPHERE", "CYLINDER", "CAPSULE")
 ENDINGS = {".obj", ".off", ".ply", ".stl"}

@@ -1,8 +1,8 @@
 """What tests of files share."""
 
 import pytest
+from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.read.load import load
 
 
 @pytest.fixture

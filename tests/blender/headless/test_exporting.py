@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from hand_made import bands, decomposition_of
+from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
@@ -14,7 +15,6 @@ from weak_convex_decomposition.operators.headless.formats import (
     MODEL_ENDINGS,
     READ_ENDINGS,
 )
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write.model_files import save
 
 OFF = """OFF

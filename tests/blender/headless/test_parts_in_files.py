@@ -4,9 +4,9 @@ import json
 
 import bpy
 import pytest
+from headless.loading import load
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.load import load
 
 QUICK = ["--samples=100", "--parts=5", "--quiet"]
 

@@ -4,7 +4,7 @@ import pytest
 from hand_made import bands, decomposition_of, mesh_object
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
-from weak_convex_decomposition.operators.headless.write.picture import save_picture
+from weak_convex_decomposition.operators.headless.write import picture
 from weak_convex_decomposition.operators.headless.write.render_engine import EngineTrial
 
 SIZE = 160
@@ -16,6 +16,11 @@ def workbench():
     """Skip where Workbench would end the process."""
     if EngineTrial().engine() != "BLENDER_WORKBENCH":
         pytest.skip("Workbench cannot render here")
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    monkeypatch.setattr(picture, "SIZE", SIZE)
 
 
 def block(size, location=(0, 0, 0)):
@@ -36,7 +41,7 @@ def block(size, location=(0, 0, 0)):
 
 def render(path, objects, engine="BLENDER_WORKBENCH"):
     """Return the two views, (2, height, width, 3), as numbers in 0…1."""
-    save_picture(path, objects, engine, SIZE)
+    picture.save_picture(path, objects, engine)
     image = bpy.data.images.load(str(path))
     pixels = np.array(image.pixels[:]).reshape(SIZE, 2, SIZE, 4).swapaxes(0, 1)
     bpy.data.images.remove(image)

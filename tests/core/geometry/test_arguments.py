@@ -44,11 +44,9 @@ def test_arguments_of_wrong_types_are_refused(function, arguments, sentence):
         called(function, *arguments)
 
 
-@pytest.mark.parametrize(
-    ("function", "name"), [(decompose_in_steps, "members"), (measure_in_steps, "faces")]
-)
+@pytest.mark.parametrize("function", [decompose_in_steps, measure_in_steps])
 @pytest.mark.parametrize("shape", [MESH, CLOUD])
-def test_members_that_do_not_fit_are_refused(function, name, shape):
+def test_members_that_do_not_fit_are_refused(function, shape):
     size = MESH.n_polygons if shape is MESH else len(CLOUD)
     for members, error in (
         ([True] * size, TypeError),
@@ -57,7 +55,7 @@ def test_members_that_do_not_fit_are_refused(function, name, shape):
         (np.ones((size, 1), dtype=np.bool_), DecompositionError),
         (np.zeros(size, dtype=np.bool_), DecompositionError),
     ):
-        with pytest.raises(error, match=rf"`{name}` must be .*\.$"):
+        with pytest.raises(error, match=r"`members` must be .*\.$"):
             called(function, shape, None, None, members)
     called(function, shape, None, None, np.ones(size, dtype=np.bool_))
 

@@ -55,7 +55,8 @@ def test_what_is_buried_in_another_solid_is_no_surface(name, seed):
     # Fragments beside the other surface stay.
     assert 0.9999 * area < solid.surface.areas.sum() / scale**2 < 1.02 * area
     original = (solid.samples / scale) @ (np.eye(3) if seed is None else rotation)
-    within_cube = ((original > 1e-6) & (original < 4 - 1e-6)).all(axis=1)
+    grain = 0.01 / scale
+    within_cube = ((original > grain) & (original < 4 - grain)).all(axis=1)
     assert not within_cube.any()
     assert len(solid.samples) == pytest.approx(6000 * area / mesh.areas.sum(), rel=0.03)
 
@@ -67,6 +68,43 @@ def test_hulls_of_a_union_ignore_what_is_buried(name):
     assert found.n_hulls <= most
     assert found.errors.max() <= 0.05
     assert found.volume_ratio == pytest.approx(1.0, abs=0.02)
+
+
+def turned_box(side, center, seed):
+    mesh = shapes.box((-side / 2,) * 3, (side / 2,) * 3)
+    return changes.moved(mesh, 1, changes.any_rotation(seed), center)
+
+
+INNER = shapes.box((1, 1, 1), (3, 3, 3))
+HALVES = [shapes.box((0, 0, 0), (2.05, 4, 4)), shapes.box((1.95, 0, 0), (4, 4, 4))]
+BAR = shapes.box((1, 1.5, 1.5), (3, 2.5, 2.5))
+# Solids that make up a cube: what is in it runs into each other, too.
+DEEP = {
+    "small": [CUBE, shapes.box((1.9, 1.9, 1.9), (2.2, 2.2, 2.2))],
+    "crossing": [CUBE, turned_box(1.4, (2, 2, 2), 2), turned_box(1.2, (2.3, 2, 2), 3)],
+    "flush": [CUBE, shapes.box((1, 1, 1), (2, 3, 3)), shapes.box((2, 1, 1), (3, 3, 3))],
+    "twice": [CUBE, INNER, changes.refined(INNER)],
+    "halves": [*HALVES, BAR],
+}
+
+
+@pytest.mark.parametrize("name", DEEP)
+def test_a_cube_of_many_solids_is_one_hull(name):
+    mesh = shapes.joined(*DEEP[name])
+    found = build_hulls(mesh, HullParameters())
+    assert found.n_hulls == 1
+    assert found.errors.max() <= 0.05
+    solid = run(solid_of(changes.moved(mesh, 0.5), 0))
+    assert solid.surface.areas.sum() == pytest.approx(96 / 4, rel=0.03)
+
+
+@pytest.mark.parametrize("low", [0, 1])
+def test_faces_that_lie_on_each_other_are_not_cut_up(low):
+    """A box in the corner of a larger one, and one that leaves it beside that."""
+    box = shapes.box((low, low, 0), (low + 2, low + 2, 1.5))
+    mesh = shapes.joined(shapes.box((0, 0, 0), (2, 2, 2)), box)
+    solid = run(solid_of(changes.moved(mesh, 1 if low == 0 else 2 / 3), 0))
+    assert len(solid.surface.triangles) < 20_000
 
 
 def test_a_cavity_and_what_is_in_it_are_surface():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import shapes
+from weak_convex_decomposition.core.geometry.cutting.halving import edge_lengths
 from weak_convex_decomposition.core.hulls.measure.fragments import (
     distances_to,
-    edge_lengths,
     fragments_of,
 )
 from weak_convex_decomposition.core.hulls.measure.targets import Targets

@@ -186,7 +186,8 @@ def test_parts_that_widen_branch_or_meet_beside_a_third_stay(make):
     assert len(set(merged)) == len(set(parts))
 
 
-def test_more_parts_than_asked_for_are_no_reason_to_cut_a_ring():
+@pytest.mark.parametrize("seed", range(3))
+def test_more_parts_than_asked_for_are_no_reason_to_cut_bends(seed):
     """The best parts are more than two once bends are kept; later ones are two."""
     rods = [
         changes.moved(
@@ -196,7 +197,10 @@ def test_more_parts_than_asked_for_are_no_reason_to_cut_a_ring():
         for c, s in ((np.cos(turn), np.sin(turn)) for turn in (0.2, 0.2 + np.pi))
     ]
     whole = tube(arc(360, 32), closed=True, around=12)
-    parameters = Parameters(samples=600, parts=2, bends="KEEP")
-    found = decompose(shapes.joined(whole, *rods), parameters)
-    assert found.n_parts == 2
-    assert len(np.unique(found.labels[: whole.n_polygons])) == 1
+    mesh = shapes.joined(whole, *rods)
+    kept = Parameters(samples=600, parts=2, bends="KEEP", seed=seed)
+    found, cut = (decompose(mesh, p) for p in (kept, replace(kept, bends="CUT")))
+    assert found.n_parts == cut.n_parts == 2
+    halves = np.bincount(cut.labels[: whole.n_polygons])
+    assert np.ptp(halves) < 0.2 * whole.n_polygons  # they end at bends
+    assert (found.labels != cut.labels).any()

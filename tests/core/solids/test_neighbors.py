@@ -1,6 +1,7 @@
 """Shells of solids that touch, in each way that files hold them."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import changes
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import shapes
 from computed import decompose, prepare, shells_of
 from weak_convex_decomposition import Parameters, TriangleMesh
+from weak_convex_decomposition.core.solids import shells
 
 
 def merged(mesh):
@@ -109,3 +111,34 @@ def test_a_book_of_many_pages_takes_no_pairs():
     pages[::2, :2] = 1, 0
     shells = shells_of(TriangleMesh(vertices, pages.astype(int), np.arange(40)))
     assert len(shells.closed) == 40
+
+
+def with_loose(mesh, count):
+    """Return the mesh with vertices of no triangle before, within and after its own."""
+    loose = 100.0 + np.arange(3.0 * count).reshape(count, 3)
+    middle = len(mesh.vertices) // 2
+    parts = (
+        loose,
+        mesh.vertices[:middle],
+        loose + 1,
+        mesh.vertices[middle:],
+        loose + 2,
+    )
+    rows = mesh.triangles + np.where(mesh.triangles < middle, count, 2 * count)
+    return replace(mesh, vertices=np.concatenate(parts), triangles=rows)
+
+
+def test_loose_vertices_change_nothing(monkeypatch):
+    """Memory that nothing was written to must not count: here it is nonsense."""
+    mesh = shapes.joined(*(brick(2 * x, 0) for x in range(3)))
+    expected = prepare(mesh).targets
+
+    def nonsense(shape, dtype=float):
+        return np.full(shape, -(2**62) if np.issubdtype(dtype, np.integer) else np.nan)
+
+    monkeypatch.setattr(
+        shells, "np", SimpleNamespace(**{**vars(np), "empty": nonsense})
+    )
+    found = prepare(with_loose(mesh, 200)).targets
+    assert (found.triangles == expected.triangles).all()
+    assert (found.vertices == expected.vertices).all()

@@ -48,14 +48,17 @@ def pid_of_first(processes):
 
 def test_the_hulls_are_the_same(processes):
     meshes = [shapes.l_prism(arm) for arm in (2.0, 3.0, 4.0)]
-    steps = [processes.steps(*task(mesh)) for mesh in meshes]
+    steps = [processes.steps("Cutting", *task(mesh)) for mesh in meshes]
     for mesh, found in zip(meshes, [run(each) for each in steps], strict=True):
         assert_same(found, here(mesh))
     assert len(processes._started) == 2
 
 
 def test_equal_calls_get_one_answer(processes):
-    steps = [processes.steps(*task(shapes.l_prism(arm))) for arm in (2.0, 2.0, 3.0)]
+    steps = [
+        processes.steps("Cutting", *task(shapes.l_prism(arm)))
+        for arm in (2.0, 2.0, 3.0)
+    ]
     one, two, other = [run(each) for each in steps]
     assert one is two
     assert one.volume_ratio == here(shapes.l_prism(2.0)).volume_ratio
@@ -65,9 +68,9 @@ def test_equal_calls_get_one_answer(processes):
 def test_errors_come_back(processes):
     cloud = PointCloud(np.random.default_rng(0).random((50, 3)))
     with pytest.raises(DecompositionError, match="A cloud has no faces"):
-        run(processes.steps(*task(cloud)))
+        run(processes.steps("Cutting", *task(cloud)))
     mesh = shapes.l_prism()
-    assert_same(run(processes.steps(*task(mesh))), here(mesh))
+    assert_same(run(processes.steps("Cutting", *task(mesh))), here(mesh))
     assert all(process.poll() is None for process in processes._started)
 
 
@@ -75,12 +78,12 @@ def test_without_processes_this_one_computes(processes, monkeypatch):
     monkeypatch.setattr(sys, "executable", "/no/such/python")
     mesh = shapes.l_prism()
     for _ in range(3):
-        assert_same(run(processes.steps(*task(mesh))), here(mesh))
+        assert_same(run(processes.steps("Cutting", *task(mesh))), here(mesh))
 
 
 def test_a_process_that_dies_is_made_up_for(processes):
     mesh = shapes.l_prism()
-    steps = [processes.steps(*task(mesh)) for _ in range(4)]
+    steps = [processes.steps("Cutting", *task(mesh)) for _ in range(4)]
     os.kill(pid_of_first(processes), 9)
     for each in steps:
         assert_same(run(each), here(mesh))
@@ -88,7 +91,7 @@ def test_a_process_that_dies_is_made_up_for(processes):
 
 def test_closing_ends_processes_at_work(processes):
     for _ in range(8):
-        processes.steps(*task(shapes.comb()))
+        processes.steps("Cutting", *task(shapes.comb()))
     pid = pid_of_first(processes)
     processes.close()
     with pytest.raises(ProcessLookupError):
@@ -100,7 +103,7 @@ def test_modules_of_the_current_folder_are_left_alone(processes, tmp_path, monke
     (tmp_path / "pickle.py").write_text(f"open({str(mark)!r}, 'w')")
     monkeypatch.chdir(tmp_path)
     mesh = shapes.l_prism()
-    assert_same(run(processes.steps(*task(mesh))), here(mesh))
+    assert_same(run(processes.steps("Cutting", *task(mesh))), here(mesh))
     assert not mark.exists()
 
 

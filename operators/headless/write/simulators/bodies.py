@@ -12,7 +12,7 @@ from mathutils import Color
 
 from .....core.parameters.bodies import BodyParameters
 from .....core.solids.mass_properties import MassProperties
-from ....bridge.hulls.placed import Solid, solid_of
+from ....bridge.hulls.placed import Primitive, primitive_of
 from ....bridge.mesh.attributes import read_ints
 from ....bridge.parts.palette import UNPAINTED
 from ..names import hulls_by_owner, legal_names, names_of_hulls
@@ -20,8 +20,8 @@ from ..obj_files import write_obj
 from ..placed_meshes import Float64Array, TriangleArray, matrix_of, placed
 from .masses import mass_notes, mass_of_objects
 
-# Names that simulators use themselves.
-_TAKEN = ("world",)
+# Simulators take a body of this name for the ground, which does not move.
+GROUND = "world"
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +35,8 @@ class Geometry:
         The .obj file of the mesh; none is written for a primitive.
     vertices, triangles : (V, 3) float, (T, 3) int
         The mesh, in the frame of the body.
-    solid : Solid or None
-        The primitive; None for a mesh.
+    primitive : Primitive or None
+        None for a mesh.
     color : (4,) tuple of float or None
         Red, green, blue in sRGB, and opacity; None for collisions.
     """
@@ -45,7 +45,7 @@ class Geometry:
     file: str
     vertices: Float64Array
     triangles: TriangleArray
-    solid: Solid | None = None
+    primitive: Primitive | None = None
     color: tuple[float, ...] | None = None
 
 
@@ -129,15 +129,15 @@ def _titles(
 
 
 def _free_names(names: Sequence[str]) -> list[str]:
-    """Return legal names that simulators do not use themselves."""
-    return legal_names([*_TAKEN, *names], "xml")[len(_TAKEN) :]
+    """Return legal names, none of which is that of the ground."""
+    return legal_names([GROUND, *names], "xml")[1:]
 
 
 def write_meshes(folder: Path, bodies: Sequence[Body]) -> None:
     """Write the meshes of bodies to a folder, each to its file."""
     for body in bodies:
         for geometry in (*body.collisions, *body.visuals):
-            if geometry.solid is None:
+            if geometry.primitive is None:
                 faces = geometry.triangles.tolist()
                 mesh = (geometry.name, geometry.vertices, faces)
                 write_obj(folder / geometry.file, [mesh])
@@ -156,7 +156,7 @@ def _collision(hull: bpy.types.Object, name: str, frame: Float64Array) -> Geomet
     """Return a hull in the frame of its body."""
     matrix = np.linalg.inv(frame) @ matrix_of(hull)
     vertices, triangles, _ = placed(hull, matrix)
-    return Geometry(name, "", vertices, triangles, solid_of(hull, matrix))
+    return Geometry(name, "", vertices, triangles, primitive_of(hull, matrix))
 
 
 def _visuals(obj: bpy.types.Object, name: str, frame: Float64Array) -> list[Geometry]:

@@ -10,7 +10,7 @@ import numpy as np
 from ..... import core
 from .....core.geometry.mesh import TriangleMesh
 from .....core.solids.mass_properties import MassProperties, combined_mass
-from ...current_file import first_of
+from ...current_file import some_of
 from ..placed_meshes import Float64Array, matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.
@@ -67,7 +67,7 @@ def mass_notes(
     if without_solid:
         notes.append(
             f"Mass and inertia are those of the hulls where the surface is not closed:"
-            f" {first_of(without_solid)}."
+            f" {some_of(without_solid)}."
         )
     for name, mass in masses.items():
         if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ....bridge.hulls.placed import Solid, quaternion_of
+from ....bridge.hulls.placed import Primitive, quaternion_of
 from ..placed_meshes import written
 from .bodies import Body, Geometry
 from .urdf import write_xml
@@ -53,7 +53,7 @@ def write_mjcf(path: Path, model: str, bodies: Sequence[Body], folder: str) -> N
             _add_mesh(assets, shape, folder, inertia="shell")
             _add_geom(element, shape, "visual", rgba=written(np.array(shape.color)))
         for shape in body.collisions:
-            if shape.solid is None:
+            if shape.primitive is None:
                 _add_mesh(assets, shape, folder)
             _add_geom(element, shape, "collision")
     write_xml(path, root)
@@ -81,19 +81,19 @@ def _add_mesh(assets: ET.Element, shape: Geometry, folder: str, **more: str) -> 
 def _add_geom(element: ET.Element, shape: Geometry, kind: str, **more: str) -> None:
     """Add a shape to a body."""
     settings = {"name": shape.name, "class": kind, **more}
-    if shape.solid is None:
+    if shape.primitive is None:
         settings |= {"type": "mesh", "mesh": shape.name}
     else:
-        settings |= _settings_of(shape.solid)
+        settings |= _settings_of(shape.primitive)
     ET.SubElement(element, "geom", settings)
 
 
-def _settings_of(solid: Solid) -> dict[str, str]:
+def _settings_of(primitive: Primitive) -> dict[str, str]:
     """Return the attributes of a primitive."""
-    lengths = {"BOX": [0, 1, 2], "SPHERE": [0]}.get(solid.kind, [0, 2])
+    lengths = {"BOX": [0, 1, 2], "SPHERE": [0]}.get(primitive.kind, [0, 2])
     return {
-        "type": solid.kind.lower(),
-        "size": written(solid.sizes[lengths]),
-        "pos": written(solid.center),
-        "quat": written(quaternion_of(solid.rotation)),
+        "type": primitive.kind.lower(),
+        "size": written(primitive.sizes[lengths]),
+        "pos": written(primitive.center),
+        "quat": written(quaternion_of(primitive.rotation)),
     }

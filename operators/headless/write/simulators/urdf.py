@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from ....bridge.hulls.placed import Solid, angles_of
+from ....bridge.hulls.placed import Primitive, angles_of
 from ..placed_meshes import Float64Array, written
-from .bodies import Body, Geometry
-
-# Simulators take a link of this name for the ground, which does not move.
-_GROUND = "world"
+from .bodies import GROUND, Body, Geometry
 
 
 def write_urdf(
@@ -46,14 +44,14 @@ def write_urdf(
         fusestatic="false",
     )
     if each:
-        ET.SubElement(robot, "link", name=_GROUND)
+        ET.SubElement(robot, "link", name=GROUND)
     for body in bodies:
         _add_link(robot, body, folder)
     for body in bodies if each else ():
         joint = ET.SubElement(
             robot, "joint", name=f"{body.name} joint", type="floating"
         )
-        ET.SubElement(joint, "parent", link=_GROUND)
+        ET.SubElement(joint, "parent", link=GROUND)
         ET.SubElement(joint, "child", link=body.name)
         _add_origin(joint, body.frame[:3, 3], body.frame[:3, :3])
     write_xml(path, robot)
@@ -84,40 +82,39 @@ def _add_link(robot: ET.Element, body: Body, folder: str) -> None:
         material = ET.SubElement(visual, "material", name=shape.name)
         ET.SubElement(material, "color", rgba=written(np.array(shape.color)))
     for shape in body.collisions:
-        for number, solid in enumerate(_solids(shape.solid), start=1):
+        for number, each in enumerate(_pieces(shape.primitive), start=1):
             name = shape.name if number == 1 else f"{shape.name} end {number - 1}"
-            _add_solid(ET.SubElement(link, "collision", name=name), solid)
-        if shape.solid is None:
+            _add_primitive(ET.SubElement(link, "collision", name=name), each)
+        if shape.primitive is None:
             collision = ET.SubElement(link, "collision", name=shape.name)
             _add_mesh(collision, shape, folder)
 
 
-def _solids(solid: Solid | None) -> list[Solid]:
-    """Return the solids that a solid is made of: URDF has no capsules.
+def _pieces(primitive: Primitive | None) -> list[Primitive]:
+    """Return the primitives that one is made of: URDF has no capsules.
 
     A cylinder and two balls at its ends are the same shape.
     """
-    if solid is None:
+    if primitive is None:
         return []
-    if solid.kind != "CAPSULE":
-        return [solid]
-    half = solid.rotation[:, 2] * solid.sizes[2]
+    if primitive.kind != "CAPSULE":
+        return [primitive]
+    half = primitive.rotation[:, 2] * primitive.sizes[2]
     ends = [
-        Solid("SPHERE", solid.center + end, solid.rotation, solid.sizes)
+        replace(primitive, kind="SPHERE", center=primitive.center + end)
         for end in (half, -half)
     ]
-    middle = Solid("CYLINDER", solid.center, solid.rotation, solid.sizes)
-    return [middle, *ends]
+    return [replace(primitive, kind="CYLINDER"), *ends]
 
 
-def _add_solid(element: ET.Element, solid: Solid) -> None:
+def _add_primitive(element: ET.Element, primitive: Primitive) -> None:
     """Add the place and size of a primitive."""
-    _add_origin(element, solid.center, solid.rotation)
+    _add_origin(element, primitive.center, primitive.rotation)
     geometry = ET.SubElement(element, "geometry")
-    radius, half = f"{solid.sizes[0]:.9g}", solid.sizes[2]
-    if solid.kind == "BOX":
-        ET.SubElement(geometry, "box", size=written(2 * solid.sizes))
-    elif solid.kind == "SPHERE":
+    radius, half = f"{primitive.sizes[0]:.9g}", primitive.sizes[2]
+    if primitive.kind == "BOX":
+        ET.SubElement(geometry, "box", size=written(2 * primitive.sizes))
+    elif primitive.kind == "SPHERE":
         ET.SubElement(geometry, "sphere", radius=radius)
     else:
         ET.SubElement(geometry, "cylinder", radius=radius, length=f"{2 * half:.9g}")

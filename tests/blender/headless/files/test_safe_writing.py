@@ -18,7 +18,7 @@ from weak_convex_decomposition.operators.headless.formats import (
     HULL_ENDINGS,
     MODEL_ENDINGS,
 )
-from weak_convex_decomposition.operators.headless.write.picture import save_picture
+from weak_convex_decomposition.operators.headless.write import picture
 
 OPTIONS = {"output": MODEL_ENDINGS, "hulls": HULL_ENDINGS, "report": (".json",)}
 # Blender's exporter of .glb leaves a file open that it cannot write.
@@ -51,19 +51,20 @@ def test_a_full_disk_leaves_what_was_there(tmp_path, model, option, ending, capf
     gc.collect()  # while the file that is left open is no error
 
 
-def test_a_full_disk_leaves_the_picture(tmp_path, suzanne):
+def test_a_full_disk_leaves_the_picture(tmp_path, suzanne, monkeypatch):
+    monkeypatch.setattr(picture, "SIZE", 128)
     disk = tmp_path / "disk"
     disk.mkdir()
     path = disk / "a.png"
-    picture = partial(save_picture, path, [suzanne], "CYCLES", size=128)
+    save = partial(picture.save_picture, path, [suzanne], "CYCLES")
     with full_disk(disk) as leave_free:
-        picture()
+        save()
         before = content(disk)
         with (
             leave_free(path.stat().st_size // 2) as cause,
             pytest.raises(DecompositionError, match=cause),
         ):
-            picture()
+            save()
         assert content(disk) == before
 
 

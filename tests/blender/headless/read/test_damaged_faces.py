@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from hand_made import add_ring, decompose_by_hand
+from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.files.headers import read_header
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.read.ply_faces import (
     refers_to_missing,
 )

@@ -4,8 +4,8 @@ import json
 
 import bpy
 import pytest
+from headless.loading import load
 from weak_convex_decomposition.operators.headless.addons import GLTF, enable
-from weak_convex_decomposition.operators.headless.read.load import load
 
 
 @pytest.fixture

@@ -4,9 +4,9 @@ import warnings
 import bpy
 import numpy as np
 import pytest
+from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.formats import READ_ENDINGS
-from weak_convex_decomposition.operators.headless.read.load import load
 
 # A wedge unlike itself in every direction, Z up.
 MESH_ENDINGS = sorted(set(READ_ENDINGS) - {".xyz", ".pwn", ".pts"})

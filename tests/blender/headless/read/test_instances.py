@@ -16,10 +16,11 @@ from headless.instancing import (
     saved,
     scatter,
 )
+from headless.loading import load
 from mathutils import Matrix
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.load import load, load_file
+from weak_convex_decomposition.operators.headless.read.load import load_file
 
 QUICK = ["--samples", "60", "--parts", "1", "--pieces", "parts", "--quiet"]
 

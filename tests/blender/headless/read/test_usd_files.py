@@ -7,7 +7,7 @@ from itertools import pairwise
 import bpy
 import pytest
 from headless.instancing import add, box, boxes, rock
-from weak_convex_decomposition.operators.headless.read.load import load
+from headless.loading import load
 
 MESH = """
 def Mesh "Rock" {

@@ -5,12 +5,12 @@ import clouds
 import numpy as np
 import pytest
 import shapes
+from headless.loading import load
 from weak_convex_decomposition.operators.bridge.mesh.points import (
     normals_of,
     positions_of,
 )
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.load import load
 
 POINTS, NORMALS = clouds.drawn(shapes.dumbbell(), 600)
 FAST = ["--samples", "150", "--parts", "2", "--containers", "HOLLOW"]

@@ -6,9 +6,9 @@ from functools import cache
 import bpy
 import numpy as np
 import pytest
+from headless.loading import load
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.request.options import parse
 
 QUICK = ["--samples=100", "--parts=2", "--max-hulls=3", "--naming=unreal"]

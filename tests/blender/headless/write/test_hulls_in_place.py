@@ -4,10 +4,10 @@ import bpy
 import numpy as np
 import pytest
 from hand_made import build_hulls
+from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write import hull_files
 from weak_convex_decomposition.operators.headless.write.collider_marks import mark_glb
 

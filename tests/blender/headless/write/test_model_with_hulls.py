@@ -10,11 +10,11 @@ import pytest
 import trimesh
 from checkout import ROOT
 from hand_made import add_ring, build_hulls, decompose_by_hand
+from headless.loading import load
 from weak_convex_decomposition.operators.bridge.hulls.listed import is_hull
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.formats import HULLS_WITHIN_ENDINGS
 from weak_convex_decomposition.operators.headless.read.known_hulls import hull_note
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write.model_files import save
 
 # Writes the model with hulls, and the hulls, in every format but .blend.
@@ -27,10 +27,10 @@ root, model, folder = map(Path, sys.argv[1:])
 sys.path.insert(0, str(root / "tests/support"))
 import checkout
 import hand_made
+from headless.loading import load
 import weak_convex_decomposition as package
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.operators.headless import formats
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write.hull_files import save_hulls
 from weak_convex_decomposition.operators.headless.write.model_files import save
 package.register()

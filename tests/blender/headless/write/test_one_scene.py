@@ -6,8 +6,8 @@ import struct
 import bpy
 import numpy as np
 import pytest
+from headless.loading import load
 from weak_convex_decomposition.operators.headless.command_line import main
-from weak_convex_decomposition.operators.headless.read.load import load
 from weak_convex_decomposition.operators.headless.write.one_scene import one_scene
 
 QUICK = ["--samples=60", "--parts=1", "--quiet"]

@@ -2,8 +2,8 @@ import clouds
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.clouds import winding
-from weak_convex_decomposition.core.clouds.winding import outward_directions
+from weak_convex_decomposition.core.clouds import outward as module
+from weak_convex_decomposition.core.clouds.outward import outward_directions
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -38,7 +38,7 @@ def test_blurred_points_tell_sides_through_noise(noise):
 
 
 def test_few_drawn_points_tell_the_others(monkeypatch):
-    monkeypatch.setattr(winding, "_DRAWN", 600)
+    monkeypatch.setattr(module, "_DRAWN", 600)
     assert (outward(shapes.dumbbell(), 3000) > 0).mean() > 0.99
 
 

@@ -13,13 +13,13 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import DecompositionError
-from ..operators.bridge.mesh.by_label import sums_of_all
-from ..operators.bridge.mesh.fingerprint import fits, together
-from ..operators.bridge.parts.figures import PartFigures, figures_of
-from ..operators.bridge.refusals import WORKED_ON
-from ..operators.bridge.stored.names import RESULT
-from ..operators.running.watching import unwatch, watch
+from ...core.errors import DecompositionError
+from ..bridge.mesh.by_label import sums_of_all
+from ..bridge.mesh.fingerprint import fits, together
+from ..bridge.parts.figures import PartFigures, figures_of
+from ..bridge.refusals import WORKED_ON
+from ..bridge.stored.names import RESULT
+from ..running.watching import unwatch, watch
 
 # Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
 # and for how many times as long as counting them took.
