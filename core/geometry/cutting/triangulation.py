@@ -25,8 +25,9 @@ def triangulate(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Cut polygons into triangles that keep their winding.
 
-    A polygon becomes a fan around its first corner where no triangle folds over. If all
-    fans fold, its ears are clipped one by one.
+    A quad is cut between its first and third corner, unless it folds over that line. A
+    larger polygon becomes a fan around its first corner where no triangle folds over.
+    If all fans fold, its ears are clipped one by one.
 
     Parameters
     ----------
@@ -48,17 +49,21 @@ def triangulate(
         rows = np.flatnonzero(sizes == size)
         places = begins[rows, None] + np.arange(size - 2)
         corners = np.stack([faces[row] for row in rows.tolist()])
-        triangles[places] = _triangulate_alike(vertices, corners)
+        cut = {3: _as_they_are, 4: _cut_quads}.get(size, _cut_alike)
+        triangles[places] = cut(vertices, corners)
     return triangles, np.repeat(np.arange(len(sizes)), sizes - 2)
 
 
-def _triangulate_alike(
+def _as_they_are(_: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return triangles (F, 3) as triangles (F, 1, 3)."""
+    return faces[:, None]
+
+
+def _cut_alike(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """Return the triangles (F, N - 2, 3) of polygons (F, N) of one size."""
     size = faces.shape[1]
-    if size == 3:
-        return faces[:, None]
     fan = np.array([(0, i, i + 1) for i in range(1, size - 1)])
     triangles = faces[:, fan]
     planes = _Planes.of(vertices, faces)
@@ -82,6 +87,43 @@ def _triangulate_alike(
     for row in np.flatnonzero(is_open):
         triangles[row] = _cut_ears(vertices[faces[row]], faces[row], planes.only(row))
     return triangles
+
+
+def _cut_quads(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Return the triangles (F, 2, 3) of quads (F, 4)."""
+    triangles = faces[:, [(0, 1, 2), (0, 2, 3)]]
+    folded = are_folded(vertices[faces.T])
+    triangles[folded] = faces[folded][:, [(0, 1, 3), (1, 2, 3)]]
+    return triangles
+
+
+def are_folded(quads: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which quads fold over the line from first to third corner.
+
+    Their two triangles would face away from each other.
+
+    Parameters
+    ----------
+    quads : (4, Q, 3) float
+
+    Returns
+    -------
+    (Q,) bool
+    """
+    two, across, four = (np.ascontiguousarray(each.T) for each in quads[1:] - quads[0])
+    (ax, ay, az), (bx, by, bz) = _cross(two, across), _cross(across, four)
+    folded: NDArray[np.bool_] = ax * bx + ay * by + az * bz < 0
+    return folded
+
+
+def _cross(
+    one: NDArray[np.float64], other: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], ...]:
+    """Return the three columns of the cross products of vectors, both (3, Q)."""
+    (ax, ay, az), (bx, by, bz) = one, other
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
 
 
 class _Planes(NamedTuple):

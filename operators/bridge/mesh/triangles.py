@@ -8,12 +8,13 @@ faces. So it is asked only for faces with more corners.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.geometry.cutting.triangulation import are_folded
 from ....core.steps.progress import Progress, Steps
 from .attributes import FloatArray, IntArray, read_ints
 
@@ -96,7 +97,7 @@ def cut_in_steps(
         cut[:, 0] = np.repeat(firsts, counts)
         quads = np.flatnonzero(counts == 2)
         around = corners[firsts[quads] + np.arange(4)[:, None]]
-        turned = starts[quads[_are_folded(places[around].astype(float))]]
+        turned = starts[quads[are_folded(places[around].astype(float))]]
         cut[turned, 2] += 1
         cut[turned + 1, 0] += 1
         found[done : done + len(cut)] = corners[cut]
@@ -118,20 +119,3 @@ def _blocks_of_faces(
         ends = first + np.cumsum(block + 2)
         yield block, ends - block - 2
         first = ends[-1]
-
-
-def _are_folded(quads: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which quads (4, Q, 3) fold over the line from first to third corner, (Q,).
-
-    Their two triangles would face away from each other.
-    """
-    two, across, four = (np.ascontiguousarray(each.T) for each in quads[1:] - quads[0])
-    (ax, ay, az), (bx, by, bz) = _cross(two, across), _cross(across, four)
-    folded: NDArray[np.bool_] = ax * bx + ay * by + az * bz < 0
-    return folded
-
-
-def _cross(one: NDArray[Any], other: NDArray[Any]) -> tuple[NDArray[Any], ...]:
-    """Return the three columns of the cross products of vectors, both (3, Q)."""
-    (ax, ay, az), (bx, by, bz) = one, other
-    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx

@@ -2,9 +2,11 @@ import bpy
 import numpy as np
 import pytest
 from hand_made import activate, mesh_object
+from mathutils import Vector
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.mesh import known
+from weak_convex_decomposition.operators.bridge.read.arrays import shape_of
 from weak_convex_decomposition.operators.bridge.read.reading_notes import (
     reading_notes,
 )
@@ -222,3 +224,16 @@ def test_bad_meshes_are_refused_with_a_sentence():
         activate(broken)
         with pytest.raises(DecompositionError, match="not finite"):
             read_shape(broken)
+
+
+@pytest.mark.parametrize("bent", [False, True])
+def test_arrays_are_cut_into_the_triangles_of_the_object(suzanne, bent):
+    """Some of her quads are bent so much that it matters between which corners."""
+    mesh, rng = suzanne.data, np.random.default_rng(0)
+    for vertex in mesh.vertices if bent else ():
+        vertex.co += Vector(rng.normal(0, 0.2, 3))
+    places = [tuple(vertex.co) for vertex in mesh.vertices]
+    faces = [tuple(polygon.vertices) for polygon in mesh.polygons]
+    given, read = shape_of(places, faces), read_shape(suzanne)
+    assert given.triangles.tolist() == read.triangles.tolist()
+    assert given.polygons.tolist() == read.polygons.tolist()
