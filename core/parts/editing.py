@@ -12,6 +12,7 @@ from ..errors import DecompositionError
 from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.symmetry import Plane, side_of
 from ..steps.progress import Steps
+from .part_psi import count_parts
 
 # Smallest share of the polygons on one side with a mirror image on the other side, for
 # which parts are mirrored.
@@ -114,7 +115,7 @@ def mirror(
     side, share = yield from side_of(graph, plane, to_negative)
     if share < _SYMMETRIC:
         raise _not_symmetric()
-    n_parts = int(labels.max()) + 1
+    n_parts = count_parts(labels)
     copied = side.copied(labels, graph)
     images = np.unique(copied[copied >= n_parts])
     return Change(

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 from scipy.sparse import coo_array
 
+from .editing import compacted
+
 
 def match_parts(
     before: NDArray[np.integer],
@@ -72,5 +74,4 @@ def settled(
     matched = np.flatnonzero(former >= 0)
     following[former[matched]] = matched
     labels[by_hand] = following[before[by_hand]]
-    _, labels = np.unique(labels, return_inverse=True)
-    return labels.reshape(-1).astype(np.int64)
+    return compacted(labels)[0]

@@ -62,7 +62,7 @@ def _pairs_of(
     side: Side, graph: FaceGraph, parts: NDArray[np.int64]
 ) -> list[tuple[int, int]]:
     """Return the pairs among parts, by the polygons that one side's are matched to."""
-    n_parts, areas = int(parts.max()) + 1, graph.areas
+    n_parts, areas = count_parts(parts), graph.areas
     shared = np.zeros((n_parts, n_parts))
     images, sources = side.images, side.sources
     np.add.at(shared, (parts[sources], parts[images]), areas[images])
