@@ -37,31 +37,37 @@ def notes_on(
     """
     notes, parameters, largest = [], fit.parameters, fit.parameters.max_error
     if parameters.pieces != "PARTS" and errors.max() > largest:
+        worst = int(errors.argmax())
         error, most = _told_apart(float(errors.max()), largest)
         notes.append(
             f"The error is {error}, above Largest Error = {most},"
-            f" {_reason(len(errors), fit)}"
+            f" {_reason(len(errors), fit, shapes[worst], hulls[worst])}"
         )
     if fit.margin < 0:
         pairs = zip(shapes, hulls, strict=True)
-        offset_ones = [hull for shape, hull in pairs if shape.kind == "HULL"]
-        kept = sum(offset(hull, fit.margin) is hull for hull in offset_ones)
+        kept = sum(_kept(shape, hull, fit) for shape, hull in pairs)
         if kept:
+            n_hulls = sum(shape.kind == "HULL" for shape in shapes)
             notes.append(
                 f"Margin = {parameters.margin:g} would make {kept} of"
-                f" {len(offset_ones)} hulls vanish, which keep their size; choose a"
+                f" {n_hulls} hulls vanish, which keep their size; choose a"
                 " value nearer to 0."
             )
     return tuple(notes)
 
 
-def _reason(n_shapes: int, fit: Fit) -> str:
-    """Return why an error is too large, and what to do."""
+def _kept(shape: CollisionShape, hull: Hull, fit: Fit) -> bool:
+    """Return whether a hull keeps its size, because the margin would make it vanish."""
+    return shape.kind == "HULL" and offset(hull, fit.margin) is hull
+
+
+def _reason(n_shapes: int, fit: Fit, worst: CollisionShape, hull: Hull) -> str:
+    """Return why the error of the worst shape is too large, and what to do."""
     parameters = fit.parameters
-    if not fit.has_room:
+    if not fit.has_room and not _kept(worst, hull, fit):
         return (
-            f"because Margin = {parameters.margin:g} alone is that much; choose a"
-            " margin nearer to 0."
+            f"because Margin = {parameters.margin:g} alone uses up Largest Error;"
+            " choose a margin nearer to 0."
         )
     if n_shapes < parameters.max_hulls:
         return (

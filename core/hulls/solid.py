@@ -173,26 +173,25 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     Steps of Solid
     """
     mesh = replace(mesh, vertices=mesh.vertices * scale)
-    samples = sample_surface(mesh, _SAMPLES, np.random.default_rng(seed))
     corners = mesh.vertices[mesh.triangles]
     vertices = np.unique(corners.reshape(-1, 3), axis=0)
     yield Progress("Solid", 0.0)
     measured = _chords_in(corners, vertices)
     chords, volumes, overlap = yield from within(measured, 0.0, 1.0)
     shells = yield from within(shells_of(mesh), 1.0, 1.0)
-    surface, closed = mesh, bool(shells.closed.all())
+    surface, rows, closed = mesh, np.arange(len(corners)), bool(shells.closed.all())
     if closed and overlap < _NO_OVERLAP:
-        steps = unburied(mesh, shells, samples)
-        surface, samples = yield from within(steps, 1.0, 1.0)
+        surface, rows = yield from within(unburied(mesh, shells), 1.0, 1.0)
+    samples = sample_surface(surface, _SAMPLES, np.random.default_rng(seed))
     return Solid(
         mesh,
         surface,
         vertices,
         samples.positions,
-        samples.triangles,
+        rows[samples.triangles],
         chords,
         volumes,
-        float(np.sqrt(mesh.areas.sum() / _SAMPLES)),
+        float(np.sqrt(surface.areas.sum() / _SAMPLES)),
         closed,
         overlap,
     )

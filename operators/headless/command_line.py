@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing, suppress
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -13,6 +14,7 @@ from ...core.errors import DecompositionError
 from ...core.steps.progress import run
 from ..bridge.work.libraries import load_libraries
 from ..bridge.work.session_cache import results_kept
+from .files.goals import Goals
 from .interrupts import Interrupts, interruptible
 from .report import save_report
 from .request.options import Request, parse
@@ -90,13 +92,13 @@ def _run(
     out = sys.stderr if report_is_printed else sys.stdout
     screen = Screen(out, sys.stderr, request.quiet)
     results: list[InputResult] = []
-    attempts, interrupted = Attempts(screen), False
+    attempts, goals, interrupted = Attempts(screen), request.goals(), False
     for note in request.notes:
         screen.warning(note)
     try:
         if not _has_libraries(screen):
             return _NOTHING_DONE
-        for result in _decompose_files(request, screen):
+        for result in _decompose_files(request, screen, goals):
             if result.failed:  # by an interrupt that an operator lost, maybe
                 interrupts.check()
             results.append(result)
@@ -105,12 +107,19 @@ def _run(
         screen.error("Interrupted.")
         interrupted = True
     finally:  # an unforeseen error, too, leaves a report of what was done
-        left = request.inputs[len(results) :]
         attempts.written(
-            request.report, lambda file: save_report(file, results, request, left)
+            request.report, lambda file: _report(file, results, request, goals)
         )
     failed = attempts.errors or any(result.failed for result in results)
     return _INTERRUPTED if interrupted else _FAILED if failed else 0
+
+
+def _report(
+    file: Path, results: Sequence[InputResult], request: Request, goals: Goals
+) -> None:
+    """Write the report, unless an input refers to what is in its place."""
+    goals.check([file])
+    save_report(file, results, request, request.inputs[len(results) :])
 
 
 def _has_libraries(screen: Screen) -> bool:
@@ -123,10 +132,12 @@ def _has_libraries(screen: Screen) -> bool:
     return True
 
 
-def _decompose_files(request: Request, screen: Screen) -> Iterator[InputResult]:
+def _decompose_files(
+    request: Request, screen: Screen, goals: Goals
+) -> Iterator[InputResult]:
     """Decompose all inputs, one after the other; yield what became of each."""
     with closing(EngineTrial()) as trial, results_kept():
         if any(targets.picture for targets in request.targets):
             trial.start()  # it runs while the first input is decomposed
         for path, targets in zip(request.inputs, request.targets, strict=True):
-            yield decompose_file(path, targets, request, trial, screen)
+            yield decompose_file(path, targets, request, trial, screen, goals)

@@ -80,6 +80,7 @@ def _input_entry(result: InputResult) -> dict[str, Any]:
         "picture": str(result.picture) if result.picture else None,
         "hulls": str(result.hulls) if result.hulls else None,
         "errors": list(result.errors),
+        "notes": list(result.notes),
         "seconds": round(result.seconds, 3),
         "stages": _stages_entry(result.stages),
         "objects": [_object_entry(obj) for obj in result.objects],

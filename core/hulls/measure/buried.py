@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from ...geometry.cutting.halving import edge_lengths, halved
 from ...geometry.mesh import TriangleMesh
-from ...geometry.sampling import Samples
 from ...solids.shells import Shells
 from ...solids.volume import volumes_of
 from ...steps.progress import Progress, Steps
@@ -25,8 +24,9 @@ _GRAIN = 0.01
 _FLUSH = 1e-9
 # Most triangles that are compared, counted once for each solid they are compared to.
 _MOST_COMPARED = 100_000_000
-# So many fragments there may be more than triangles: each solid has a share of them.
-_MOST_MORE = 30_000
+# So many fragments are looked at, about; each solid has a share of them. What is not
+# cut far enough then stays.
+_MOST_LOOKS = 200_000
 # Fragments that are looked at in one step.
 _AT_ONCE = 5_000
 
@@ -49,40 +49,39 @@ class _Surface:
     rows: NDArray[np.int64]
     lost: NDArray[np.bool_]
 
-    @property
-    def n_more(self) -> int:
-        """How many more pieces than triangles there are."""
-        return max(len(self.pieces) - len(self.lost), 0)
-
-    def joined(self, mesh: TriangleMesh) -> TriangleMesh:
+    def joined(self, mesh: TriangleMesh) -> tuple[TriangleMesh, NDArray[np.int64]]:
         """Return the whole triangles of the mesh, and the pieces of others."""
-        more = self.pieces[self.lost[self.rows]]
+        cut = self.lost[self.rows]
+        more, whole = self.pieces[cut], np.flatnonzero(~self.lost)
         vertices = np.concatenate([mesh.vertices, more.reshape(-1, 3)])
         triangles = len(mesh.vertices) + np.arange(3 * len(more)).reshape(-1, 3)
-        triangles = np.concatenate([mesh.triangles[~self.lost], triangles])
-        return TriangleMesh(vertices, triangles, np.arange(len(triangles)))
+        triangles = np.concatenate([mesh.triangles[whole], triangles])
+        rows = np.concatenate([whole, self.rows[cut]])
+        return TriangleMesh(vertices, triangles, np.arange(len(rows))), rows
 
     def bury(
         self, solid: _Container, others: NDArray[np.int64], most: int
-    ) -> Steps[None]:
+    ) -> Steps[int]:
         """Leave out what is inside a solid, of some of the pieces.
 
-        They become about so many more at most.
+        Returns how many were looked at: once that are `most`, none is cut any more.
         """
         done, rows = [np.delete(self.pieces, others, axis=0)], self.rows[others]
         of_done, small = [np.delete(self.rows, others)], self.pieces[others]
+        n_looked = 0
         while len(small):
-            n_more = sum(map(len, done[1:])) + len(small) - len(others)
+            n_looked += len(small)
             clear, buried = yield from solid.holds(*reach_of(small))
             self.lost[rows[buried]] = True
             lengths = edge_lengths(small)
-            cut = ~clear & (lengths.max(axis=1) > _GRAIN) & (n_more < most)
+            cut = ~clear & (lengths.max(axis=1) > _GRAIN) & (n_looked < most)
             cut[cut] = ~(yield from solid.has_on_it(small[cut]))
             stays = ~cut & ~buried
             done.append(small[stays])
             of_done.append(rows[stays])
             small, rows = halved(small[cut], lengths[cut]), np.tile(rows[cut], 2)
         self.pieces, self.rows = np.concatenate(done), np.concatenate(of_done)
+        return n_looked
 
 
 class _Container:
@@ -113,9 +112,9 @@ class _Container:
 
 
 def unburied(
-    mesh: TriangleMesh, shells: Shells, samples: Samples
-) -> Steps[tuple[TriangleMesh, Samples]]:
-    """Return the surface of a union of closed solids, and the samples on it.
+    mesh: TriangleMesh, shells: Shells
+) -> Steps[tuple[TriangleMesh, NDArray[np.int64]]]:
+    """Return the surface of a union of closed solids.
 
     What is inside one other solid is buried.
 
@@ -125,36 +124,28 @@ def unburied(
         Oriented, all its shells closed. Its longest side is 2.
     shells : Shells
         Its shells.
-    samples : Samples
-        Samples of `mesh`.
 
     Returns
     -------
     surface : TriangleMesh
         Whole triangles of `mesh` and pieces of others; `mesh` itself if nothing is
         buried, or if it would take long to tell. Pieces next to another surface stay.
-    samples : Samples
-        Those that are not buried, or next to another surface.
+    rows : (N,) int
+        Triangle of `mesh` that each of its triangles is, or is a piece of.
     """
-    corners = mesh.vertices[mesh.triangles]
-    left = _Surface(corners, np.arange(len(corners)), np.zeros(len(corners), bool))
-    buried = np.zeros(len(samples), dtype=bool)
-    of_sample, places = shells.of_triangle[samples.triangles], samples.positions
+    corners, all_rows = mesh.vertices[mesh.triangles], np.arange(len(mesh.triangles))
+    left = _Surface(corners, all_rows, np.zeros(len(corners), bool))
     boxes = np.stack(shells.bounds(mesh), axis=1)
     around = yield from _containers(mesh, shells)
+    n_looks = _MOST_LOOKS
     for turn, (shell, own) in enumerate(around.items()):
         yield Progress("Solid", turn / len(around))
-        solid, box = _Container(corners[own]), boxes[shell]
-        others = _meeting(left.pieces, *box) & (shells.of_triangle[left.rows] != shell)
-        most = (_MOST_MORE - left.n_more) // (len(around) - turn)
-        yield from left.bury(solid, np.flatnonzero(others), most)
-        near = (of_sample != shell) & _meeting(places[:, None], *box) & ~buried
-        some = np.flatnonzero(near)
-        radii = np.full(len(some), _GRAIN)
-        _, buried[some] = yield from solid.holds(places[some], radii)
-    if not left.lost.any():
-        return mesh, samples
-    return left.joined(mesh), samples.at(np.flatnonzero(~buried))
+        others = shells.of_triangle[left.rows] != shell
+        others &= _meeting(left.pieces, *boxes[shell])
+        share = n_looks // (len(around) - turn)
+        steps = left.bury(_Container(corners[own]), np.flatnonzero(others), share)
+        n_looks -= yield from steps
+    return left.joined(mesh) if left.lost.any() else (mesh, all_rows)
 
 
 def _meeting(

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
@@ -17,6 +20,41 @@ _NEIGHBORS = 3
 _FIRST = 12
 # Largest number of pairs of a point and a fragment at once.
 _MOST_PAIRS = 500_000
+# Up to so many triangles are all looked at, rather than the fragments near by.
+_FEW = 48
+# Where fragments are of many sizes, small ones are looked for by themselves: up to
+# these shares of the largest reach.
+_SIZES = (1 / 16, 1 / 4)
+
+
+class _Fragments(NamedTuple):
+    """Fragments of triangles, to find those near a point.
+
+    Attributes
+    ----------
+    tree : cKDTree
+        Of their centers.
+    origins : (F,) int
+        Triangle that each is a piece of.
+    reach : float
+        No point of one is farther from its center.
+    """
+
+    tree: cKDTree
+    origins: NDArray[np.int64]
+    reach: float
+
+    @classmethod
+    def of(
+        cls,
+        centers: NDArray[np.float64],
+        radii: NDArray[np.float64],
+        origins: NDArray[np.int64],
+    ) -> _Fragments:
+        """Return fragments with these centers and reaches."""
+        # Building a balanced tree takes twice as long, and questions are few.
+        tree = cKDTree(centers, balanced_tree=False, compact_nodes=False)
+        return cls(tree, origins, float(radii.max()))
 
 
 class Targets:
@@ -29,11 +67,19 @@ class Targets:
 
     def __init__(self, corners: NDArray[np.float64]) -> None:
         small, origins = fragments_of(corners, _GRAIN)
-        self._corners, self._origins = corners, origins
-        centers, radii = reach_of(small)
-        self._reach = float(radii.max())
-        # Building a balanced tree takes twice as long, and questions are few.
-        self._tree = cKDTree(centers, balanced_tree=False, compact_nodes=False)
+        self._corners, (centers, self._radii) = corners, reach_of(small)
+        self._all = _Fragments.of(centers, self._radii, origins)
+
+    @cached_property
+    def _by_size(self) -> list[_Fragments]:
+        """All fragments, in groups of about one size."""
+        tree, origins, reach = self._all
+        sizes = np.searchsorted(np.multiply(_SIZES, reach), self._radii)
+        groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
+        return [
+            _Fragments.of(tree.data[rows], self._radii[rows], origins[rows])
+            for rows in groups
+        ]
 
     def distances(
         self, patches: NDArray[np.float64], centers: NDArray[np.float64]
@@ -56,12 +102,13 @@ class Targets:
         at_most : (M,) float
             From no place of the patch is the nearest triangle farther away.
         """
-        n_near = min(_NEIGHBORS, len(self._origins))
-        apart, rows = (x.reshape(-1, n_near) for x in self._tree.query(centers, n_near))
+        tree, origins, reach = self._all
+        n_near = min(_NEIGHBORS, len(origins))
+        apart, rows = (x.reshape(-1, n_near) for x in tree.query(centers, n_near))
         places = np.concatenate([patches, centers[:, None]], axis=1)
-        away = _from_each(places, self._corners[self._origins[rows]])
+        away = _from_each(places, self._corners[origins[rows]])
         nearest = away[:, 3].min(axis=1)
-        at_least = np.clip(apart[:, -1] - self._reach, 0.0, nearest)
+        at_least = np.clip(apart[:, -1] - reach, 0.0, nearest)
         # The distance from a triangle is convex: largest at a corner of the patch.
         return at_least, nearest, away.max(axis=1).min(axis=1)
 
@@ -69,34 +116,61 @@ class Targets:
         self, points: NDArray[np.float64], radii: NDArray[np.float64]
     ) -> NDArray[np.bool_]:
         """Return which points (M, 3) have a triangle within radii (M,)."""
-        farthest = float(radii.max(initial=0.0)) + self._reach
-        apart, _ = self._tree.query(points, distance_upper_bound=farthest)
+        farthest = float(radii.max(initial=0.0)) + self._all.reach
+        apart, _ = self._all.tree.query(points, distance_upper_bound=farthest)
         # The center of a fragment is on it, and none of it is farther than its reach.
         within: NDArray[np.bool_] = apart <= radii
-        unsure = np.flatnonzero(~within & (apart - self._reach <= radii))
+        unsure = np.flatnonzero(~within & (apart - self._all.reach <= radii))
         within[unsure] = self.nearest(points[unsure]) <= radii[unsure]
         return within
 
     def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
-        found = np.empty(len(points))
-        left, n_near = np.arange(len(points)), _FIRST
-        while len(left) and n_near < len(self._corners):
-            unsure = [left[:0]]
-            for block in blocks(len(left), _MOST_PAIRS // n_near):
-                some = left[block]
-                apart, rows = self._tree.query(points[some], np.arange(1, n_near + 1))
-                near = self._corners[self._origins[rows]]
-                found[some] = _from_each(points[some, None], near).min(axis=(1, 2))
-                # Fragments whose centers are farther away hold nothing nearer.
-                unsure.append(some[found[some] > apart[:, -1] - self._reach])
-            left, n_near = np.concatenate(unsure), 4 * n_near
-        # By now, there are no more triangles than fragments to look at.
-        for block in blocks(len(left), _MOST_PAIRS // len(self._corners)):
-            some = left[block]
-            every = np.broadcast_to(self._corners, (len(some), *self._corners.shape))
-            found[some] = _from_each(points[some, None], every).min(axis=(1, 2))
+        found = np.full(len(points), np.inf)
+        if len(self._corners) > _FIRST:
+            left = self._look(self._all, points, np.arange(len(points)), _FIRST, found)
+        else:
+            left = np.arange(len(points))
+        if len(self._corners) <= _FEW:
+            for block in blocks(len(left), _MOST_PAIRS // len(self._corners)):
+                places = points[left[block], None]
+                every = np.broadcast_to(
+                    self._corners, (len(places), *self._corners.shape)
+                )
+                found[left[block]] = _from_each(places, every).min(axis=(1, 2))
+            return found
+        for group in self._by_size if len(left) else ():
+            unsure, n_near = left, _FIRST
+            while len(unsure):
+                unsure = self._look(group, points, unsure, n_near, found)
+                n_near *= 4
         return found
+
+    def _look(
+        self,
+        group: _Fragments,
+        points: NDArray[np.float64],
+        rows: NDArray[np.int64],
+        n_near: int,
+        found: NDArray[np.float64],
+    ) -> NDArray[np.int64]:
+        """Look for triangles nearer to some points, among the fragments next to them.
+
+        Distances (M,) are updated in `found`. Returns the rows of points that may be
+        nearer to others.
+        """
+        unsure, n_near = [rows[:0]], min(n_near, len(group.origins))
+        for block in blocks(len(rows), _MOST_PAIRS // n_near):
+            some = rows[block]
+            apart, near = group.tree.query(points[some], np.arange(1, n_near + 1))
+            # Fragments whose centers are farther away hold nothing nearer.
+            point, place = np.nonzero(apart - group.reach < found[some, None])
+            corners = self._corners[group.origins[near[point, place]]]
+            away = np.full(apart.shape, np.inf)
+            away[point, place] = distances_to(points[some][point], corners)
+            found[some] = np.minimum(found[some], away.min(axis=1))
+            unsure.append(some[found[some] > apart[:, -1] - group.reach])
+        return np.concatenate(unsure) if n_near < len(group.origins) else rows[:0]
 
 
 def _from_each(

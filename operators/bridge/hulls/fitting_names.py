@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
+from .listed import hulls_of
 
 
 def names_that_fit(
@@ -15,7 +17,8 @@ def names_that_fit(
 ) -> list[str]:
     """Return the names of an object's hulls; too long ones have less of its name.
 
-    Blender would cut off their ends, where the numbers are.
+    Blender would cut off their ends, where the numbers are. If what is left of the name
+    is that of other hulls, it gets a number.
 
     Parameters
     ----------
@@ -31,14 +34,38 @@ def names_that_fit(
     """
     # Names end with a zero. Blender 4.2 keeps 63 bytes, and 5.2 255.
     longest = bpy.types.Object.bl_rna.properties["name"].length_max - 1
-    name, names = obj.name, hull_names(naming, template, obj.name, kinds)
-    while name and (excess := max(len(each.encode()) for each in names) - longest) > 0:
-        if naming == "UNREAL":
-            raise DecompositionError(
-                f"The names of hulls would have {longest + excess} bytes, of which"
-                f" Blender keeps {longest}; shorten the name of the object by {excess},"
-                " or choose another Naming."
-            )
+    names = hull_names(naming, template, obj.name, kinds)
+    excess = _most_bytes(names) - longest
+    if excess <= 0:
+        return names
+    if naming == "UNREAL":
+        raise DecompositionError(
+            f"The names of hulls would have {longest + excess} bytes, of which"
+            f" Blender keeps {longest}; shorten the name of the object by {excess},"
+            " or choose another Naming."
+        )
+    own = set(hulls_of(obj))
+    taken = {each.name for each in bpy.data.objects if each not in own}
+    fill = partial(hull_names, naming, template, kinds=kinds)
+    for number in range(1, len(bpy.data.objects) + 1):
+        ending = f" {number}" if number > 1 else ""
+        shortened = _shortened(fill, obj.name, ending, longest)
+        if taken.isdisjoint(shortened):
+            return shortened
+    return _shortened(fill, obj.name, "", longest)
+
+
+def _shortened(
+    fill: Callable[[str], list[str]], name: str, ending: str, longest: int
+) -> list[str]:
+    """Return names of hulls with as much of a name as they have room for."""
+    names = fill(name + ending)
+    while name and (excess := _most_bytes(names) - longest) > 0:
         name = name.encode()[:-excess].decode(errors="ignore")
-        names = hull_names(naming, template, name, kinds)
+        names = fill(name + ending)
     return names
+
+
+def _most_bytes(names: Sequence[str]) -> int:
+    """Return the bytes of the longest name."""
+    return max((len(name.encode()) for name in names), default=0)

@@ -86,29 +86,31 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
     """
     read = {path.resolve() for path in inputs}
     same = {_identity(path) for path in inputs} - {None}
-    alike = {_key(path.resolve()): path for path in inputs}
+    alike = {place_key(path.resolve()): path for path in inputs}
     taken: dict[str, Path] = {}
     for output in outputs:
-        place = _place(output)
+        place = place_of(output)
         if place in read or _identity(output) in same:
             raise DecompositionError(
                 f"{output} is an input, too; give the output another name."
             )
-        other = alike.get(_key(place)) or taken.setdefault(_key(place), output)
+        other = alike.get(place_key(place)) or taken.setdefault(
+            place_key(place), output
+        )
         if other is not output:
             raise DecompositionError(_twice(output, other))
     for path in (*outputs, *inputs):
-        for folder in _place(path).parents:
-            if _key(folder) in taken:
+        for folder in place_of(path).parents:
+            if place_key(folder) in taken:
                 raise DecompositionError(
-                    f"{path} is in {taken[_key(folder)]}, which is written as a whole;"
-                    " choose another place for one of them."
+                    f"{path} is in {taken[place_key(folder)]}, which is written as a"
+                    " whole; choose another place for one of them."
                 )
 
 
-def _place(output: Path) -> Path:
-    """Return where an output is in the end; a stream has no other place."""
-    return output.absolute() if is_stream(output) else output.resolve()
+def place_of(path: Path) -> Path:
+    """Return where a file is in the end; a stream has no other place."""
+    return path.absolute() if is_stream(path) else path.resolve()
 
 
 def _identity(path: Path) -> tuple[int, int] | None:
@@ -120,14 +122,14 @@ def _identity(path: Path) -> tuple[int, int] | None:
     return found.st_dev, found.st_ino
 
 
-def _key(place: Path) -> str:
+def place_key(place: Path) -> str:
     """Return what is equal for paths that some disks take for one."""
     return unicodedata.normalize("NFC", str(place)).casefold()
 
 
 def _twice(output: Path, other: Path) -> str:
     """Return the sentence for two outputs in one place."""
-    if _place(output) == _place(other):
+    if place_of(output) == place_of(other):
         return (
             f"{output} would be written twice; give inputs and outputs distinct names."
         )

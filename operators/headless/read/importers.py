@@ -13,6 +13,7 @@ from pathlib import Path
 import bpy
 
 from ...bridge.mesh.points import set_points
+from ...bridge.stored.names import COLOR_LAYER
 from ..addons import FBX, GLTF, enable
 from ..formats import axes
 from .numbering import number_in_order
@@ -78,9 +79,19 @@ def _fbx(path: Path, _up: str) -> set[str]:
     if "fbx_import" in dir(bpy.ops.wm):  # newer Blenders; it reads text FBX, too
         result = set(bpy.ops.wm.fbx_import(filepath=str(path)))
         _count_users()
-        return result
-    enable(FBX)
-    return set(bpy.ops.import_scene.fbx(filepath=str(path)))
+    else:
+        enable(FBX)
+        result = set(bpy.ops.import_scene.fbx(filepath=str(path)))
+    _forget_colors()
+    return result
+
+
+def _forget_colors() -> None:
+    """Remove colors of parts, which .fbx files of ours may have without the parts."""
+    for mesh in bpy.data.meshes:
+        colors = mesh.attributes.get(COLOR_LAYER)
+        if colors:
+            mesh.attributes.remove(colors)
 
 
 def _count_users() -> None:

@@ -74,7 +74,8 @@ def realize_instances(with_modifiers: bool) -> dict[str, str]:
             ]
             instancers |= _own_of({each.instancer for each in new}, depsgraph, made)
             found += new
-    add_objects(found)
+    # Nothing shows of those with a scale of zero.
+    add_objects([each for each in found if each.matrix.determinant()])
     notes = {}
     for instancer, own in instancers.items():
         if own.mesh:
@@ -144,8 +145,6 @@ def _instances(
         source = obj.original
         if not each.is_instance or obj.type == "EMPTY" or is_hull(source):
             continue
-        if not each.matrix_world.determinant():
-            continue  # a scale of zero: nothing of it shows
         is_copy = obj.data in (None, source.evaluated_get(depsgraph).data)
         mesh = None
         applied = _kinds(source) if with_modifiers else _kinds(source) & _INSTANCING

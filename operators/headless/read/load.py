@@ -19,6 +19,8 @@ from .finite_checks import check_finite
 from .importers import IMPORTERS
 from .instances import check_libraries, make_all_local, realize_instances
 from .known_hulls import adopt_hulls, hull_note
+from .left_out import convertible_note
+from .referred import referred_files
 
 
 @dataclass(frozen=True)
@@ -31,13 +33,16 @@ class LoadedFile:
         Its meshes and point clouds, by name.
     notes : dict of str
         What was done to an object so that it could be read, by its name.
-    hull_note : str or None
-        What is said of hulls that the file has beside its models.
+    about : tuple of str
+        What is said of the file as a whole: which objects in it are no models.
+    refers_to : tuple of Path
+        The files that it refers to, such as libraries and materials.
     """
 
     objects: list[bpy.types.Object]
     notes: dict[str, str]
-    hull_note: str | None = None
+    about: tuple[str, ...] = ()
+    refers_to: tuple[Path, ...] = ()
 
     def notes_of(self, obj: bpy.types.Object) -> tuple[str, ...]:
         """Return what was done to an object so that it could be read, if anything."""
@@ -75,20 +80,25 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
     if result != {"FINISHED"}:
         raise _unreadable(path, "the importer gave up")
     check_libraries(path)
+    with explaining(path, "read"):
+        refers_to = referred_files(path)
     with quiet_blender():
         adopt_hulls()
         make_all_local()
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())
-    return LoadedFile(_objects_with_shape(path), notes, hull_note())
+    about = tuple(note for note in (hull_note(), convertible_note()) if note)
+    return LoadedFile(_objects_with_shape(path), notes, about, refers_to)
 
 
 def _objects_with_shape(path: Path) -> list[bpy.types.Object]:
     """Return the objects of the file, or raise if none has faces or points."""
     objects = mesh_objects()
     if not objects:
-        raise DecompositionError(f"{path.name} has no meshes or point clouds.")
+        others = convertible_note()
+        more = f" {others}" if others else ""
+        raise DecompositionError(f"{path.name} has no meshes or point clouds.{more}")
     if not any(map(has_shape, objects)):
         has_edges = any(getattr(obj.data, "edges", None) for obj in objects)
         raise DecompositionError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass, fields
+from itertools import chain
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -15,12 +16,13 @@ from ....core.parameters.parts import Parameters
 from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ....core.steps.processes import available
 from ...bridge.stored.notes import version
+from ..files.goals import Goals
 from .asked_hulls import hull_file, useless_options
 from .file_options import add_files
 from .help_text import DESCRIPTION, EPILOG
 from .input_list import all_inputs
 from .option_names import SETTINGS, with_options
-from .outputs import Targets, targets_for
+from .outputs import STANDARD_STREAM, Targets, targets_for
 from .parameter_options import (
     HelpFormatter,
     add_option,
@@ -80,6 +82,13 @@ class Request:
     hull_parameters: HullParameters
     body_parameters: BodyParameters
     notes: tuple[str, ...]
+
+    def goals(self) -> Goals:
+        """Return where this run writes to."""
+        places = [*chain.from_iterable(each.places() for each in self.targets)]
+        if self.report and self.report != STANDARD_STREAM:
+            places.append(self.report)
+        return Goals(places)
 
 
 def parse(arguments: list[str], program: str) -> Request:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,6 +35,15 @@ class Targets:
     def show_parts(self) -> bool:
         """Whether parts are what is asked for: not if hulls alone are."""
         return bool(self.output or self.picture or not self.hulls)
+
+    def places(self) -> Iterator[Path]:
+        """Yield the files, and what is written beside them."""
+        for file in (self.output, self.picture, self.hulls):
+            if file:
+                yield file
+                companion = companion_of(file, is_model=file == self.output)
+                if companion:
+                    yield companion
 
 
 def targets_for(

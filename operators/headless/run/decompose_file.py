@@ -10,6 +10,7 @@ from pathlib import Path
 import bpy
 
 from ..current_file import has_shape
+from ..files.goals import Goals
 from ..formats import USUAL_UP
 from ..read.load import LoadedFile, load_file
 from ..request.options import Request
@@ -22,13 +23,15 @@ from ..write.picture import save_picture
 from ..write.render_engine import EngineTrial
 from .attempts import Attempts
 from .build_hulls import build_hulls
-from .decompose_objects import decompose_objects
+from .decompose_objects import decompose_objects, show
 from .results import InputResult, ObjectResult
 
 _NO_HULLS = (
     "{} was not written, because no object got hulls; leave out --with-hulls for the"
     " model alone."
 )
+
+_NO_FACES = "It has no faces and gets no hulls."
 
 
 def decompose_file(
@@ -37,19 +40,18 @@ def decompose_file(
     request: Request,
     trial: EngineTrial,
     screen: Screen,
+    goals: Goals,
 ) -> InputResult:
     """Decompose the input `path` and write its targets.
 
     What fails is shown and noted; the rest is still done. The engine trial says which
-    engine renders the picture.
+    engine renders the picture, and goals refuse to replace what inputs refer to.
     """
     started = time.perf_counter()
     attempts, stages = Attempts(screen), Stages()
     screen.stages = stages
     with stages.during("read"):
-        loaded = attempts.value(
-            lambda: load_file(path, request.up, request.apply_modifiers)
-        ) or LoadedFile([], {})
+        loaded = _load(path, targets, request, goals, attempts)
     objects = loaded.objects
     results = _parts_of(loaded, path, targets, request, screen)
     hull_objects: list[bpy.types.Object] = []
@@ -78,33 +80,51 @@ def decompose_file(
             lambda file: _write_hulls(file, hull_objects, up, request, screen),
         )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
+    notes, used = loaded.about, stages.stages
     return InputResult(
-        path, results, errors, output, picture, hulls, seconds, stages.stages
+        path, results, notes, errors, output, picture, hulls, seconds, used
     )
+
+
+def _load(
+    path: Path, targets: Targets, request: Request, goals: Goals, attempts: Attempts
+) -> LoadedFile:
+    """Load an input, unless its targets would replace what an input refers to."""
+
+    def load() -> LoadedFile:
+        goals.check(targets.places())
+        loaded = load_file(path, request.up, request.apply_modifiers)
+        goals.keep(loaded.refers_to, path)
+        return loaded
+
+    return attempts.value(load) or LoadedFile([], {})
 
 
 def _parts_of(
     loaded: LoadedFile, path: Path, targets: Targets, request: Request, screen: Screen
 ) -> tuple[ObjectResult, ...]:
     """Return the result of each object; without parts if only hulls are asked for."""
-    if loaded.hull_note:
-        screen.warning(loaded.hull_note, path.name)
+    for note in loaded.about:
+        screen.warning(note, path.name)
     hulls_alone = not targets.show_parts
     if hulls_alone and request.hull_parameters.pieces != "PARTS":
-        return _without_parts(loaded)
+        return _without_parts(path.name, loaded, screen)
     return decompose_objects(path.name, loaded, request.parameters, screen, hulls_alone)
 
 
-def _without_parts(loaded: LoadedFile) -> tuple[ObjectResult, ...]:
+def _without_parts(
+    file_name: str, loaded: LoadedFile, screen: Screen
+) -> tuple[ObjectResult, ...]:
     """Return a result for each object, without parts; say which have no faces."""
     results = []
     for obj in loaded.objects:
-        notes = loaded.notes_of(obj)
-        if has_shape(obj):
-            results.append(ObjectResult(obj.name_full, record={}, notes=notes))
-        else:
-            notes = (*notes, "It has no faces and gets no hulls.")
-            results.append(ObjectResult(obj.name_full, notes=notes))
+        has_faces = has_shape(obj)
+        notes = (*loaded.notes_of(obj), *(() if has_faces else (_NO_FACES,)))
+        result = ObjectResult(
+            obj.name_full, record={} if has_faces else None, notes=notes
+        )
+        show(file_name, result, screen)
+        results.append(result)
     return tuple(results)
 
 

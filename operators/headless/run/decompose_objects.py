@@ -71,7 +71,7 @@ def decompose_objects(
         except DecompositionError as error:
             result = ObjectResult(obj.name_full, error=str(error))
         result = replace(result, notes=(*loaded.notes_of(obj), *result.notes))
-        _show(file_name, result, screen)
+        show(file_name, result, screen)
         results.append(result)
     return tuple(results)
 
@@ -121,7 +121,7 @@ def _decompose(
     )
 
 
-def _show(file_name: str, result: ObjectResult, screen: Screen) -> None:
+def show(file_name: str, result: ObjectResult, screen: Screen) -> None:
     """Show the result of one object."""
     title = f"{file_name}, {result.name}"
     for note in result.notes:

@@ -50,6 +50,8 @@ class InputResult:
         The input.
     objects : tuple of ObjectResult
         Empty if the input could not be read.
+    notes : tuple of str
+        Warnings about the file as a whole.
     errors : tuple of str
         Why the input could not be read, or a result could not be written.
     output, picture, hulls : Path or None
@@ -62,6 +64,7 @@ class InputResult:
 
     path: Path
     objects: tuple[ObjectResult, ...]
+    notes: tuple[str, ...]
     errors: tuple[str, ...]
     output: Path | None
     picture: Path | None

@@ -20,6 +20,7 @@ from .obj_files import write_hulls_obj
 from .one_scene import one_scene
 from .simulators.bodies import bodies_of, names_of_collisions, write_meshes
 from .simulators.mjcf import write_mjcf
+from .simulators.small_hulls import small_hull_notes
 from .simulators.urdf import write_urdf
 from .usd_files import write_usd
 
@@ -104,7 +105,7 @@ def _save_bodies(
         write_urdf(path, path.stem, bodies, folder.name, each)
     else:
         write_mjcf(path, path.stem, bodies, folder.name)
-    return notes
+    return (*notes, *small_hull_notes(bodies, urdf))
 
 
 def _glb(path: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bpy
 
+from ...bridge.refusals import CONVERTIBLE
 from ..addons import GLTF, enable
 from ..files.claims import check_companion, companion_of
 from ..files.replacing import explaining, replacing
@@ -22,6 +23,9 @@ from .obj_files import restore_digits
 from .one_scene import one_scene, written_meshes
 from .painted_copies import clouds_without_parts, painted_clouds, ply_copies
 from .usd_files import write_usd
+
+# Blender 4.2 crashes if it writes curves to .obj without modifiers.
+_CRASHES_ON_CURVES = bpy.app.version < (5, 0, 0)
 
 
 def save(
@@ -138,6 +142,8 @@ def _usd(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
 def _obj(path: Path, up: str) -> None:
     """Export .obj."""
     with one_scene():
+        if _CRASHES_ON_CURVES:
+            _leave_out_curves()
         # Parts belong to the faces without modifiers.
         bpy.ops.wm.obj_export(
             filepath=str(path),
@@ -149,6 +155,13 @@ def _obj(path: Path, up: str) -> None:
         meshes = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
         check_obj(path, sum(len(obj.data.polygons) for obj in meshes))
         restore_digits(path, up)
+
+
+def _leave_out_curves() -> None:
+    """Leave curves, texts and their like out of the scene of exporters."""
+    objects = bpy.context.scene.collection.objects
+    for obj in [each for each in objects if each.type in CONVERTIBLE]:
+        objects.unlink(obj)
 
 
 def _ply(path: Path, up: str) -> None:

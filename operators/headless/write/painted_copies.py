@@ -103,6 +103,7 @@ def clouds_without_parts(ending: str) -> tuple[str, ...]:
         " .usd or .blend for them."
         for obj in written_meshes()
         if is_cloud(obj)
+        and count_points(obj)
         and (ending in _NO_POINTS or (ending == ".glb" and obj.type == "POINTCLOUD"))
     )
 

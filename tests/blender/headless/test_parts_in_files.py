@@ -52,3 +52,14 @@ def test_a_file_that_lacks_its_hulls_is_named(tmp_path, capfd):
     assert run(cloud, "--output", output, "--with-hulls") == 1
     assert "out.glb was not written" in capfd.readouterr().err
     assert not output.exists()
+
+
+def test_fbx_of_ours_with_colors_of_parts_is_read_again(tmp_path, capfd):
+    bpy.ops.mesh.primitive_monkey_add()
+    bpy.ops.wcd.decompose(samples=100, parts=3)
+    bpy.ops.wcd.color_attribute()
+    first, second = tmp_path / "a.blend", tmp_path / "b.fbx"
+    bpy.ops.wm.save_as_mainfile(filepath=str(first), copy=True)
+    assert run(first, "--output", second) == 0
+    assert run(second, "--output", tmp_path / "c.glb") == 0
+    assert "error" not in capfd.readouterr().err

@@ -204,7 +204,8 @@ def test_an_error_is_told_from_the_largest_however_near_it_is(error):
     most = min(error - 1e-8, 0.1234347)
     parameters = HullParameters(max_error=most, max_hulls=1)
     fit, _ = fit_for(shapes.box(), parameters, 1.0)
-    (note,) = notes_on([], [], np.array([error]), fit)
+    (shape,) = hulls_of(shapes.box()).shapes
+    (note,) = notes_on([shape], [shape.hull], np.array([error]), fit)
     numbers = [float(text) for text in re.findall(r"0\.\d+", note)]
     assert numbers == pytest.approx([error, most], rel=1e-3)
     assert numbers[0] > numbers[1]

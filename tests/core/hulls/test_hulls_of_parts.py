@@ -63,13 +63,18 @@ def test_hulls_that_a_margin_would_make_vanish_are_told():
     assert notes[0.0] == ()
     (above,) = notes[-0.4]
     assert above.endswith(
-        "Largest Error = 0.05, because Margin = -0.4 alone is that much; choose a"
-        " margin nearer to 0."
+        "Largest Error = 0.05, because Margin = -0.4 alone uses up Largest Error;"
+        " choose a margin nearer to 0."
     )
+    (above, _) = notes[-0.6]
+    assert "uses up" in above
     assert notes[-0.6][1:] == (
         "Margin = -0.6 would make 1 of 2 hulls vanish, which keep their size; choose a"
         " value nearer to 0.",
     )
+    (above, _) = hulls_of(mesh, margin=-10, max_hulls=1).notes
+    assert "Margin" not in above
+    assert "as many cuts as Most Hulls = 1 allows" in above
     boxes = hulls_of(mesh, margin=-0.6, shape="BOX")
     assert not any("vanish" in note for note in boxes.notes)
 

@@ -11,6 +11,7 @@ import numpy as np
 from ....bridge.hulls.placed import Primitive, quaternion_of
 from ..placed_meshes import written
 from .bodies import Body, Geometry
+from .small_hulls import is_shell
 from .urdf import write_xml
 
 # The groups that MuJoCo's viewer shows and hides: 2 is shown at first, 3 is not.
@@ -54,7 +55,8 @@ def write_mjcf(path: Path, model: str, bodies: Sequence[Body], folder: str) -> N
             _add_geom(element, shape, "visual", rgba=written(np.array(shape.color)))
         for shape in body.collisions:
             if shape.primitive is None:
-                _add_mesh(assets, shape, folder)
+                small = {"inertia": "shell"} if is_shell(shape) else {}
+                _add_mesh(assets, shape, folder, **small)
             _add_geom(element, shape, "collision")
     write_xml(path, root)
 

@@ -65,3 +65,10 @@ def test_glb_has_points_colors_and_part_numbers(tmp_path, recolored, checked_glb
 def test_formats_without_parts_of_points_say_so(tmp_path, recolored, ending):
     (note,) = save(tmp_path / f"a{ending}", None)
     assert note.startswith(f"points is a point cloud: {ending} does not hold its parts")
+
+
+@pytest.mark.parametrize("ending", [".obj", ".fbx"])
+def test_a_mesh_without_points_is_no_cloud(tmp_path, ending):
+    mesh_object("empty", [], [])
+    bpy.ops.mesh.primitive_cube_add()
+    assert save(tmp_path / f"a{ending}", None) == ()

@@ -1,0 +1,86 @@
+"""What is left out is said: curves, objects without faces, instances of no size."""
+
+import json
+
+import bpy
+import pytest
+from headless.instancing import add, collection_with_rock, instance_of, mesh_of, saved
+from headless.loading import load
+from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.read.load import load_file
+
+QUICK = ["--samples=60", "--parts=1", "--max-hulls=1", "--quiet"]
+
+
+def add_curve(name, **settings):
+    """Add a circle with settings of its curve."""
+    bpy.ops.curve.primitive_bezier_circle_add()
+    obj = bpy.context.active_object
+    obj.name = name
+    for setting, value in settings.items():
+        setattr(obj.data, setting, value)
+    return obj
+
+
+def test_curves_and_texts_that_are_seen_are_counted(tmp_path, capfd):
+    bpy.ops.mesh.primitive_cube_add()
+    path = add_curve("Path")  # without faces
+    path.data.extrude = 0.0
+    section = add_curve("Section", dimensions="2D", fill_mode="BOTH")
+    add_curve("Hose", bevel_mode="OBJECT", bevel_object=section)
+    bpy.ops.object.text_add()
+    bpy.context.active_object.hide_viewport = True
+    bpy.ops.object.metaball_add()
+    model, report = saved(tmp_path / "a.blend"), tmp_path / "r.json"
+    capfd.readouterr()
+    words = [model, "--output", tmp_path / "o.obj", "--report", report, *QUICK]
+    assert main([str(word) for word in words]) == 0
+    note = (
+        "3 curves, texts or metaballs get neither parts nor hulls; convert them to"
+        " meshes first (Object > Convert > Mesh)."
+    )
+    assert capfd.readouterr().err.endswith(f"\nwarning: a.blend: {note}\n")
+    assert json.loads(report.read_text())["inputs"][0]["notes"] == [note]
+
+
+def test_a_file_of_nothing_else_says_what_to_do(tmp_path):
+    add_curve("Ring", extrude=1.0)
+    with pytest.raises(DecompositionError, match=r"clouds\. A curve, text"):
+        load(saved(tmp_path / "a.blend"))
+    bpy.data.objects["Ring"].data.extrude = 0.0
+    with pytest.raises(DecompositionError, match=r"clouds\.$"):
+        load(saved(tmp_path / "a.blend"))
+
+
+def test_files_of_meshes_have_no_note(tmp_path):
+    bpy.ops.mesh.primitive_cube_add()
+    assert load_file(saved(tmp_path / "a.blend"), None, False).about == ()
+
+
+@pytest.mark.parametrize("goal", [["--hulls", "h.glb"], ["--output", "o.blend"]])
+def test_objects_without_faces_are_named(tmp_path, capfd, goal):
+    bpy.ops.mesh.primitive_cube_add()
+    add("Wire", mesh_of([(0, 0, 0), (1, 0, 0)], [], "Wire"))
+    bpy.data.meshes["Wire"].edges.add(1)
+    bpy.data.meshes["Wire"].edges[0].vertices = (0, 1)
+    model = saved(tmp_path / "a.blend")
+    capfd.readouterr()
+    assert main([str(model), goal[0], str(tmp_path / goal[1]), *QUICK]) == 0
+    assert "warning: a.blend, Wire: It has no faces and" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "usd", "fbx", "ply", "blend"])
+def test_instances_of_no_size_are_not_written(tmp_path, ending):
+    rocks = collection_with_rock()
+    instance_of(rocks, "Spot")
+    instance_of(rocks, "Flat", (0, 9, 0)).scale.x = 0.0
+    output = tmp_path / f"o.{ending}"
+    model = saved(tmp_path / "a.blend")
+    assert main([str(model), "--output", str(output), *QUICK]) == 0
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    (rock,) = load(output)
+    assert len(rock.data.polygons) == 4
+    if ending == "blend":
+        bpy.ops.wm.open_mainfile(filepath=str(output))
+        assert not any(obj.instance_collection for obj in bpy.data.objects)
