@@ -71,7 +71,10 @@ class _Surface:
         n_looked = 0
         while len(small):
             n_looked += len(small)
-            clear, buried = yield from solid.holds(*reach_of(small))
+            centers, radii = reach_of(small)
+            clear = yield from solid.is_clear_of(centers, radii)
+            buried = clear.copy()
+            buried[clear] = yield from solid.holds(centers[clear])
             self.lost[rows[buried]] = True
             lengths = edge_lengths(small)
             cut = ~clear & (lengths.max(axis=1) > _GRAIN) & (n_looked < most)
@@ -90,23 +93,29 @@ class _Container:
     def __init__(self, corners: NDArray[np.float64]) -> None:
         self._inside, self._targets = InsideTest(corners, 1), Targets(corners)
 
-    def holds(
+    def is_clear_of(
         self, centers: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> Steps[tuple[NDArray[np.bool_], NDArray[np.bool_]]]:
-        """Return which balls (M,) its surface does not meet, and which are inside."""
-        clear, inside = np.zeros((2, len(centers)), dtype=bool)
+    ) -> Steps[NDArray[np.bool_]]:
+        """Return which balls (M,) its surface does not meet."""
+        clear = np.zeros(len(centers), dtype=bool)
         for some in blocks(len(centers), _AT_ONCE):
             yield Progress("Solid", 0.0)
             clear[some] = ~self._targets.are_within(centers[some], radii[some])
-            rows = some.start + np.flatnonzero(clear[some])
-            inside[rows] = self._inside.holds(centers[rows])
-        return clear, inside
+        return clear
+
+    def holds(self, points: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
+        """Return which points (M,) are inside."""
+        inside = np.zeros(len(points), dtype=bool)
+        for some in blocks(len(points), _AT_ONCE):
+            yield Progress("Solid", 0.0)
+            inside[some] = self._inside.holds(points[some])
+        return inside
 
     def has_on_it(self, pieces: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
         """Return which pieces (M,) have their corners and centers on its surface."""
         places = np.concatenate([pieces, pieces.mean(axis=1, keepdims=True)], axis=1)
         points = places.reshape(-1, 3)
-        clear, _ = yield from self.holds(points, np.full(len(points), _FLUSH))
+        clear = yield from self.is_clear_of(points, np.full(len(points), _FLUSH))
         on_it: NDArray[np.bool_] = np.all(~clear.reshape(-1, 4), axis=1)
         return on_it
 
