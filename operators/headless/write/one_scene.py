@@ -39,8 +39,9 @@ def one_scene() -> Iterator[None]:
         scene.name = _FORMER
         copy.name = name  # files may have it
         window.scene = copy
-        for obj in objects:
-            obj.hide_set(False)  # the copy also knows what is hidden by its eye
+        # The copy also knows what is hidden by its eye. To set it takes milliseconds.
+        for obj in [obj for obj in objects if obj.hide_get()]:
+            obj.hide_set(False)
         bpy.context.view_layer.update()
         yield
     finally:
