@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import bpy
 
-from .bridge.homes import is_in
+from .bridge.homes import objects_in
 from .bridge.parts.present_parts import present_parts
 from .bridge.parts.separating import separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
@@ -48,7 +48,8 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
             obj.hide_render = True
         layer = context.view_layer
         layer.update()
-        there = [piece for piece in pieces if is_in(layer, piece)]
+        shown = objects_in(layer)
+        there = [piece for piece in pieces if piece in shown]
         for piece in there:
             piece.select_set(True)
         if there and (was_active or layer.objects.active is None):  # or a hull was

@@ -21,12 +21,12 @@ def homes_of(obj: bpy.types.Object) -> list[bpy.types.Collection]:
     return [each for each in obj.users_collection if each not in simulated]
 
 
-def is_in(layer: bpy.types.ViewLayer, obj: bpy.types.Object) -> bool:
-    """Return whether a view layer has an object.
+def objects_in(layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
+    """Return the objects that a view layer has.
 
     Names do not tell: a linked object may have the same.
     """
-    return any(each == obj for each in layer.objects)
+    return set(layer.objects)
 
 
 def new_collection(obj: bpy.types.Object, name: str) -> bpy.types.Collection:

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import bpy
 
 from ...core.errors import DecompositionError
-from ..bridge.homes import is_in
+from ..bridge.homes import objects_in
 from ..bridge.parts.rows import active_row, chosen_numbers, noted_refusal
 from ..bridge.refusals import edit_refusal
 from ..bridge.work.in_step import bring_in_step
@@ -152,7 +152,7 @@ WCD_OT_rename_part.__annotations__ = {
 
 def _absence(context: bpy.types.Context, obj: bpy.types.Object) -> str | None:
     """Return why an object cannot become the active one."""
-    if is_in(context.view_layer, obj):
+    if obj in objects_in(context.view_layer):
         return None
     return f"{obj.name} is not in the view layer; link it to a collection that is"
 

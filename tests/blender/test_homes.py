@@ -4,7 +4,7 @@ import bpy
 import pytest
 from edited import FAST
 from hand_made import activate
-from weak_convex_decomposition.operators.bridge.homes import is_in
+from weak_convex_decomposition.operators.bridge.homes import objects_in
 
 
 @pytest.fixture
@@ -26,8 +26,8 @@ def test_view_layers_have_objects_not_names(suzanne, linked, both):
     if both:
         collection.objects.link(linked)
     layer.update()
-    assert is_in(layer, suzanne)
-    assert is_in(layer, linked) == both
+    assert suzanne in objects_in(layer)
+    assert (linked in objects_in(layer)) == both
 
 
 def test_parts_and_bodies_of_an_object_whose_name_a_linked_one_has(suzanne, linked):

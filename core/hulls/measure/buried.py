@@ -145,7 +145,7 @@ def unburied(
     corners, all_rows = mesh.vertices[mesh.triangles], np.arange(len(mesh.triangles))
     left = _Surface(corners, all_rows, np.zeros(len(corners), bool))
     boxes = np.stack(shells.bounds(mesh), axis=1)
-    around = yield from _containers(mesh, shells)
+    around = yield from _containers(mesh, shells, boxes)
     n_looks = _MOST_LOOKS
     for turn, (shell, own) in enumerate(around.items()):
         yield Progress("Solid", turn / len(around))
@@ -170,21 +170,20 @@ def _meeting(
 
 
 def _containers(
-    mesh: TriangleMesh, shells: Shells
+    mesh: TriangleMesh, shells: Shells, boxes: NDArray[np.float64]
 ) -> Steps[dict[int, NDArray[np.int64]]]:
     """Return the triangles of solids whose boxes meet others, and of cavities there.
 
-    They are those of a shell and of each cavity whose box meets its own. None if there
-    are so many that it would take long.
+    They are those of a shell and of each cavity whose box (S, 2, 3) meets its own. None
+    if there are so many that it would take long.
     """
     volumes, n_shells = (yield from volumes_of(mesh)), len(shells.closed)
     solid = np.bincount(shells.of_triangle, volumes, n_shells) > 0
-    lows, highs = shells.bounds(mesh)
     if np.count_nonzero(solid) * len(mesh.triangles) > _MOST_COMPARED:
         return {}
     found: dict[int, NDArray[np.int64]] = {}
     for shell in np.flatnonzero(solid).tolist():
-        meets = (lows < highs[shell]).all(axis=1) & (highs > lows[shell]).all(axis=1)
+        meets = _meeting(boxes, *boxes[shell])
         meets[shell] = False
         if meets.any():
             own = [shell, *np.flatnonzero(meets & ~solid)]

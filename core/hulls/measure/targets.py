@@ -76,6 +76,8 @@ class Targets:
         tree, origins, reach = self._all
         sizes = np.searchsorted(np.multiply(_SIZES, reach), self._radii)
         groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
+        if len(groups) == 1:
+            return [self._all]
         return [
             _Fragments.of(tree.data[rows], self._radii[rows], origins[rows])
             for rows in groups
@@ -126,11 +128,9 @@ class Targets:
 
     def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
-        found = np.full(len(points), np.inf)
+        found, left = np.full(len(points), np.inf), np.arange(len(points))
         if len(self._corners) > _FIRST:
-            left = self._look(self._all, points, np.arange(len(points)), _FIRST, found)
-        else:
-            left = np.arange(len(points))
+            left = self._look(self._all, points, left, _FIRST, found)
         if len(self._corners) <= _FEW:
             for block in blocks(len(left), _MOST_PAIRS // len(self._corners)):
                 places = points[left[block], None]
@@ -140,7 +140,8 @@ class Targets:
                 found[left[block]] = _from_each(places, every).min(axis=(1, 2))
             return found
         for group in self._by_size if len(left) else ():
-            unsure, n_near = left, _FIRST
+            # The first ones of all were looked at.
+            unsure, n_near = left, 4 * _FIRST if group is self._all else _FIRST
             while len(unsure):
                 unsure = self._look(group, points, unsure, n_near, found)
                 n_near *= 4

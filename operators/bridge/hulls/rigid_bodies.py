@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 
 from ....core.errors import DecompositionError
-from ..homes import is_in
+from ..homes import objects_in
 from ..stored.names import RIGID_TAG
 
 
@@ -35,8 +35,8 @@ def make_rigid(
         raise DecompositionError(
             f"{obj.name} is a rigid body already; remove that before its hulls get it."
         )
-    layer = bpy.context.view_layer
-    unseen = [each.name for each in (obj, *hulls) if not is_in(layer, each)]
+    there = objects_in(bpy.context.view_layer)
+    unseen = [each.name for each in (obj, *hulls) if each not in there]
     if unseen:
         raise DecompositionError(
             f"{unseen[0]} is not in the view layer; rigid bodies have to be."

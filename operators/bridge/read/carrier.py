@@ -10,7 +10,7 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
-from ..homes import homes_of, is_in
+from ..homes import homes_of, objects_in
 from ..parts.erase import erase_parts
 from ..parts.materials import discard
 from ..refusals import CONVERTIBLE
@@ -86,7 +86,7 @@ def placed_carrier(
 def _hide_source(carrier: bpy.types.Object) -> None:
     """Hide the source of a carrier, and note on it how that was shown."""
     source, layer = carrier.parent, bpy.context.view_layer
-    there = is_in(layer, source)
+    there = source in objects_in(layer)
     was_shown = there and not source.hide_get()
     carrier[HIDDEN_TAG] = [was_shown, not source.hide_render]
     if was_shown:
@@ -103,7 +103,7 @@ def _show_source(carrier: bpy.types.Object) -> None:
         return
     in_view, in_render = was_shown
     layer = _layer_of(carrier)
-    if in_view and is_in(layer, source):
+    if in_view and source in objects_in(layer):
         source.hide_set(False, view_layer=layer)
     if in_render:
         source.hide_render = False
@@ -177,7 +177,7 @@ def clear_carrier(carrier: bpy.types.Object) -> None:
     layers = _layers_with(carrier)
     _remove(source, [carrier])
     for layer in layers:
-        if is_in(layer, source):
+        if source in objects_in(layer):
             source.select_set(True, view_layer=layer)
             layer.objects.active = source
 

@@ -49,8 +49,8 @@ class Goals:
                         " it; give the output another name."
                     )
         self._refused |= found
-        for sentence in found.values():
-            raise DecompositionError(sentence)
+        if found:
+            raise DecompositionError(next(iter(found.values())))
 
     def check(self, places: Iterable[Path]) -> None:
         """Check that no input so far refers to what is in these places.

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import bpy
 
+from ...bridge.homes import objects_in
 from ...bridge.parts.erase import erase_parts
 from ...bridge.parts.materials import discard_unused
 from ...bridge.read.shown_mesh import new_mesh_of, shown_modifiers
@@ -108,7 +109,7 @@ def apply_modifiers(objects: Iterable[bpy.types.Object]) -> dict[str, str]:
     made, meshes = EvaluatedMeshes(), {}
     with everything_shown() as layers:
         for layer, depsgraph in layers:
-            there = set(layer.objects)
+            there = objects_in(layer)
             for obj in chosen:
                 if obj in there and obj not in meshes:
                     evaluated = obj.evaluated_get(depsgraph)

@@ -88,16 +88,19 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())
-    about = tuple(note for note in (hull_note(), convertible_note()) if note)
-    return LoadedFile(_objects_with_shape(path), notes, about, refers_to)
+    curves = convertible_note()
+    about = tuple(note for note in (hull_note(), curves) if note)
+    return LoadedFile(_objects_with_shape(path, curves), notes, about, refers_to)
 
 
-def _objects_with_shape(path: Path) -> list[bpy.types.Object]:
-    """Return the objects of the file, or raise if none has faces or points."""
+def _objects_with_shape(path: Path, curves: str | None) -> list[bpy.types.Object]:
+    """Return the objects of the file, or raise if none has faces or points.
+
+    The error for a file without meshes ends with the note on curves.
+    """
     objects = mesh_objects()
     if not objects:
-        others = convertible_note()
-        more = f" {others}" if others else ""
+        more = f" {curves}" if curves else ""
         raise DecompositionError(f"{path.name} has no meshes or point clouds.{more}")
     if not any(map(has_shape, objects)):
         has_edges = any(getattr(obj.data, "edges", None) for obj in objects)

@@ -6,6 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .....core.geometry.mesh import TriangleMesh
+from .....core.solids.volume import signed_volume
+from .....core.steps.progress import run
 from ...current_file import some_of
 from ..placed_meshes import Float64Array
 from .bodies import Body, Geometry
@@ -59,8 +62,6 @@ def _in_mujoco(shape: Geometry) -> Float64Array:
 
 def _volume_and_area(vertices: Float64Array, shape: Geometry) -> tuple[float, float]:
     """Return the volume and the area of a mesh with other vertices."""
-    corners = (vertices - vertices.mean(axis=0))[shape.triangles]
-    a, b, c = np.moveaxis(corners, 1, 0)
-    across = np.cross(b - a, c - a)
-    area = float(np.linalg.norm(across, axis=1).sum()) / 2
-    return abs(float((a * across).sum())) / 6, area
+    rows = np.arange(len(shape.triangles))
+    mesh = TriangleMesh(vertices - vertices.mean(axis=0), shape.triangles, rows)
+    return abs(run(signed_volume(mesh))), float(mesh.areas.sum())
