@@ -24,12 +24,15 @@ class Hull:
         Outward unit normal n and offset d of each triangle: n · x + d ≤ 0 inside.
     volume : float
         In cubed units of `vertices`.
+    padding : float
+        What of it is there because flat points were given a thickness.
     """
 
     vertices: NDArray[np.float64]
     facets: NDArray[np.int64]
     planes: NDArray[np.float64]
     volume: float
+    padding: float = 0.0
 
     @cached_property
     def triangles(self) -> NDArray[np.int64]:

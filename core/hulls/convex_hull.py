@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
@@ -44,7 +46,8 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
         hull = None
     if hull is None or _is_flat(hull, _ROUNDING * thin):
-        hull = _hull(_thickened(points, thin))
+        hull = _hull(thickened(points, thin))
+        hull = replace(hull, padding=hull.volume)
     return hull
 
 
@@ -64,6 +67,28 @@ def hull_volume(points: NDArray[np.float64]) -> float:
         return float(ConvexHull(points).volume)
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
         return 0.0
+
+
+def thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
+    """Return points made at least `thin` thick along each of their principal axes.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+    thin : float
+
+    Returns
+    -------
+    (M, 3) float
+        Two for each point of flat ones.
+    """
+    center = points.mean(axis=0)
+    for axis in principal_axes(points):
+        heights = (points - center) @ axis
+        if np.ptp(heights) < thin:
+            flat = points - heights[:, None] * axis
+            points = np.concatenate([flat + thin / 2 * axis, flat - thin / 2 * axis])
+    return points
 
 
 def simplified(hull: Hull, max_vertices: int) -> Hull:
@@ -185,17 +210,6 @@ def _deepest(hull: Hull) -> NDArray[np.float64]:
     )
     center: NDArray[np.float64] = found.x[:3]
     return center
-
-
-def _thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
-    """Return points made at least `thin` thick along each of their principal axes."""
-    center = points.mean(axis=0)
-    for axis in principal_axes(points):
-        heights = (points - center) @ axis
-        if np.ptp(heights) < thin:
-            flat = points - heights[:, None] * axis
-            points = np.concatenate([flat + thin / 2 * axis, flat - thin / 2 * axis])
-    return points
 
 
 def _farthest_out(

@@ -124,7 +124,7 @@ def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
     -------
     float
     """
-    points = np.concatenate([one.hull.vertices, other.hull.vertices])
+    points = np.concatenate([one.extremes, other.extremes])
     added = hull_volume(points) - one.volume - other.volume
     error = volume_error(added)
     return _rounded((error / _LARGE) ** _POWER + _price(added, solid_volume))

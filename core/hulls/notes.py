@@ -69,6 +69,11 @@ def _reason(n_shapes: int, fit: Fit, worst: CollisionShape, hull: Hull) -> str:
             f"because Margin = {parameters.margin:g} alone uses up Largest Error;"
             " choose a margin nearer to 0."
         )
+    if hull.padding:
+        return (
+            "because hulls around flat faces have a thickness; give the faces one"
+            " (Solidify modifier)."
+        )
     if n_shapes < parameters.max_hulls:
         return (
             f"and no cuts into at most Most Hulls = {parameters.max_hulls} were found"

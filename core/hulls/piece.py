@@ -73,10 +73,18 @@ class Piece:
 
     @cached_property
     def added_volume(self) -> float:
-        """Volume of the shape outside the solid; sampling may make it negative."""
+        """Volume of the shape outside the solid; sampling may make it negative.
+
+        Without the thickness of flat pieces: cuts would not make up for it.
+        """
         shape = self.rough_shape
         inside = self.volume if shape.kind == "HULL" else self.solid.volume_in(shape)
-        return shape.volume - inside
+        return shape.volume - self.hull.padding - inside
+
+    @property
+    def extremes(self) -> NDArray[np.float64]:
+        """Few points with the same convex hull, without a thickness, (M, 3)."""
+        return self.points if self.hull.padding else self.hull.vertices
 
     @cached_property
     def least_error(self) -> float:
@@ -180,7 +188,7 @@ def join(one: Piece, other: Piece) -> Piece:
     boundary = np.concatenate([one.boundary, other.boundary])
     once = _rows_that_occur_once(boundary)
     return Piece(
-        np.concatenate([one.hull.vertices, other.hull.vertices]),
+        np.concatenate([one.extremes, other.extremes]),
         boundary[once],
         np.concatenate([one.triangles, other.triangles])[once],
         one.volume + other.volume,

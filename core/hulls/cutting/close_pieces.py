@@ -161,8 +161,11 @@ def _cheapest(
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
-        # A film along a cut may have one sample of the surface, or none.
-        if all(side.on_surface.any() if firm else len(side.points) for side in sides):
+        # A film along a cut may have one sample of the surface, or none; by rounding,
+        # one as thin as can be may have no points.
+        if all(
+            len(side.points) and (side.on_surface.any() or not firm) for side in sides
+        ):
             bound = least_cost_of_sides(*sides, solid_volume)
             cuts.append((bound, len(cuts), sides))
     best, least = None, (np.inf, 0)

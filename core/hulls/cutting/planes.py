@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...geometry.frames import principal_axes
 from ...steps.progress import Progress, Steps
+from ..convex_hull import THIN, thickened
 from .cell import Cell
 from .directions import directions_of
 from .extremes import reaches_of, volumes_beside
@@ -59,6 +60,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     """
     sketch, planes, added, gains = _sketch_of(cell), [], [], []
     directions, is_block = directions_of(cell)
+    corners = _with_thickness(cell, cell.points)
     for turn, direction in enumerate(directions):
         yield Progress("Cutting", turn / len(directions))
         ordered, heights, chords = sketch.along(direction)
@@ -70,7 +72,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         best = offsets[np.round(first, _DIGITS).argmin()]
         yield Progress("Cutting", turn / len(directions))
         step = (high - low) / (_PLANES + 1)
-        levels = _levels(cell.points @ direction)
+        levels = _levels(corners @ direction)
         near = levels[np.abs(levels.mean(axis=1) - best) < step][:_MOST_LEVELS]
         flat = _flat_levels(levels if is_block else near, heights)
         beside = np.concatenate([near, flat]) + _BESIDE
@@ -163,6 +165,7 @@ class _Sketch:
 def _sketch_of(cell: Cell) -> _Sketch:
     """Choose the points of a piece, and scale them to equal widths."""
     points = np.concatenate([cell.boundary, cell.points])
+    points = _with_thickness(cell, points)
     points = points[:: -(-len(points) // _MOST_POINTS)]
     points = np.concatenate([points, cell.hull.vertices])
     axes = principal_axes(points)
@@ -170,6 +173,11 @@ def _sketch_of(cell: Cell) -> _Sketch:
     widths = np.maximum(local.std(axis=0), _FLAT)
     rounded = local / widths
     return _Sketch(cell, points, rounded, reaches_of(rounded), float(np.prod(widths)))
+
+
+def _with_thickness(cell: Cell, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return points of a piece, those of a flat one as thick as its hull."""
+    return thickened(points, THIN) if cell.hull.padding else points
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:

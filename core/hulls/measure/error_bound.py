@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape, Hull
+from ..convex_hull import THIN
 from ..outline import fine_outline
 from ..solid import Solid
 from .estimate import volume_error
@@ -60,7 +61,8 @@ class ErrorBound:
         self, solid: Solid, shape: CollisionShape, hull: Hull, largest: float
     ) -> None:
         self._solid, self._shape, self._hull = solid, shape, hull
-        self._largest = largest
+        # Flat pieces stray by their thickness: cuts would not make up for it.
+        self._largest = largest + (THIN if hull.padding else 0.0)
         self._inner: PatchSearch | None = None
         self._outer: PatchSearch | None = None
         self.known = 0.0
@@ -84,14 +86,16 @@ class ErrorBound:
     def value(self) -> float:
         """At least the error, and a few percent more at most.
 
-        Errors below half of the largest one allowed are not told apart.
+        Errors below half of the largest one allowed are not told apart. The thickness
+        of flat pieces counts here alone.
         """
         known_allowed = self.__dict__.get("is_allowed", False)
         limit = self._largest if known_allowed else np.inf
         bound = self._bound(self._largest * _TOLD_APART, limit, _TOLERANCE)
+        bound = min(bound, limit)  # it is looser where the search ends for its time
         if bound < volume_error(self._shape.volume):
-            bound = max(bound, self._of_volume)
-        return min(bound, limit)  # it is looser where the search ends for its time
+            bound = max(bound, volume_error(self._volume_outside))
+        return bound
 
     @property
     def place(self) -> NDArray[np.float64]:
@@ -112,8 +116,9 @@ class ErrorBound:
         if bound <= limit:
             ends = max(enough, bound), limit, tolerance
             bound = max(bound, self._farthest(*ends))
-        if max(bound, enough) < volume_error(shape.volume) and bound <= limit:
-            bound = max(bound, self._of_volume)
+        padding = self._hull.padding
+        if max(bound, enough) < volume_error(shape.volume - padding) and bound <= limit:
+            bound = max(bound, volume_error(self._volume_outside - padding))
         return bound
 
     @cached_property
@@ -132,9 +137,9 @@ class ErrorBound:
         return Targets(self._within if len(self._within) else self._solid.corners)
 
     @cached_property
-    def _of_volume(self) -> float:
-        """The error R_v of what of the shape is outside the solid."""
-        return volume_error(self._solid.inside.volume_outside(self._shape))
+    def _volume_outside(self) -> float:
+        """How much of the shape is outside the solid."""
+        return self._solid.inside.volume_outside(self._shape)
 
     def _farthest(self, enough: float, limit: float, tolerance: float) -> float:
         """Return a bound of the distance of points on the shape from the surface."""

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import changes
 import numpy as np
 import pytest
 import shapes
@@ -21,6 +22,31 @@ def test_a_cube_is_cut_where_that_lowers_the_error(kind, n_shapes, error):
     assert found.n_hulls == n_shapes
     assert found.errors.max() == pytest.approx(error, rel=0.05, abs=1e-6)
     assert bool(found.notes) == (kind != "BOX")
+
+
+@pytest.mark.parametrize("rotation", [np.eye(3), changes.any_rotation(1)])
+@pytest.mark.parametrize(
+    ("outline", "n_hulls", "largest"),
+    [
+        ([(-1, -1), (1, -1), (1, 1), (-1, 1)], 1, 0.001),
+        ([(-1, -1), (1, -1), (1, 0), (0, 0), (0, 1), (-1, 1)], 2, 0.01),
+        (
+            [(-5, 0), (-5, -5), (5, -5), (5, 0), (1, 0), (1, 9), (-1, 9), (-1, 0)],
+            2,
+            0.05,
+        ),
+    ],
+    ids=["square", "L", "T"],
+)
+def test_flat_shapes_are_cut_by_their_outlines_alone(
+    outline, n_hulls, largest, rotation
+):
+    # Their hulls have a thickness, and more of them would not make up for it.
+    flat = shapes.mesh_of([(*p, 0) for p in outline], [tuple(range(len(outline)))])
+    mesh = changes.moved(flat, rotation=rotation)
+    found = build_hulls(mesh, HullParameters(max_error=largest))
+    assert found.n_hulls == n_hulls
+    assert largest == 0.05 or "hulls around flat faces" in found.notes[-1]
 
 
 def test_pieces_are_cut_again_while_joining_leaves_room(monkeypatch):
