@@ -28,7 +28,7 @@ _MOST_COMPARED = 100_000_000
 # cut far enough then stays.
 _MOST_LOOKS = 200_000
 # Fragments that are looked at in one step.
-_AT_ONCE = 5_000
+_AT_ONCE = 1_000
 
 
 @dataclass
@@ -113,11 +113,12 @@ class _Container:
 
     def has_on_it(self, pieces: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
         """Return which pieces (M,) have their corners and centers on its surface."""
-        places = np.concatenate([pieces, pieces.mean(axis=1, keepdims=True)], axis=1)
-        points = places.reshape(-1, 3)
-        clear = yield from self.is_clear_of(points, np.full(len(points), _FLUSH))
-        on_it: NDArray[np.bool_] = np.all(~clear.reshape(-1, 4), axis=1)
-        return on_it
+        on_it = np.arange(len(pieces))
+        for points in (pieces.mean(axis=1), *pieces.swapaxes(0, 1)):
+            radii = np.full(len(on_it), _FLUSH)
+            clear = yield from self.is_clear_of(points[on_it], radii)
+            on_it = on_it[~clear]
+        return np.isin(np.arange(len(pieces)), on_it)
 
 
 def unburied(

@@ -51,7 +51,8 @@ def estimated_error(
     """
     if len(boundary) == 0:
         return least
-    outside = shape.heights(hull.vertices).max()
+    # Without a margin, it is the hull: of many vertices, which would take long.
+    outside = 0.0 if shape.hull is hull else shape.heights(hull.vertices).max()
     # Building a balanced tree takes twice as long, and questions are few.
     places = np.concatenate([boundary, hull.vertices])
     tree = cKDTree(places, balanced_tree=False, compact_nodes=False)

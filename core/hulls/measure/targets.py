@@ -36,12 +36,15 @@ class _Fragments(NamedTuple):
         Of their centers.
     origins : (F,) int
         Triangle that each is a piece of.
-    reach : float
+    radii : (F,) float
         No point of one is farther from its center.
+    reach : float
+        The largest of these.
     """
 
     tree: cKDTree
     origins: NDArray[np.int64]
+    radii: NDArray[np.float64]
     reach: float
 
     @classmethod
@@ -54,7 +57,7 @@ class _Fragments(NamedTuple):
         """Return fragments with these centers and reaches."""
         # Building a balanced tree takes twice as long, and questions are few.
         tree = cKDTree(centers, balanced_tree=False, compact_nodes=False)
-        return cls(tree, origins, float(radii.max()))
+        return cls(tree, origins, radii, float(radii.max()))
 
 
 class Targets:
@@ -67,19 +70,19 @@ class Targets:
 
     def __init__(self, corners: NDArray[np.float64]) -> None:
         small, origins = fragments_of(corners, _GRAIN)
-        self._corners, (centers, self._radii) = corners, reach_of(small)
-        self._all = _Fragments.of(centers, self._radii, origins)
+        self._corners = corners
+        self._all = _Fragments.of(*reach_of(small), origins)
 
     @cached_property
     def _by_size(self) -> list[_Fragments]:
         """All fragments, in groups of about one size."""
-        tree, origins, reach = self._all
-        sizes = np.searchsorted(np.multiply(_SIZES, reach), self._radii)
+        tree, origins, radii, reach = self._all
+        sizes = np.searchsorted(np.multiply(_SIZES, reach), radii)
         groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
         if len(groups) == 1:
             return [self._all]
         return [
-            _Fragments.of(tree.data[rows], self._radii[rows], origins[rows])
+            _Fragments.of(tree.data[rows], radii[rows], origins[rows])
             for rows in groups
         ]
 
@@ -104,7 +107,7 @@ class Targets:
         at_most : (M,) float
             From no place of the patch is the nearest triangle farther away.
         """
-        tree, origins, reach = self._all
+        tree, origins, _, reach = self._all
         n_near = min(_NEIGHBORS, len(origins))
         apart, rows = (x.reshape(-1, n_near) for x in tree.query(centers, n_near))
         places = np.concatenate([patches, centers[:, None]], axis=1)
@@ -123,12 +126,19 @@ class Targets:
         # The center of a fragment is on it, and none of it is farther than its reach.
         within: NDArray[np.bool_] = apart <= radii
         unsure = np.flatnonzero(~within & (apart - self._all.reach <= radii))
-        within[unsure] = self.nearest(points[unsure]) <= radii[unsure]
+        nearest = self.nearest(points[unsure], np.nextafter(radii[unsure], np.inf))
+        within[unsure] = nearest <= radii[unsure]
         return within
 
-    def nearest(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the distances of points (M, 3) from the nearest triangles, (M,)."""
-        found, left = np.full(len(points), np.inf), np.arange(len(points))
+    def nearest(
+        self, points: NDArray[np.float64], most: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
+        """Return the distances of points (M, 3) from the nearest triangles, (M,).
+
+        Where none is nearer than `most` (M,), it is that: larger ones take longer.
+        """
+        found = np.full(len(points), np.inf) if most is None else most
+        left = np.arange(len(points))
         if len(self._corners) > _FIRST:
             left = self._look(self._all, points, left, _FIRST, found)
         if len(self._corners) <= _FEW:
@@ -137,7 +147,8 @@ class Targets:
                 every = np.broadcast_to(
                     self._corners, (len(places), *self._corners.shape)
                 )
-                found[left[block]] = _from_each(places, every).min(axis=(1, 2))
+                away = _from_each(places, every).min(axis=(1, 2))
+                found[left[block]] = np.minimum(found[left[block]], away)
             return found
         for group in self._by_size if len(left) else ():
             # The first ones of all were looked at.
@@ -163,9 +174,14 @@ class Targets:
         unsure, n_near = [rows[:0]], min(n_near, len(group.origins))
         for block in blocks(len(rows), _MOST_PAIRS // n_near):
             some = rows[block]
-            apart, near = group.tree.query(points[some], np.arange(1, n_near + 1))
             # Fragments whose centers are farther away hold nothing nearer.
-            point, place = np.nonzero(apart - group.reach < found[some, None])
+            farthest = float(found[some].max()) + group.reach
+            ranks = np.arange(1, n_near + 1)
+            apart, near = group.tree.query(
+                points[some], ranks, distance_upper_bound=farthest
+            )
+            radii = np.take(group.radii, near, mode="clip")  # of none, its number
+            point, place = np.nonzero(apart - radii < found[some, None])
             corners = self._corners[group.origins[near[point, place]]]
             away = np.full(apart.shape, np.inf)
             away[point, place] = distances_to(points[some][point], corners)
