@@ -75,16 +75,24 @@ class Piece:
     def added_volume(self) -> float:
         """Volume of the shape outside the solid; sampling may make it negative.
 
-        Without the thickness of flat pieces: cuts would not make up for it.
+        Without the thickness of sheets: cuts would not make up for it.
         """
         shape = self.rough_shape
         inside = self.volume if shape.kind == "HULL" else self.solid.volume_in(shape)
-        return shape.volume - self.hull.padding - inside
+        return shape.volume - self.padding - inside
+
+    @cached_property
+    def padding(self) -> float:
+        """Volume of the thickness that the hull of a sheet was given.
+
+        Films that cuts leave of a solid are no sheets.
+        """
+        return self.hull.padding if self.on_surface.all() else 0.0
 
     @property
     def extremes(self) -> NDArray[np.float64]:
-        """Few points with the same convex hull, without a thickness, (M, 3)."""
-        return self.points if self.hull.padding else self.hull.vertices
+        """Few points with the same convex hull, without that thickness, (M, 3)."""
+        return self.points if self.padding else self.hull.vertices
 
     @cached_property
     def least_error(self) -> float:
@@ -101,7 +109,8 @@ class Piece:
     @cached_property
     def _bound(self) -> ErrorBound:
         """An upper bound of the error, found when it is asked for."""
-        return ErrorBound(self.solid, self.shape, self.hull, self.fit.max_error)
+        rest = self.hull, self.fit.max_error, self.padding
+        return ErrorBound(self.solid, self.shape, *rest)
 
     @property
     def may_be_close(self) -> bool:

@@ -176,8 +176,8 @@ def _sketch_of(cell: Cell) -> _Sketch:
 
 
 def _with_thickness(cell: Cell, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return points of a piece, those of a flat one as thick as its hull."""
-    return thickened(points, THIN) if cell.hull.padding else points
+    """Return points of a piece, those of a sheet as thick as its hull."""
+    return thickened(points, THIN) if cell.padding else points
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:

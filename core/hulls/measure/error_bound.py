@@ -50,6 +50,9 @@ class ErrorBound:
         Convex hull of the piece that the shape stands for.
     largest : float
         Largest error allowed.
+    padding : float, optional
+        Volume of the thickness that the hull of a sheet was given. It counts in `value`
+        alone.
 
     Attributes
     ----------
@@ -58,11 +61,17 @@ class ErrorBound:
     """
 
     def __init__(
-        self, solid: Solid, shape: CollisionShape, hull: Hull, largest: float
+        self,
+        solid: Solid,
+        shape: CollisionShape,
+        hull: Hull,
+        largest: float,
+        padding: float = 0.0,
     ) -> None:
         self._solid, self._shape, self._hull = solid, shape, hull
-        # Flat pieces stray by their thickness: cuts would not make up for it.
-        self._largest = largest + (THIN if hull.padding else 0.0)
+        # Sheets stray by their thickness: cuts would not make up for it.
+        self._largest = largest + (THIN if padding else 0.0)
+        self._padding = padding
         self._inner: PatchSearch | None = None
         self._outer: PatchSearch | None = None
         self.known = 0.0
@@ -87,7 +96,7 @@ class ErrorBound:
         """At least the error, and a few percent more at most.
 
         Errors below half of the largest one allowed are not told apart. The thickness
-        of flat pieces counts here alone.
+        of sheets counts here alone.
         """
         known_allowed = self.__dict__.get("is_allowed", False)
         limit = self._largest if known_allowed else np.inf
@@ -116,9 +125,9 @@ class ErrorBound:
         if bound <= limit:
             ends = max(enough, bound), limit, tolerance
             bound = max(bound, self._farthest(*ends))
-        padding = self._hull.padding
-        if max(bound, enough) < volume_error(shape.volume - padding) and bound <= limit:
-            bound = max(bound, volume_error(self._volume_outside - padding))
+        volume = shape.volume - self._padding
+        if max(bound, enough) < volume_error(volume) and bound <= limit:
+            bound = max(bound, volume_error(self._volume_outside - self._padding))
         return bound
 
     @cached_property
