@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from .geometry.cutting.refined import RefinedMesh as RefinedMesh
     from .geometry.cutting.refined import refined as refined
     from .hulls.build import build_hulls_in_steps as build_hulls_in_steps
-    from .hulls.measure.one_shape import refit_in_steps as refit_in_steps
     from .hulls.outline import faces_of as faces_of
     from .hulls.outline import outline_of as outline_of
+    from .hulls.refit import refit_in_steps as refit_in_steps
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
     from .parts.editing import Change as Change
@@ -52,7 +52,7 @@ _HOMES = {
     "refined": "geometry.cutting.refined",
     "labels_by_area": "geometry.cutting.pieces",
     "build_hulls_in_steps": "hulls.build",
-    "refit_in_steps": "hulls.measure.one_shape",
+    "refit_in_steps": "hulls.refit",
     "faces_of": "hulls.outline",
     "outline_of": "hulls.outline",
     "mass_of_mesh": "solids.mass",

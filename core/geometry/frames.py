@@ -1,4 +1,4 @@
-"""Unit vectors, coordinate axes, directions around normals, heights above planes."""
+"""Unit vectors, coordinate axes, cross products, heights above planes."""
 
 from __future__ import annotations
 
@@ -79,6 +79,22 @@ def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]
         i, j = (axis + 1) % 3, (axis + 2) % 3
         product[..., axis] = a[..., i] * b[..., j] - a[..., j] * b[..., i]
     return product
+
+
+def area_vectors(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return normals of triangles, each twice as long as the triangle's area.
+
+    Parameters
+    ----------
+    corners : (..., 3, 3) float
+        Counter-clockwise seen from where the normals point.
+
+    Returns
+    -------
+    (..., 3) float
+    """
+    a = corners[..., 0, :]
+    return cross(corners[..., 1, :] - a, corners[..., 2, :] - a)
 
 
 def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -179,66 +195,3 @@ def with_normals(
     (N, 6) float
     """
     return np.hstack([points, weight * normals])
-
-
-def cone_directions(
-    normals: NDArray[np.float64], n_rays: int, opening: float
-) -> NDArray[np.float64]:
-    """Return directions spread evenly in a cone around each inward normal.
-
-    Parameters
-    ----------
-    normals : (N, 3) float
-        Outward unit vectors.
-    n_rays : int
-        Directions r in each cone.
-    opening : float
-        Full angle of the cone in radians.
-
-    Returns
-    -------
-    directions : (N, r, 3) float
-        Unit vectors, on a spiral. Each covers the same solid angle.
-    """
-    steps = np.arange(n_rays) + 0.5
-    heights = 1.0 - steps / n_rays * (1.0 - np.cos(opening / 2))
-    radii = np.sqrt(1.0 - heights**2)
-    turns = steps * np.pi * (3.0 - np.sqrt(5.0))
-    tangents, bitangents = frames(normals)
-    return (
-        -normals[:, None] * heights[:, None]
-        + tangents[:, None] * (radii * np.cos(turns))[:, None]
-        + bitangents[:, None] * (radii * np.sin(turns))[:, None]
-    )
-
-
-def fan_directions(
-    normals: NDArray[np.float64],
-    n_rays: int,
-    opening: float,
-    plane: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return directions in a plane, spread evenly around each inward normal.
-
-    Parameters
-    ----------
-    normals : (N, 3) float
-        Outward unit vectors in the plane.
-    n_rays : int
-        Directions r in each fan.
-    opening : float
-        Full angle of the fan in radians.
-    plane : (3,) float
-        Unit normal of the plane.
-
-    Returns
-    -------
-    directions : (N, r, 3) float
-        Unit vectors in the plane.
-    """
-    angles = ((np.arange(n_rays) + 0.5) / n_rays - 0.5) * opening
-    sideways = np.cross(plane, normals)
-    return (
-        -normals[:, None] * np.cos(angles)[:, None]
-        + sideways[:, None] * np.sin(angles)[:, None]
-    )

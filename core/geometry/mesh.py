@@ -19,6 +19,7 @@ from .array_checks import (
     checked_numbers,
     rows_of_three,
 )
+from .frames import area_vectors
 from .welding import welded
 
 # Least total area, in squared diagonals. With less, faces are lines or points.
@@ -130,10 +131,6 @@ class TriangleMesh:
         low, high = self.bounds
         return float(np.linalg.norm(high - low))
 
-    def normalized(self) -> TriangleMesh:
-        """Return the mesh at once that `normalized_in_steps` returns."""
-        return run(self.normalized_in_steps())
-
     def normalized_in_steps(self) -> Steps[TriangleMesh]:
         """Return the mesh centered at the origin, with a bounding box of diagonal 1.
 
@@ -223,8 +220,7 @@ class TriangleMesh:
             )
             for rows in blocks(len(self.triangles)):
                 yield Progress("Surface", rows.start / len(self.triangles))
-                a, b, c = np.moveaxis(self.vertices[self.triangles[rows]], 1, 0)
-                crosses = np.cross(b - a, c - a)
+                crosses = area_vectors(self.vertices[self.triangles[rows]])
                 lengths = np.linalg.norm(crosses, axis=1)
                 areas[rows] = lengths / 2
                 zero = lengths == 0

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .frames import HEIGHTS_AT_ONCE, cross
+from .frames import HEIGHTS_AT_ONCE, area_vectors
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -37,8 +37,7 @@ class Hull:
     @cached_property
     def triangles(self) -> NDArray[np.int64]:
         """(F, 3) corners of each triangle, counter-clockwise seen from outside."""
-        a, b, c = self.vertices[self.facets].swapaxes(0, 1)
-        normals = cross(b - a, c - a)
+        normals = area_vectors(self.vertices[self.facets])
         inwards = np.einsum("fd,fd->f", normals, self.planes[:, :3]) < 0
         triangles = self.facets.astype(np.int64)
         triangles[inwards] = triangles[inwards, ::-1]

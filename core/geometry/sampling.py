@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import DecompositionError
 from .cutting.halving import halved
-from .frames import cross
+from .frames import area_vectors
 from .mesh import TriangleMesh
 
 # Candidates per sample: one of each run of this length along the curve is picked.
@@ -142,8 +142,7 @@ def points_on(
         Triangle that each point lies on, ascending.
     points : (N, 3) float
     """
-    a, b, c = np.moveaxis(corners, 1, 0)
-    areas = np.linalg.norm(cross(b - a, c - a), axis=1) / 2
+    areas = np.linalg.norm(area_vectors(corners), axis=1) / 2
     triangles, weights = _drawn(areas, n_points, rng)
     points: NDArray[np.float64] = np.einsum("nc,ncd->nd", weights, corners[triangles])
     return triangles, points

@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ..steps.progress import Progress, Steps, within
+from ..steps.rows import RowsByNumber, blocks
 from .frames import with_normals
 from .graphs.face_graph import FaceGraph
 from .sampling import Samples
@@ -73,14 +74,14 @@ class NearestSamples:
         self._rows = np.pad(self._rows, (0, n_missing), constant_values=-1)
         new = np.flatnonzero(self._rows[numbers] < 0)
         away, nearest = [self._away], [self._nearest]
-        for start in range(0, len(new), _BLOCK):
-            yield Progress("Surface", start / len(new))
-            block = places[new[start : start + _BLOCK]]
+        for rows in blocks(len(new), _BLOCK):
+            yield Progress("Surface", rows.start / len(new))
+            block = places[new[rows]]
             sides = graph.centers[block], graph.normals[block]
             at = with_normals(*sides, self._weight)
-            distances, rows = self._tree.query(at, range(1, self._n_nearest + 1))
+            distances, found = self._tree.query(at, range(1, self._n_nearest + 1))
             away.append(distances / self._spacing)
-            nearest.append(rows.astype(np.int32))
+            nearest.append(found.astype(np.int32))
         yield Progress("Surface", 1.0)
         self._rows[numbers[new]] = len(self._away) + np.arange(len(new))
         self._away, self._nearest = np.concatenate(away), np.concatenate(nearest)
@@ -118,14 +119,12 @@ def carry(
     known = known or NearestSamples(samples, spacing_of(samples, graph))
     steps = known.of(places if numbers is None else numbers, graph, places)
     away, nearest = yield from within(steps, 0.0, 0.8)
-    order = np.argsort(polygon_of, kind="stable")
-    ends = np.searchsorted(polygon_of[order], np.arange(0, len(places), _BLOCK))
+    samples_of = RowsByNumber(polygon_of // _BLOCK, -(-len(places) // _BLOCK))
     shares = []
-    for start, own in zip(
-        range(0, len(places), _BLOCK), np.split(order, ends[1:]), strict=True
-    ):
-        yield Progress("Surface", 0.8 + 0.2 * start / len(places))
-        block, rows = slice(start, start + _BLOCK), polygon_of[own] - start
+    for number, block in enumerate(blocks(len(places), _BLOCK)):
+        yield Progress("Surface", 0.8 + 0.2 * block.start / len(places))
+        own = samples_of.of(number)
+        rows = polygon_of[own] - block.start
         shares.append(_shares(away[block], nearest[block], own, rows, len(samples)))
     yield Progress("Surface", 1.0)
     all_shares = sparse.vstack(shares, "csr")

@@ -66,6 +66,32 @@ def welded(
     return place_of[triangles]
 
 
+def distinct_points(
+    points: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return different points, sorted, and which of them each point is.
+
+    Takes less than half of the time of `numpy.unique` on rows.
+
+    Parameters
+    ----------
+    points : (N, 3) float
+
+    Returns
+    -------
+    places : (P, 3) float
+    rows : (N,) int
+        Row of `places` of each point.
+    """
+    order = np.lexsort(points.T[::-1])
+    ordered = points[order]
+    new = np.ones(len(points), dtype=bool)
+    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    rows = np.empty(len(points), dtype=np.int64)
+    rows[order] = np.cumsum(new) - 1
+    return ordered[new], rows
+
+
 def _numbered(cells: NDArray[np.int64]) -> Steps[NDArray[np.int32]]:
     """Return the rank of each vertex's cell among all different ones, (V,)."""
     # Ranges of cells, of about as many vertices each, one after the other.

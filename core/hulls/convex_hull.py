@@ -155,24 +155,6 @@ def offset(hull: Hull, margin: float) -> Hull:
         return hull
 
 
-def directions(count: int) -> NDArray[np.float64]:
-    """Return unit vectors spread evenly over the sphere.
-
-    Parameters
-    ----------
-    count : int
-
-    Returns
-    -------
-    (count, 3) float
-        Points of a Fibonacci spiral, from the top down.
-    """
-    heights = 1 - (2 * np.arange(count) + 1) / count
-    turns = np.pi * (1 + np.sqrt(5)) * np.arange(count)
-    radii = np.sqrt(1 - heights**2)
-    return np.stack([radii * np.cos(turns), radii * np.sin(turns), heights], axis=1)
-
-
 def _hull(points: NDArray[np.float64]) -> Hull:
     """Return the hull of points; raise QhullError or ValueError if they are flat."""
     found = ConvexHull(points)

@@ -6,6 +6,7 @@ equally good otherwise, the smallest costs least.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -28,13 +29,17 @@ _POWER = 4
 _NORM = 1.75
 
 
-def cost_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
+def cost_of_sides(
+    sides: tuple[Cell, Cell], errors: Sequence[float], solid_volume: float
+) -> float:
     """Return the cost of the hulls of both sides of a cut.
 
     Parameters
     ----------
-    one, other : Cell
-        The two sides.
+    sides : tuple of two Cells
+    errors : sequence of two floats
+        Their errors. Lower bounds of these give a lower bound of the cost: how far
+        points on hulls are from the surface takes as long to compute as all the rest.
     solid_volume : float
         Volume of the whole solid.
 
@@ -43,29 +48,10 @@ def cost_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
     float
         A norm of both errors, plus the price of the added volume and of the cut.
     """
-    errors = np.linalg.norm((one.error, other.error), _NORM)
-    return _rounded(errors + _price_of_sides(one, other, solid_volume))
-
-
-def least_cost_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
-    """Return a lower bound of `cost_of_sides`, found from volumes and depths.
-
-    The other term of the errors, how far points on the hulls are from the surface,
-    takes as long to compute as everything else together.
-
-    Parameters
-    ----------
-    one, other : Cell
-        The two sides.
-    solid_volume : float
-        Volume of the whole solid.
-
-    Returns
-    -------
-    float
-    """
-    errors = np.linalg.norm((one.least_error, other.least_error), _NORM)
-    return _rounded(errors + _price_of_sides(one, other, solid_volume))
+    added = sum(max(side.added_volume, 0.0) for side in sides)
+    cuts = sum(side.cut_share for side in sides)
+    price = _price(added, solid_volume) + _PRICE_OF_CUT * cuts / 2
+    return _rounded(np.linalg.norm(errors, _NORM) + price)
 
 
 def cost_of_joint(joint: Piece, error: float, solid_volume: float) -> float:
@@ -128,13 +114,6 @@ def least_cost(one: Piece, other: Piece, solid_volume: float) -> float:
     added = hull_volume(points) - one.volume - other.volume
     error = volume_error(added)
     return _rounded((error / _LARGE) ** _POWER + _price(added, solid_volume))
-
-
-def _price_of_sides(one: Cell, other: Cell, solid_volume: float) -> float:
-    """Return the price of the volume that both hulls add, and of the faces of cuts."""
-    added = max(one.added_volume, 0.0) + max(other.added_volume, 0.0)
-    cuts = one.cut_share + other.cut_share
-    return _price(added, solid_volume) + _PRICE_OF_CUT * cuts / 2
 
 
 def _price(added: float, solid_volume: float) -> float:

@@ -7,8 +7,10 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.directions import sphere_directions
+from ..geometry.frames import area_vectors
 from ..geometry.primitives import CollisionShape, Hull
-from .convex_hull import convex_hull, directions
+from .convex_hull import convex_hull
 
 # Corners of a side of a box, counter-clockwise.
 _AROUND_SIDE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
@@ -44,7 +46,7 @@ def outline_of(shape: CollisionShape) -> Hull:
         circle = np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1)
         local = (ends[:, None] + shape.sizes[0] * circle).reshape(-1, 3)
     else:
-        ball = shape.sizes[0] * directions(_ON_SPHERE)
+        ball = shape.sizes[0] * sphere_directions(_ON_SPHERE)
         upper, lower = ball[ball[:, 2] >= 0], ball[ball[:, 2] <= 0]
         local = np.concatenate([ends[0] + upper, ends[1] + lower])
     points = local @ shape.axes + shape.center
@@ -112,7 +114,6 @@ def fine_outline(shape: CollisionShape) -> tuple[NDArray[np.float64], float]:
     a, b, c, d = rings[:-1, :-1], rings[:-1, 1:], rings[1:, 1:], rings[1:, :-1]
     corners = np.stack([np.stack([a, b, c], 2), np.stack([a, c, d], 2)])
     corners = corners.reshape(-1, 3, 3)
-    a, b, c = np.moveaxis(corners, 1, 0)
-    corners = corners[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 0]
+    corners = corners[np.linalg.norm(area_vectors(corners), axis=1) > 0]
     around = 1 - np.cos(np.pi / _FINE_AROUND)
     return corners, float(radius * (around + 1 - np.cos(step / 2)))

@@ -12,9 +12,11 @@ from scipy.spatial import cKDTree
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
+from ..geometry.welding import distinct_points
 from ..solids.mass import mass_of_surface
 from ..solids.shells import shells_of
 from ..steps.progress import Progress, Steps, within
+from ..steps.rows import used_rows
 from .chords import chords_along
 from .measure.buried import unburied
 from .measure.inside import InsideTest
@@ -174,7 +176,9 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     """
     mesh = replace(mesh, vertices=mesh.vertices * scale)
     corners = mesh.vertices[mesh.triangles]
-    vertices = np.unique(corners.reshape(-1, 3), axis=0)
+    used = yield from within(used_rows(mesh.triangles, len(mesh.vertices)), 0.0, 0.0)
+    yield Progress("Solid", 0.0)
+    vertices = distinct_points(mesh.vertices[used])[0]
     yield Progress("Solid", 0.0)
     measured = _chords_in(corners, vertices)
     chords, volumes, overlap = yield from within(measured, 0.0, 1.0)

@@ -51,7 +51,7 @@ def find_parts(
     likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
     guesses = rough and likely_k > 0 and not _is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
-        guesses, wanted = False, with_bends_kept(search, partitioner, parameters)
+        guesses, wanted = False, with_bends_kept(search)
     elif guesses:
         wanted = guess(search, likely_k, cut.looks)
     else:

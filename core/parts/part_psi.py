@@ -1,4 +1,4 @@
-"""Counts pairs of samples by parts: how good parts are by psi."""
+"""Counts parts, and pairs of samples by parts: how good parts are by psi."""
 
 from __future__ import annotations
 

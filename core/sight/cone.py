@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from ..geometry.frames import cone_directions, fan_directions, with_normals
+from ..geometry.directions import cone_directions, fan_directions
+from ..geometry.frames import with_normals
 from ..geometry.sampling import Samples
 from ..parameters.parts import Parameters
 from ..steps.progress import Progress, Steps

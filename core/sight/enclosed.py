@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..geometry.frames import cone_directions
+from ..geometry.directions import cone_directions
 from ..solids.shells import GAP
 from ..steps.progress import Progress, Steps, within
 from .ray_march import PASS, RAYS_PER_STEP, RayMarcher

@@ -14,6 +14,7 @@ from scipy.special import expit
 
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Progress, Steps
+from ..steps.rows import blocks
 from .pair_visibility import PairVisibility
 
 # Share of the line of sight itself. Without it, corners of an L or a U became parts.
@@ -64,10 +65,9 @@ def likely_pairs(
     reach = _REACH * np.log(sizes / n_samples + _LITTLE)
     usual = np.sqrt(2 * positions.var(axis=0).sum())
     likely = np.empty_like(visible)
-    step = max(1, _ENTRIES_PER_STEP // n_samples)
-    for start in range(0, n_samples, step):
-        yield Progress("Lines of sight", start / n_samples)
-        rows, rest = slice(start, start + step), slice(start, None)
+    for rows in blocks(n_samples, _ENTRIES_PER_STEP // n_samples):
+        yield Progress("Lines of sight", rows.start / n_samples)
+        rest = slice(rows.start, None)
         common = visible[rows] @ visible[:, rest]
         odds = _COMMON * common / (sizes[rows, None] + sizes[rest] - common)
         odds += _START + _VISIBLE * visible[rows, rest]

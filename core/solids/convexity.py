@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-from ..geometry.frames import heights_above
+from ..geometry.frames import HEIGHTS_AT_ONCE, heights_above
 from ..geometry.graphs.edges import Edges, corner_of_sides
 from ..geometry.mesh import TriangleMesh
 from ..steps.beside import beside
@@ -20,8 +20,6 @@ from .volume import signed_volume
 _ROUNDING = 1e-6
 # Share of the volume that counts as rounding.
 _SAME_VOLUME = 1e-5
-# Largest number of heights above planes that are computed at a time.
-_MOST_HEIGHTS = 1_000_000
 # Largest number of edges that are looked at in a step.
 _MOST_EDGES = 2**17
 
@@ -76,9 +74,9 @@ def _has_concave_edge(mesh: TriangleMesh, edges: Edges) -> Steps[bool]:
     """
     yield from mesh.normals_in_steps()
     pairs = edges.sides.reshape(-1, 2)  # sides, three for each triangle
-    for start in range(0, len(pairs), _MOST_EDGES):
-        yield Progress("Surface", start / len(pairs))
-        one, other = pairs[start : start + _MOST_EDGES].T
+    for rows in blocks(len(pairs), _MOST_EDGES):
+        yield Progress("Surface", rows.start / len(pairs))
+        one, other = pairs[rows].T
         opposite = corner_of_sides(mesh.triangles, other, 2)
         starts = corner_of_sides(mesh.triangles, one, 0)
         offsets = mesh.vertices[opposite] - mesh.vertices[starts]
@@ -92,7 +90,7 @@ def _on_planes(
     points: NDArray[np.float64], planes: NDArray[np.float64], rounding: float
 ) -> Steps[bool]:
     """Return whether each point within planes lies on one of them."""
-    for rows in blocks(len(points), max(1, _MOST_HEIGHTS // len(planes))):
+    for rows in blocks(len(points), HEIGHTS_AT_ONCE // len(planes)):
         yield Progress("Surface", 1.0)
         if heights_above(planes, points[rows]).max(axis=1).min() < -rounding:
             return False

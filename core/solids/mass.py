@@ -16,8 +16,8 @@ from .mass_properties import MassProperties
 from .orientation import oriented
 from .shells import shells_of
 
-# A solid with less volume, in cubed diagonals, is a sheet with two sides.
-_LEAST_VOLUME = 1e-9
+# Most volume that rounding gives a sheet with two sides, in area times diagonal.
+_ROUNDING = 1e-12
 
 
 def mass_of_surface(
@@ -47,11 +47,14 @@ def mass_of_surface(
         "td,td->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])
     )
     volume = float(weights.sum()) / 6
-    if abs(volume) <= _LEAST_VOLUME * float(np.linalg.norm(high - low)) ** 3:
+    sides = corners[:, 1:] - corners[:, :1]
+    normals = np.cross(sides[:, 0], sides[:, 1])
+    area = float(np.linalg.norm(normals, axis=1).sum()) / 2
+    if abs(volume) <= _ROUNDING * area * float(np.linalg.norm(high - low)):
         return None
     weights = weights / volume  # positive sums, inside out or not
     sums = corners.sum(axis=1)
-    center = weights @ sums / 24
+    center = np.einsum("t,ti->i", weights, sums) / 24  # the same with any threads
     # Mean of x x^T over the solid.
     moments = np.einsum("t,ti,tj->ij", weights, sums, sums)
     moments += np.einsum("t,tci,tcj->ij", weights, corners, corners)

@@ -20,6 +20,8 @@ from .winding import winding_number
 _MOST_MISSING = 0.25
 # A volume below this, in cubed diagonals, is rounding: that of a sheet with two sides.
 _NO_VOLUME = 1e-12 / 6
+# Boxes of shells that are compared with all others in one step.
+_BOXES = 256
 
 
 def oriented(
@@ -111,7 +113,9 @@ def _inverted(
         around = mesh.vertices[mesh.triangles[rows]]
         return abs(winding_number(point, around, turned)) > 0.5
 
-    around, inside = _nested_boxes(*shells.bounds(mesh), np.flatnonzero(solid))
+    around, inside = yield from _nested_boxes(
+        *shells.bounds(mesh), np.flatnonzero(solid)
+    )
     inverted: set[int] = set()
     for shell in inward.tolist():
         yield Progress("Surface", 0.6)
@@ -124,23 +128,26 @@ def _inverted(
 
 def _nested_boxes(
     lows: NDArray[np.float64], highs: NDArray[np.float64], chosen: NDArray[np.int64]
-) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
+) -> Steps[tuple[dict[int, list[int]], dict[int, list[int]]]]:
     """Return which of the chosen boxes are around each, and which are inside each.
 
     Boxes without one have no key, but an empty list.
     """
     # The middle of a box inside is in the ball around the outer one.
     middles, radii = (lows + highs)[chosen] / 2, (highs - lows)[chosen] / 2
-    near = cKDTree(middles).query_ball_point(middles, np.linalg.norm(radii, axis=1))
-    outer = np.repeat(chosen, [len(each) for each in near])
-    inner = chosen[np.concatenate(near).astype(np.int64)]
-    within = (lows[outer] < lows[inner]).all(axis=1)
-    within &= (highs[outer] > highs[inner]).all(axis=1)
+    tree, reach = cKDTree(middles), np.linalg.norm(radii, axis=1)
     around, inside = (
         defaultdict[int, list[int]](list),
         defaultdict[int, list[int]](list),
     )
-    for one, other in zip(outer[within].tolist(), inner[within].tolist(), strict=True):
-        around[other].append(one)
-        inside[one].append(other)
+    for some in blocks(len(chosen), _BOXES):
+        yield Progress("Surface", 0.6)
+        near = tree.query_ball_point(middles[some], reach[some])
+        outer = np.repeat(chosen[some], [len(each) for each in near])
+        inner = chosen[np.concatenate(near).astype(np.int64)]
+        within = (lows[outer] < lows[inner]).all(axis=1)
+        within &= (highs[outer] > highs[inner]).all(axis=1)
+        for one, other in np.stack([outer, inner], axis=1)[within].tolist():
+            around[other].append(one)
+            inside[one].append(other)
     return around, inside

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.frames import cross
+
 
 def winding_number(
     point: NDArray[np.float64],
@@ -30,7 +32,7 @@ def winding_number(
     """
     a, b, c = np.moveaxis(corners - point, 1, 0)
     la, lb, lc = (np.linalg.norm(edge, axis=1) for edge in (a, b, c))
-    above = np.einsum("td,td->t", a, np.cross(b, c))
+    above = np.einsum("td,td->t", a, cross(b, c))
     below = (
         la * lb * lc
         + (a * b).sum(axis=1) * lc

@@ -13,15 +13,17 @@ import queue
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
 from hashlib import blake2b
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from ..errors import DecompositionError
 from .memo import Memo
-from .progress import Progress, Steps, T, run
+from .progress import Progress, Steps, T, mapped, run
 
 # More processes hardly help: one process writes what the others compute.
 _MOST = 8
@@ -52,7 +54,10 @@ __import__(name + ".core.steps.processes", fromlist=["serve"]).serve()
 
 
 def serve() -> None:
-    """Answer the calls that come from standard input, until it ends."""
+    """Answer the calls that come from standard input, until it ends.
+
+    Before each answer come reports of progress, as the calls give them.
+    """
     calls, answers = sys.stdin.buffer, sys.stdout.buffer
     sys.stdout = sys.stderr  # nothing else is to be written among the answers
     with contextlib.suppress(EOFError, BrokenPipeError):
@@ -60,11 +65,30 @@ def serve() -> None:
             compute, arguments = pickle.load(calls)
             answer: tuple[Any, str | None]
             try:
-                answer = run(compute(*arguments)), None
+                answer = run(_reported(compute(*arguments), answers)), None
             except DecompositionError as error:
                 answer = None, str(error)
-            pickle.dump(answer, answers, pickle.HIGHEST_PROTOCOL)
-            answers.flush()
+            _send(answer, answers)
+
+
+def _reported(steps: Steps[T], answers: IO[bytes]) -> Steps[T]:
+    """Run `steps` and send their progress now and then."""
+    sent = time.monotonic()
+
+    def report(progress: Progress) -> Progress:
+        nonlocal sent
+        if time.monotonic() > sent + _SECONDS:
+            _send(progress, answers)
+            sent = time.monotonic()
+        return progress
+
+    return mapped(steps, report)
+
+
+def _send(value: Any, answers: IO[bytes]) -> None:
+    """Send a value to the process that asks."""
+    pickle.dump(value, answers, pickle.HIGHEST_PROTOCOL)
+    answers.flush()
 
 
 def available() -> int:
@@ -72,6 +96,22 @@ def available() -> int:
     if hasattr(os, "sched_getaffinity"):  # not on macOS and Windows
         return min(len(os.sched_getaffinity(0)), _MOST)
     return min(os.cpu_count() or 1, _MOST)
+
+
+@dataclass
+class _Call:
+    """A computation in another process.
+
+    Attributes
+    ----------
+    progress : Progress
+        The latest report.
+    answer : Future
+        Of its value and its error, or None without an answer.
+    """
+
+    progress: Progress
+    answer: Future[Any] = field(init=False)
 
 
 class Processes:
@@ -91,7 +131,7 @@ class Processes:
         self._starting = threading.Lock()
         self._started: list[subprocess.Popen[bytes]] = []
         self._left = count  # how many may still be started
-        self._answers: Memo[bytes, Future[Any]] = Memo(_ANSWERS)
+        self._calls: Memo[bytes, _Call] = Memo(_ANSWERS)
         self._idle: queue.SimpleQueue[subprocess.Popen[bytes]] = queue.SimpleQueue()
 
     def steps(
@@ -104,7 +144,7 @@ class Processes:
         Parameters
         ----------
         stage : str
-            What the steps report while they wait, in words for the user.
+            What the steps report until the process does, in words for the user.
         compute : callable
             A function of a module in the core; returns steps.
         *arguments
@@ -120,10 +160,10 @@ class Processes:
             By the steps, if the computation raises it.
         """
         call = pickle.dumps((compute, arguments), pickle.HIGHEST_PROTOCOL)
-        answer = self._answers.recall(
-            blake2b(call).digest(), lambda: self._threads.submit(self._answer, call)
+        begun = self._calls.recall(
+            blake2b(call).digest(), lambda: self._begin(call, stage)
         )
-        return _waiting(answer, stage, compute, arguments)
+        return _waiting(begun, compute, arguments)
 
     def close(self) -> None:
         """End all processes, whatever they do."""
@@ -135,15 +175,22 @@ class Processes:
         for process in self._started:
             process.communicate()
 
-    def _answer(self, call: bytes) -> Any:
+    def _begin(self, pickled: bytes, stage: str) -> _Call:
+        """Begin a computation."""
+        call = _Call(Progress(stage, 0.0))
+        call.answer = self._threads.submit(self._answer, pickled, call)
+        return call
+
+    def _answer(self, pickled: bytes, call: _Call) -> Any:
         """Return the value and the error of a computation, None without an answer."""
         try:
             process = self._free()
             assert process.stdin is not None
             assert process.stdout is not None
-            process.stdin.write(call)
+            process.stdin.write(pickled)
             process.stdin.flush()
-            answer = pickle.load(process.stdout)
+            while isinstance(answer := pickle.load(process.stdout), Progress):
+                call.progress = answer
         except (OSError, EOFError, queue.Empty, pickle.UnpicklingError):
             return None
         self._idle.put(process)
@@ -179,17 +226,16 @@ def _start() -> subprocess.Popen[bytes]:
 
 
 def _waiting(
-    answer: Future[Any],
-    stage: str,
+    call: _Call,
     compute: Callable[..., Steps[T]],
     arguments: tuple[Any, ...],
 ) -> Steps[T]:
     """Wait for the answer to a call; compute here if there is none."""
-    while not answer.done():
-        yield Progress(stage, 0.0)
+    while not call.answer.done():
+        yield call.progress
         with contextlib.suppress(TimeoutError):
-            answer.exception(_SECONDS)
-    found = answer.result()
+            call.answer.exception(_SECONDS)
+    found = call.answer.result()
     if found is None:
         return (yield from compute(*arguments))
     value, error = found

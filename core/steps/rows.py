@@ -1,4 +1,4 @@
-"""Works through the rows of large arrays, a step's worth at a time."""
+"""Rows of large arrays: worked through a step's worth at a time, found by number."""
 
 from __future__ import annotations
 
@@ -73,3 +73,28 @@ def ranges(
     """
     owners = np.repeat(np.arange(len(counts)), counts)
     return owners, np.arange(len(owners)) - (np.cumsum(counts) - counts)[owners]
+
+
+class RowsByNumber:
+    """Finds the rows that have each number, by sorting all of them once.
+
+    Parameters
+    ----------
+    numbers : (N,) int
+        The number of each row; rows below 0 have none.
+    n_numbers : int
+    """
+
+    def __init__(self, numbers: NDArray[np.int64], n_numbers: int) -> None:
+        self._order = np.argsort(numbers, kind="stable")
+        self._begins = np.searchsorted(numbers[self._order], np.arange(n_numbers + 1))
+
+    def of(self, number: int) -> NDArray[np.int64]:
+        """Return the rows with a number, ascending.
+
+        Parameters
+        ----------
+        number : int
+            In 0…`n_numbers` − 1.
+        """
+        return self._order[self._begins[number] : self._begins[number + 1]]

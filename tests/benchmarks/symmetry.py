@@ -19,6 +19,7 @@ from weak_convex_decomposition.core.geometry.symmetry import (
     places,
     plane_between,
 )
+from weak_convex_decomposition.core.steps.progress import run
 
 # Points that stand for the surface, and every how manieth is mirrored.
 POINTS = 40_000
@@ -60,7 +61,7 @@ class Mirror:
 
 def find_mirror(mesh: TriangleMesh) -> Mirror | None:
     """Return the best mirror plane's two sides, or None for a shape without one."""
-    mesh = mesh.normalized()
+    mesh = run(mesh.normalized_in_steps())
     samples = sample_surface(mesh, POINTS, np.random.default_rng(0))
     reflector = _Reflector(samples)
     found = [

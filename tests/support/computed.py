@@ -39,6 +39,11 @@ def build_hulls(shape, parameters, labels=None, seed=0):
     return run(build_hulls_in_steps(shape, parameters, cache, labels, seed))
 
 
+def normalized(mesh):
+    """Return a mesh with a bounding box of diagonal 1."""
+    return run(mesh.normalized_in_steps())
+
+
 def prepare(shape, make_caster=BruteCaster):
     """Return a shape made ready."""
     return run(prepare_in_steps(shape, make_caster))

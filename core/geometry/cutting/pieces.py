@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...steps.rows import RowsByNumber
+from ..frames import cross
 from ..mesh import TriangleMesh
-from .refined import RefinedMesh, RowsByNumber
+from .refined import RefinedMesh
 
 # Labels that cover equal areas of a face, but for rounding.
 _EQUAL = 1e-3
@@ -83,12 +85,12 @@ def _insideness(
     """
     origin, one, other = np.moveaxis(corners, 1, 0)
     u, v = one - origin, other - origin
-    normal = np.cross(u, v)
+    normal = cross(u, v)
     squared = (normal**2).sum(axis=1)
     away = points[:, None] - origin
     with np.errstate(divide="ignore", invalid="ignore"):
-        second = (np.cross(away, v) * normal).sum(axis=2) / squared
-        third = (np.cross(u, away) * normal).sum(axis=2) / squared
+        second = (cross(away, v) * normal).sum(axis=2) / squared
+        third = (cross(away, -u) * normal).sum(axis=2) / squared
     least = np.minimum(np.minimum(second, third), 1 - second - third)
     return np.where(squared > 0, least, -np.inf)
 

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...steps.progress import run
+from ...steps.rows import RowsByNumber
 from ..frames import unit
 from ..graphs.components import components_at_once
 from ..graphs.edges import ends_of_sides, shared_edges, sort_edges
 from ..graphs.face_graph import face_graph
-from .refined import Cut, RefinedMesh, RowsByNumber
+from .refined import Cut, RefinedMesh
 
 # Weight of a piece of the seam along a concave crease, where the seam surely belongs.
 _CREASE_WEIGHT = 25.0
@@ -104,7 +105,7 @@ def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
     """Return the edges between parts, with the connected seam each belongs to."""
     mesh = refined.mesh
     edges = run(sort_edges(mesh))
-    neighbors, sides = shared_edges(mesh, edges)
+    neighbors, sides = run(shared_edges(mesh, edges))
     one, other = neighbors.T
     kept = labels[one] != labels[other]
     one, other, sides = one[kept], other[kept], sides[kept]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..frames import cross
+from ..frames import area_vectors, cross
 
 # A triangle of less area, in squared diagonals of its polygon's bounding box, counts
 # as flat.
@@ -154,8 +154,7 @@ class _Planes(NamedTuple):
 
         An area is negative if the triangle faces against its polygon, 0 if it is flat.
         """
-        a, b, c = (corners[:, :, number] for number in range(3))
-        areas = np.einsum("ftx,fx->ft", cross(b - a, c - a), self.normals[rows])
+        areas = np.einsum("ftx,fx->ft", area_vectors(corners), self.normals[rows])
         areas[np.abs(areas) <= self.flat[rows, None]] = 0.0
         return areas
 

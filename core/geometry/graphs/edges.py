@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ...steps.progress import Progress, Steps, run, within
+from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
 from ..mesh import TriangleMesh
 
@@ -89,13 +89,6 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
 
 
 def shared_edges(
-    mesh: TriangleMesh, edges: Edges
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return at once what `shared_edges_in_steps` returns."""
-    return run(shared_edges_in_steps(mesh, edges))
-
-
-def shared_edges_in_steps(
     mesh: TriangleMesh, edges: Edges
 ) -> Steps[tuple[NDArray[np.int32], NDArray[np.int32]]]:
     """Return which polygons have a common edge.

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...steps.progress import Progress, Steps, within
-from ..cost import cost_of_sides, least_cost_of_sides
+from ..cost import cost_of_sides
 from ..enclosing.shapes import roughly_around
 from ..joining import Joints, join_pieces, part_again
 from ..piece import Piece
@@ -166,14 +166,15 @@ def _cheapest(
         if all(
             len(side.points) and (side.on_surface.any() or not firm) for side in sides
         ):
-            bound = least_cost_of_sides(*sides, solid_volume)
+            least_errors = [side.least_error for side in sides]
+            bound = cost_of_sides(sides, least_errors, solid_volume)
             cuts.append((bound, len(cuts), sides))
     best, least = None, (np.inf, 0)
     for bound, turn, sides in sorted(cuts):
         if bound > least[0]:
             break
         yield Progress("Cutting", 1.0)
-        cost = cost_of_sides(*sides, solid_volume)
+        cost = cost_of_sides(sides, [side.error for side in sides], solid_volume)
         if (cost, turn) < least:
             best, least = sides, (cost, turn)
     return best

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import cross, distinct_directions, principal_axes, unit
+from ...geometry.frames import area_vectors, distinct_directions, principal_axes, unit
 from .cell import Cell
 
 # Two directions count as the same above this cosine between them.
@@ -51,8 +51,9 @@ def _flat_normals(cell: Cell) -> tuple[NDArray[np.float64], float]:
 
     The first has most of the surface. Parallel faces count together.
     """
-    a, b, c = cell.solid.corners[cell.triangles[cell.on_surface]].swapaxes(0, 1)
-    normals = unit(cross(b - a, c - a))  # those of all triangles may take long
+    # Those of all triangles may take long.
+    corners = cell.solid.corners[cell.triangles[cell.on_surface]]
+    normals = unit(area_vectors(corners))
     found, counts = distinct_directions(normals, _NORMAL_DIGITS)
     large = counts >= _LARGE_FACE * len(normals)
     flat = found[large][np.argsort(-counts[large], kind="stable")]

@@ -10,24 +10,14 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
-from ..convex_hull import directions
+from ...geometry.directions import sphere_directions
+from ..convex_hull import convex_hull
 
 # E unit vectors; extreme points are found along these and their opposites.
-_DIRECTIONS = directions(96)[:48]
-
-
-def _triangles() -> NDArray[np.int64]:
-    """Return triangles of neighboring directions, (F, 3), counter-clockwise outside."""
-    both = np.concatenate([_DIRECTIONS, -_DIRECTIONS])
-    triangles = ConvexHull(both).simplices.astype(np.int64)
-    inwards = np.linalg.det(both[triangles]) < 0
-    triangles[inwards] = triangles[inwards, ::-1]
-    return triangles
-
-
-_TRIANGLES = _triangles()
+_DIRECTIONS = sphere_directions(96)[:48]
+# Triangles of neighboring directions, (F, 3), counter-clockwise seen from outside.
+_TRIANGLES = convex_hull(np.concatenate([_DIRECTIONS, -_DIRECTIONS]), 1.0).triangles
 
 
 def reaches_of(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,8 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-from ...geometry.frames import distinct_directions, frame_of, frames, principal_axes
+from ...geometry.frames import (
+    area_vectors,
+    cross,
+    distinct_directions,
+    frame_of,
+    frames,
+    principal_axes,
+)
 from ...geometry.primitives import CollisionShape, Hull
+from ...steps.rows import blocks
 
 # Number of faces that a box may be flush with, the largest ones; and while cuts are
 # compared.
@@ -86,8 +94,7 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
 
 def _normals_of_largest(hull: Hull, n_faces: int) -> NDArray[np.float64]:
     """Return the normals of the largest faces of a hull, in its order, (N, 3)."""
-    a, b, c = np.moveaxis(hull.corners, 1, 0)
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    areas = np.linalg.norm(area_vectors(hull.corners), axis=1)
     largest = np.argsort(-np.round(areas, DIGITS), kind="stable")[:n_faces]
     return hull.planes[np.sort(largest), :3]
 
@@ -103,10 +110,8 @@ def _least_areas(
     """
     near = np.pi / 4 / _TURNS
     turns = near * (1 + 2 * np.arange(_TURNS))
-    step = max(_AT_ONCE // (2 * _TURNS * len(points)), 1)
     least = np.empty(len(normals))
-    for start in range(0, len(normals), step):
-        rows = slice(start, start + step)
+    for rows in blocks(len(normals), _AT_ONCE // (2 * _TURNS * len(points))):
         tangents, bitangents = np.stack(frames(normals[rows]))[:, :, None]
         cos, sin = np.cos(turns)[:, None], np.sin(turns)[:, None]
         axes = np.stack(
@@ -138,4 +143,4 @@ def _rectangle_axes(
     across = np.stack([-edges[:, 1], edges[:, 0]], axis=1) @ outline.T
     edge = edges[(np.ptp(along, axis=1) * np.ptp(across, axis=1)).argmin()]
     first = edge @ frame[:2]
-    return np.stack([first, np.cross(frame[2], first), frame[2]])
+    return np.stack([first, cross(frame[2], first), frame[2]])

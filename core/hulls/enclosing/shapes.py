@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,58 +13,6 @@ from .boxes import DIGITS, box_around, rough_box
 _ROUNDS = 1000
 # Rounds while cuts are compared, when a hundredth is enough.
 _FEW_ROUNDS = 60
-
-
-def sphere_around(hull: Hull) -> CollisionShape:
-    """Return the smallest sphere around a hull, to a thousandth of its radius.
-
-    Parameters
-    ----------
-    hull : Hull
-
-    Returns
-    -------
-    CollisionShape
-    """
-    return _sphere(hull, _ROUNDS)
-
-
-def cylinder_around(hull: Hull) -> CollisionShape:
-    """Return the smallest of six cylinders around a hull.
-
-    Parameters
-    ----------
-    hull : Hull
-        The axes tried are those of its box and the principal axes of its vertices.
-
-    Returns
-    -------
-    CollisionShape
-    """
-    return _best_along(hull, _cylinder)
-
-
-def capsule_around(hull: Hull) -> CollisionShape:
-    """Return the smallest of six capsules around a hull.
-
-    Parameters
-    ----------
-    hull : Hull
-        The axes tried are those of its box and the principal axes of its vertices.
-
-    Returns
-    -------
-    CollisionShape
-    """
-    return _best_along(hull, _capsule)
-
-
-_EXACT = {
-    "BOX": box_around,
-    "SPHERE": sphere_around,
-    "CYLINDER": cylinder_around,
-    "CAPSULE": capsule_around,
-}
 
 
 def around(hull: Hull, kind: str) -> CollisionShape:
@@ -81,8 +27,17 @@ def around(hull: Hull, kind: str) -> CollisionShape:
     Returns
     -------
     CollisionShape
+        Of cylinders and capsules, the smallest along the axes of the box and the
+        principal axes of the vertices.
     """
-    return _EXACT[kind](hull)
+    if kind == "SPHERE":
+        return _sphere(hull, _ROUNDS)
+    if kind == "BOX":
+        return box_around(hull)
+    along = _cylinder if kind == "CYLINDER" else _capsule
+    # Only the best is made exactly.
+    rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
+    return along(hull, _smallest(rough).axes[2], _ROUNDS)
 
 
 def roughly_around(hull: Hull, kind: str) -> CollisionShape:
@@ -106,15 +61,6 @@ def roughly_around(hull: Hull, kind: str) -> CollisionShape:
     along = _cylinder if kind == "CYLINDER" else _capsule
     shapes = [along(hull, axis, _FEW_ROUNDS) for axis in box.axes]
     return _smallest(shapes)
-
-
-def _best_along(
-    hull: Hull,
-    along: Callable[[Hull, NDArray[np.float64], int], CollisionShape],
-) -> CollisionShape:
-    """Return the smallest shape along an axis; only the best is made exactly."""
-    rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
-    return along(hull, _smallest(rough).axes[2], _ROUNDS)
 
 
 def _smallest(shapes: list[CollisionShape]) -> CollisionShape:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.frames import cross_2d
+from ...geometry.welding import distinct_points
 from ...steps.rows import ranges
 from .line_crossings import as_seen
 
@@ -189,7 +190,7 @@ def _open_edges(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
     They run that way, and come as often as it is more often.
     """
-    places, rows = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    places, rows = distinct_points(corners.reshape(-1, 3))
     tails = rows.reshape(-1, 3)
     heads = tails[:, [1, 2, 0]]
     lower, higher = np.minimum(tails, heads), np.maximum(tails, heads)

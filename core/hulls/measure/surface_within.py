@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ...geometry.frames import HEIGHTS_AT_ONCE, heights_above
 from ...geometry.primitives import CollisionShape
+from ...steps.rows import blocks
 from ..convex_hull import LEFT_OUT
 from ..outline import outline_of
 from ..solid import Solid
@@ -55,9 +56,7 @@ def _farthest_above(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return the height of points (N, 3) above their highest plane, and which it is."""
     height, plane = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
-    step = max(HEIGHTS_AT_ONCE // len(planes), 1)
-    for start in range(0, len(points), step):
-        some = slice(start, start + step)
+    for some in blocks(len(points), HEIGHTS_AT_ONCE // len(planes)):
         heights = heights_above(planes, points[some])
         plane[some], height[some] = heights.argmax(axis=1), heights.max(axis=1)
     return height, plane
@@ -99,9 +98,7 @@ def _above(
     """
     n = len(corners)
     lowest, above = np.empty(n), np.empty((n, 3))
-    step = max(HEIGHTS_AT_ONCE // (3 * len(planes)), 1)
-    for start in range(0, n, step):
-        some = slice(start, start + step)
+    for some in blocks(n, HEIGHTS_AT_ONCE // (3 * len(planes))):
         heights = corners[some] @ planes[:, :3].T + planes[:, 3]
         lowest[some] = heights.min(axis=1).max(axis=1)
         plane = heights.max(axis=1).argmax(axis=1)

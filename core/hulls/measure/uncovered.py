@@ -6,6 +6,7 @@ import numpy as np
 
 from ...geometry.frames import heights_above
 from ...geometry.primitives import CollisionShape, Hull
+from ...steps.rows import blocks
 from .fragments import distances_to
 
 # Largest number of point-triangle pairs at once.
@@ -31,9 +32,8 @@ def uncovered(shape: CollisionShape, hull: Hull) -> float:
         return float(max(heights.max(), 0.0))
     points = hull.vertices[heights > 0]
     corners, farthest = shape.hull.corners, 0.0
-    step = max(_MOST_PAIRS // len(corners), 1)
-    for start in range(0, len(points), step):
-        some = points[start : start + step]
+    for block in blocks(len(points), _MOST_PAIRS // len(corners)):
+        some = points[block]
         # The nearest point of a convex shape is on a face that is seen from outside.
         rows, faces = np.nonzero(heights_above(shape.hull.planes, some) > 0)
         nearest = np.full(len(some), np.inf)

@@ -14,10 +14,12 @@ from scipy.sparse.csgraph import dijkstra
 from ...geometry.graphs.face_graph import FaceGraph
 
 
-def roads(graph: FaceGraph, pairs: NDArray[np.integer[Any]]) -> sparse.csr_array:
+def roads(
+    graph: FaceGraph, pairs: NDArray[np.integer[Any]], least: float = 0.0
+) -> sparse.csr_array:
     """Return the ways (P, P) between the centers of some neighbors (E, 2)."""
     ways = np.linalg.norm(np.subtract(*graph.centers[pairs.T]), axis=1)
-    ways = np.maximum(ways, np.finfo(float).tiny)  # 0 would mean no way
+    ways = np.maximum(ways, least or np.finfo(float).tiny)  # 0 would mean no way
     size = graph.n_polygons, graph.n_polygons
     return sparse.csr_array((ways, tuple(pairs.T)), shape=size)
 

@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
-from ...parameters.parts import Parameters
 from ...steps.progress import Steps, within, within_turn
 from ..part_count import PartCountSearch, Search
 from ..part_count_given import given
 from ..part_psi import count_parts
-from ..partition import Partitioner
 from .limbs import LimbMerger
 
 
-def with_bends_kept(
-    search: PartCountSearch, partitioner: Partitioner, parameters: Parameters
-) -> Steps[Search]:
+def with_bends_kept(search: PartCountSearch) -> Steps[Search]:
     """Search for parts of which none ends at a mere bend.
 
     Parameters
     ----------
     search : PartCountSearch
-    partitioner : Partitioner
-        That of the search.
-    parameters : Parameters
-        If they give a number of parts, more are found first, so that as many are left.
-        If no number up to `max_parts` leaves as many, bends are cut.
+        If its parameters give a number of parts, more are found first, so that as many
+        are left. If no number up to `max_parts` leaves as many, bends are cut.
 
     Returns
     -------
     Steps of Search
         `best_k` is the number of parts that are left of those that the search chooses.
     """
-    merger, n_parts = LimbMerger(partitioner), parameters.parts
+    merger, parameters = LimbMerger(search.partitioner), search.partitioner.parameters
+    n_parts = parameters.parts
     found = yield from within(search.best(), 0.0, 0.5)
     merged = yield from merger.merge(found.seams.parts)
     best_k = left = count_parts(merged)

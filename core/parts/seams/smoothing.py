@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps, within
+from ..details.surface import roads
 from ..part_psi import count_parts
 from .graph_cut import SWEEPS, cut_seams
 
@@ -71,14 +71,8 @@ def _costs(
     """
     yield Progress("Seams", 0.0)
     n_parts, may_leave = len(free), free[labels]
-    one, other = graph.neighbors.T
-    steps = np.linalg.norm(graph.centers[one] - graph.centers[other], axis=1)
     unit = _UNIT * float(np.sqrt(graph.areas.sum()))
-    # Neighbors with equal centers still need an edge: its length must not be 0.
-    ways = sparse.coo_array(
-        (np.maximum(steps, 1e-6 * unit), (one, other)),
-        shape=(graph.n_polygons,) * 2,
-    ).tocsr()
+    ways = roads(graph, graph.neighbors, 1e-6 * unit)
     costs = np.full((graph.n_polygons, n_parts), _NEVER)
     rim = np.flatnonzero(nodes_at_seams(graph.neighbors, labels))
     depths = np.full(graph.n_polygons, 4 * unit)

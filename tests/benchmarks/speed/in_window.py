@@ -12,7 +12,8 @@ are those until its result is drawn, too. The first ratio is of all seconds to t
 the second of our own to the script's. Rows with ratios are medians of three runs.
 
 Words after the subject: `at-once` starts the first run before any library is loaded;
-`ten-million` runs on a ring of ten million triangles, which is drawn as its bounds.
+`ten-million` runs on a ring of ten million triangles, which is drawn as its bounds;
+`hulls` builds hulls in place of parts, once for each model.
 """
 
 import resource
@@ -106,12 +107,12 @@ def bare(hands):
     yield 1.0
 
 
-def in_slices(hands, pulse):
-    """Press the button, as it were; return the first columns of a row."""
+def in_slices(hands, pulse, operator=bpy.ops.wcd.decompose):
+    """Press a button, as it were; return the first columns of a row."""
     yield from bare(hands)
     pulse.restart()
     with hands.context():
-        bpy.ops.wcd.decompose("INVOKE_DEFAULT", True)
+        operator("INVOKE_DEFAULT", True)
     yield lambda: pulse.seconds
     return pulse.figures(pulse.seconds)
 
@@ -207,4 +208,7 @@ def steps(hands):
     for name, subdivisions, cut in MODELS:
         model(hands, subdivisions, cut)
         yield 2.0
-        yield from beside_script(hands, pulse, name)
+        if "hulls" in sys.argv:
+            row(name, (yield from in_slices(hands, pulse, bpy.ops.wcd.build_hulls)))
+        else:
+            yield from beside_script(hands, pulse, name)

@@ -3,12 +3,10 @@ import pytest
 import shapes
 from weak_convex_decomposition.core.geometry.cutting.pieces import labels_of_pieces
 from weak_convex_decomposition.core.geometry.cutting.planes import find_cuts
-from weak_convex_decomposition.core.geometry.cutting.refined import (
-    RowsByNumber,
-    refined,
-)
+from weak_convex_decomposition.core.geometry.cutting.refined import refined
 from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.steps.progress import run
+from weak_convex_decomposition.core.steps.rows import RowsByNumber
 
 
 @pytest.fixture(scope="module")

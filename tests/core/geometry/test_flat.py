@@ -7,7 +7,7 @@ import flats
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of, lines_of_sight, measure
+from computed import decompose, graph_of, lines_of_sight, measure, normalized
 from weak_convex_decomposition.core.geometry.cutting.triangulation import triangulate
 from weak_convex_decomposition.core.geometry.flat import flat_mesh
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
@@ -32,7 +32,7 @@ def length(outline):
 
 def wall_length(mesh):
     """Return the length of the outline found, in the units of the mesh."""
-    walls = flat_mesh(mesh.normalized()).walls
+    walls = flat_mesh(normalized(mesh)).walls
     feet = walls.vertices[walls.triangles[::2, :2]]
     return np.linalg.norm(feet[:, 1] - feet[:, 0], axis=1).sum() * mesh.diagonal
 
@@ -45,7 +45,7 @@ def test_walls_stand_along_outlines_and_holes():
 
 @pytest.mark.parametrize("rotation", [np.eye(3), np.diag([1, -1, -1]), UPRIGHT])
 def test_walls_face_away_from_the_faces_in_the_plane(rotation):
-    mesh = changes.moved(RING, 7.0, rotation, (20, 3, 5)).normalized()
+    mesh = normalized(changes.moved(RING, 7.0, rotation, (20, 3, 5)))
     flat = flat_mesh(mesh)
     assert abs(flat.normal @ rotation[:, 2]) == pytest.approx(1)
     centers = flat.walls.vertices[flat.walls.triangles].mean(axis=1)
@@ -56,9 +56,9 @@ def test_walls_face_away_from_the_faces_in_the_plane(rotation):
 
 
 def test_each_wall_belongs_to_the_face_at_its_foot():
-    walls = flat_mesh(HAND.normalized()).walls
+    walls = flat_mesh(normalized(HAND)).walls
     centers = walls.vertices[walls.triangles].mean(axis=1)
-    faces = HAND.normalized().vertices[HAND.triangles[walls.polygons]]
+    faces = normalized(HAND).vertices[HAND.triangles[walls.polygons]]
     away = np.linalg.norm(faces - centers[:, None], axis=2)
     assert np.sort(away, axis=1)[:, :2].sum(axis=1).max() < 0.12  # both ends of it
 
@@ -98,21 +98,21 @@ def test_what_is_not_in_one_plane_is_not_flat():
     for bend in (0.001, 0.01, 0.1):
         vertices = HAND.vertices.copy()
         vertices[:, 2] = bend * vertices[:, 0] ** 2
-        assert flat_mesh(replace(HAND, vertices=vertices).normalized()) is None
-    assert flat_mesh(shapes.box((0, 0, 0), (1, 1, 0.001)).normalized()) is None
-    assert flat_mesh(shapes.l_shape().normalized()) is None
+        assert flat_mesh(normalized(replace(HAND, vertices=vertices))) is None
+    assert flat_mesh(normalized(shapes.box((0, 0, 0), (1, 1, 0.001)))) is None
+    assert flat_mesh(normalized(shapes.l_shape())) is None
 
 
 def test_single_precision_far_from_the_origin_is_flat():
     far = changes.moved(HAND, rotation=UPRIGHT, offset=(300, 200, 100))
     rounded = far.vertices.astype(np.float32)
-    assert flat_mesh(replace(far, vertices=rounded).normalized()) is not None
+    assert flat_mesh(normalized(replace(far, vertices=rounded))) is not None
 
 
 def test_a_plate_without_thickness_is_flat():
     plate = shapes.box((0, 0, 0), (1, 1, 1e-5), divisions=4)
     found = split_up(plate)
-    assert flat_mesh(plate.normalized()) is not None
+    assert flat_mesh(normalized(plate)) is not None
     assert found.psi_before == 1
     assert found.areas.sum() == pytest.approx(2, rel=1e-3)
 
@@ -207,11 +207,11 @@ def test_edges_between_concave_corners_are_creases(more):
         np.array(faces + more),
         np.array([*range(6), *[4 for _ in more]]),
     )
-    graph = run(flat_mesh(mesh.normalized()).graph())
+    graph = run(flat_mesh(normalized(mesh)).graph())
     creased = np.unique(np.sort(graph.neighbors[graph.bends > 0]), axis=0)
     assert creased.tolist() == [[2, 4]]
     assert graph.bends.max() == pytest.approx(np.pi / 2)
-    assert not run(flat_mesh(RING.normalized()).graph()).bends.any()
+    assert not run(flat_mesh(normalized(RING)).graph()).bends.any()
 
 
 def test_a_face_that_crosses_itself_lies_in_the_plane():

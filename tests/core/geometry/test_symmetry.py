@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of
+from computed import decompose, graph_of, normalized
 from scipy.spatial.transform import Rotation
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.symmetry import (
@@ -47,7 +47,7 @@ def sides_of(surface):
 @pytest.mark.parametrize("turn", [lambda mesh: mesh, turned])
 def test_both_sides_of_a_symmetric_shape_are_found_however_it_lies(turn):
     mesh = stand()
-    surface = graph_of(turn(mesh).normalized())
+    surface = graph_of(normalized(turn(mesh)))
     upright = graph_of(mesh).centers
     one, other = sides_of(surface)
     beside = np.flatnonzero(abs(upright[:, 0] - 4.5) > 1e-6)
@@ -58,7 +58,7 @@ def test_both_sides_of_a_symmetric_shape_are_found_however_it_lies(turn):
 
 
 def test_a_shape_without_a_mirror_plane_has_no_sides():
-    assert sides_of(graph_of(tripod().normalized())) == ()
+    assert sides_of(graph_of(normalized(tripod()))) == ()
 
 
 def test_labels_are_copied_and_parts_across_the_plane_go_on():
@@ -81,7 +81,7 @@ def test_parts_of_a_symmetric_shape_are_symmetric(turn, seed):
     mesh = turn(stand())
     parameters = Parameters(samples=150, max_parts=6, containers="HOLLOW", seed=seed)
     found = decompose(mesh, parameters)
-    side, _ = sides_of(graph_of(mesh.normalized()))
+    side, _ = sides_of(graph_of(normalized(mesh)))
     ends = found.labels[side.sources], found.labels[side.images]
     images = set(zip(*(end.tolist() for end in ends), strict=True))
     # Each part has one image, another one or itself.

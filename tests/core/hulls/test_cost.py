@@ -8,7 +8,6 @@ from weak_convex_decomposition.core.hulls.cost import (
     cost_of_joint,
     cost_of_sides,
     least_cost,
-    least_cost_of_sides,
 )
 from weak_convex_decomposition.core.hulls.cutting.cell import cut, whole
 from weak_convex_decomposition.core.hulls.fitting import Fit
@@ -34,8 +33,10 @@ def test_bounds_are_below_what_they_bound(sides):
         joint = join(one, other)
         cost = cost_of_joint(joint, joint.error, volume)
         assert 0 <= least_cost(one, other, volume) <= cost
-        both = cost_of_sides(one, other, volume)
-        assert 0 <= least_cost_of_sides(one, other, volume) <= both
+        pair = one, other
+        both = cost_of_sides(pair, [side.error for side in pair], volume)
+        least = cost_of_sides(pair, [side.least_error for side in pair], volume)
+        assert 0 <= least <= both
 
 
 def test_what_hulls_add_costs_its_share_of_the_solid(sides):
@@ -48,17 +49,17 @@ def test_what_hulls_add_costs_its_share_of_the_solid(sides):
         dearer -= cost_of_joint(joint, 0.1, volume)
         assert dearer == pytest.approx(joint.added_volume / volume, abs=1e-5)
         added = max(one.added_volume, 0) + max(other.added_volume, 0)
-        dearer = cost_of_sides(one, other, volume / 2) - cost_of_sides(
-            one, other, volume
-        )
+        dearer = cost_of_sides((one, other), (0.1, 0.2), volume / 2)
+        dearer -= cost_of_sides((one, other), (0.1, 0.2), volume)
         assert dearer == pytest.approx(added / volume, abs=1e-5)
 
 
 def test_where_the_solid_has_no_volume_errors_and_cuts_alone_cost(sides):
     (one, other), *_ = sides[0]
-    errors = np.linalg.norm((one.error, other.error), 1.75)
+    errors = one.error, other.error
     cuts = 0.1 * (one.cut_share + other.cut_share)
-    assert cost_of_sides(one, other, 0.0) == pytest.approx(errors + cuts, abs=1e-6)
+    cost = np.linalg.norm(errors, 1.75) + cuts
+    assert cost_of_sides((one, other), errors, 0.0) == pytest.approx(cost, abs=1e-6)
 
 
 def test_a_cut_across_the_longest_side_is_the_smallest():

@@ -7,8 +7,8 @@ from brute_caster import BruteCaster
 from computed import build_hulls
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
-from weak_convex_decomposition.core.hulls.measure.one_shape import refit_in_steps
 from weak_convex_decomposition.core.hulls.outline import faces_of
+from weak_convex_decomposition.core.hulls.refit import refit_in_steps
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run
 

@@ -11,7 +11,7 @@ from weak_convex_decomposition.core.steps.progress import run
 
 
 def normalized(mesh):
-    return graph_of(mesh.normalized())
+    return graph_of(run(mesh.normalized_in_steps()))
 
 
 def seam(surface, labels):

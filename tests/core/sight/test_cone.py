@@ -5,7 +5,7 @@ import pytest
 import shapes
 from computed import decompose, lines_of_sight, prepare
 from weak_convex_decomposition import Parameters
-from weak_convex_decomposition.core.geometry.frames import (
+from weak_convex_decomposition.core.geometry.directions import (
     cone_directions,
     fan_directions,
 )

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import shapes
-from computed import apart, marcher_of
+from computed import apart, marcher_of, normalized
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
 from weak_convex_decomposition.core.sight.all_pairs import see_all_pairs
 from weak_convex_decomposition.core.sight.lines import faces_inside, see_pairs
@@ -14,7 +14,7 @@ BOXES_AS_L = shapes.joined(
 
 
 def look_at(mesh, n_samples=60, seed=0):
-    mesh = mesh.normalized()
+    mesh = normalized(mesh)
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
     scene = marcher_of(mesh)
     return scene, samples, run(viewpoints(scene, samples))
@@ -81,7 +81,7 @@ def oracle(mesh, positions):
 def test_lines_of_sight_agree_with_a_naive_oracle(mesh):
     scene, samples, views = look_at(mesh, 30)
     los = run(see_all_pairs(scene, samples, views)).visible > 0
-    expected = oracle(mesh.normalized(), views.positions)
+    expected = oracle(normalized(mesh), views.positions)
     towards = samples.positions[None] - samples.positions[:, None]
     heights = (towards * samples.normals[:, None]).sum(axis=2)
     # Viewpoints under the surface look around an edge that their samples do not.

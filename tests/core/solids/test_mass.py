@@ -140,6 +140,16 @@ def test_what_is_open_or_flat_has_none():
     assert mass_of_mesh(two_sided, 1.0) is None
 
 
+@pytest.mark.parametrize("size", [(10, 3e-4, 3e-4), (1, 1, 1e-5)])
+def test_thin_solids_weigh_something(size):
+    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
+    found = mass_of_mesh(moved(shapes.box((0, 0, 0), size), turn), 8000.0)
+    assert found.mass == pytest.approx(8000 * np.prod(size))
+    least, middle, most = np.linalg.eigvalsh(found.inertia)
+    assert least > 0
+    assert least + middle >= most * (1 - 1e-14)
+
+
 @pytest.mark.parametrize("corners", [(0, 0, 1), (0, 0, 0), (0, 1, 0)])
 def test_triangles_without_area_open_no_solid(corners):
     box = shapes.box()

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...cache import ShapeCache
-from ...geometry.mesh import TriangleMesh
-from ...parameters.hulls import HullParameters
-from ...results.hulls import HullDecomposition
-from ...steps.progress import Progress, Steps, within
-from ..convex_hull import THIN, convex_hull
-from ..convex_solid import exact_error, has_volume_of, hull_of_convex
-from ..fitting import fit_for
-from ..solid import solid_of
-from .error_bound import ErrorBound
+from ..cache import ShapeCache
+from ..geometry.mesh import TriangleMesh
+from ..parameters.hulls import HullParameters
+from ..results.hulls import HullDecomposition
+from ..steps.progress import Progress, Steps, within
+from .convex_hull import THIN, convex_hull
+from .convex_solid import exact_error, has_volume_of, hull_of_convex
+from .fitting import fit_for
+from .measure.error_bound import ErrorBound
+from .solid import solid_of
 
 
 def refit_in_steps(
