@@ -129,7 +129,7 @@ bench-shells: psb venv ## Measure shapes of many shells beside the benchmark's m
 
 bench-window: ## Measure seconds and freezes in a window: BLENDER=command that starts it
 	@[ -n "$(BLENDER)" ] || { echo "Name the command that starts Blender: BLENDER=blender"; exit 1; }
-	@for start in idle at-once ten-million; do \
+	@for start in idle at-once ten-million hulls; do \
 	  $(BLENDER) --python tests/window/drive.py -- tests/benchmarks/speed/in_window.py $$start; done
 	@$(BLENDER) --python tests/window/drive.py -- tests/benchmarks/speed/live_in_window.py
 

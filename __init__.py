@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .core.results.parts import Decomposition, Measurement
     from .core.steps.progress import run
     from .operators.bridge.rays.choice import choose_ray_caster
+    from .operators.bridge.read.arrays import stretch
     from .operators.scripting import build_hulls, decompose, measure
 
 __all__ = [
@@ -45,6 +46,7 @@ __all__ = [
     "measure_in_steps",
     "register",
     "run",
+    "stretch",
     "unregister",
 ]
 
@@ -67,6 +69,7 @@ _HOMES = {
     "measure": "operators.scripting",
     "measure_in_steps": "core",
     "run": "core.steps.progress",
+    "stretch": "operators.bridge.read.arrays",
 }
 
 

@@ -16,7 +16,12 @@ from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
 from .bridge.hulls.lost_hulls import hulls_to_clear
 from .bridge.mesh.layers import let_undo_see_all
 from .bridge.parts.erase import clear
-from .bridge.read.carrier import carrier_for, clear_carrier, placed_carrier
+from .bridge.read.carrier import (
+    carrier_for,
+    clear_carrier,
+    placed_carrier,
+    replaced_carriers,
+)
 from .bridge.read.evaluated import read_as
 from .bridge.refusals import CONVERTIBLE, decompose_refusal
 from .bridge.removal_refusals import clear_refusal
@@ -45,10 +50,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
     _needs_seams = False
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return decompose_refusal(obj)
+    _refusal = staticmethod(decompose_refusal)
 
     @classmethod
     def _chosen(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -100,6 +102,8 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         return decompose_unlocked(target, parameters, self.keep_edits, seen)
 
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
+        for earlier in replaced_carriers(obj, value.seen):
+            erase_hulls(earlier)
         carrier = placed_carrier(obj, value.seen)
         value.write(carrier)
         show_colors_as(carrier, self.colors)
@@ -130,13 +134,9 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         edited = [o.name for o in cls._chosen(context) if o and edited_since_cut(o)]
         return ". ".join([cls.bl_description, *map(_cuts_stay, edited)])
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return clear_refusal(obj)
-
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
-        """Return `_refusal`, which looks for hulls once for all objects."""
+        """Return the refusal, which looks for hulls once for all objects."""
         return partial(clear_refusal, has_hulls=hulls_to_clear())
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:

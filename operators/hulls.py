@@ -16,7 +16,7 @@ from .bridge.hulls.looks import look_like
 from .bridge.hulls.one_hull import refit, remove_hull, write_refit
 from .bridge.hulls.rigid_bodies import make_rigid
 from .bridge.read.evaluated import read_as
-from .bridge.refusals import hull_refusal, rigid_refusal
+from .bridge.refusals import hull_refusal, no_hulls_refusal
 from .bridge.removal_refusals import remove_hulls_refusal
 from .bridge.stored.noted_hulls import forget_hulls, note_mesh_of_hulls
 from .bridge.work.computing_hulls import build_hulls_of, hull_summary
@@ -41,10 +41,7 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         " one for each part. For the latter, a mesh without parts is decomposed first"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return hull_refusal(obj)
+    _refusal = staticmethod(hull_refusal)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
@@ -56,7 +53,8 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         self._parameters = hull_parameters_from(self)
         parameters = parameters_from(context.scene.wcd)
         seen = read_as(self.mesh, obj)
-        return build_hulls_of(obj, parameters, self._parameters, seen)
+        rest = self._parameters, seen
+        return build_hulls_of(obj, parameters, *rest, in_window=self._in_window)
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         hulls = write_hulls(obj, value, self._parameters, to_be_edited=True)
@@ -73,14 +71,10 @@ class _OnHulls(OnEach):
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return rigid_refusal(obj)
-
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
-        """Return `_refusal`, which looks for hulls once for all objects."""
-        return partial(rigid_refusal, owners=owners_of_hulls())
+        """Return the refusal, which looks for hulls once for all objects."""
+        return partial(no_hulls_refusal, owners=owners_of_hulls())
 
 
 class WCD_OT_make_rigid(_OnHulls, bpy.types.Operator):
@@ -116,13 +110,9 @@ class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):
     bl_label = "Remove Collision Hulls"
     bl_description = "Remove the hulls that were built; the parts stay"
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return remove_hulls_refusal(obj)
-
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
-        """Return `_refusal`, which looks for hulls once for all objects."""
+        """Return the refusal, which looks for hulls once for all objects."""
         return partial(remove_hulls_refusal, owners=owners_of_hulls())
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
@@ -167,15 +157,12 @@ class WCD_OT_refit_hull(OnActive, Computation, bpy.types.Operator):
     bl_label = "Shape of This Hull"
     bl_description = "Fit another shape to what this hull is around; the others stay"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return rigid_refusal(obj)
+    _refusal = staticmethod(no_hulls_refusal)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
     ) -> Steps[HullDecomposition]:
-        return refit(obj, self.hull, self.shape)
+        return refit(obj, self.hull, self.shape, self._in_window)
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         hull = write_refit(obj, self.hull, value)

@@ -28,10 +28,7 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
     bl_label = "Measure Convexity"
     bl_description = "Measure the share of pairs of surface points that see each other"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return measure_refusal(obj)
+    _refusal = staticmethod(measure_refusal)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
@@ -62,10 +59,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
         " other, as if the faces were a part"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return selection_refusal(obj)
+    _refusal = staticmethod(selection_refusal)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object

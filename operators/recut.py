@@ -17,13 +17,12 @@ from .bridge.read.target import Target
 from .bridge.refusals import recut_refusal
 from .bridge.stored.noted_parts import n_faces_of
 from .bridge.stored.record import noted_mesh, noted_parameters, record_of
-from .bridge.work.file_end import call_at_end, call_now_instead
+from .bridge.watching import call_at_end, call_now_instead, stop_timer
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
 from .running.computation import Replacement
 from .running.on_objects import active_object, is_free
-from .running.watching import stop_timer
 from .settings import parameters_from, properties_for
 
 # Seconds that a slider waits for parts, most and least; after that a modal run finds
@@ -55,9 +54,7 @@ class _Recut(Replacement):
         self._rough = active_object(context).mode == "OBJECT"
         return super().invoke(context, event)
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return recut_refusal(obj)
+    _refusal = staticmethod(recut_refusal)
 
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         """Return the parameters of the new parts."""

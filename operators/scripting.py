@@ -154,7 +154,7 @@ def build_hulls(
 
     Returns
     -------
-    HullDecomposition with `shapes` in the unit of the vertices, the largest first
+    HullDecomposition: `shapes`, largest first, in units of the vertices; see `stretch`
 
     Raises
     ------

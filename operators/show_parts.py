@@ -33,10 +33,7 @@ class _Show(OnActive, OnEach):
     """Half an operator on the faces of parts."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return faces_refusal(obj)
+    _refusal = staticmethod(faces_refusal)
 
 
 def _members(obj: bpy.types.Object) -> np.ndarray:
@@ -110,10 +107,7 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
         " one"
     )
     bl_options: ClassVar[set[str]] = set()
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return edit_refusal(obj)
+    _refusal = staticmethod(edit_refusal)
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
@@ -170,9 +164,7 @@ class WCD_OT_unmark_seams(_Show, bpy.types.Operator):
         "Take back the seams that Mark Seams marked. Edges that were seams before stay"
     )
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return seams_refusal(obj)
+    _refusal = staticmethod(seams_refusal)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         unmark_seams(obj.data)

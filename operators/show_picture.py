@@ -27,10 +27,7 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
         " the open Image Editors, or in a new one beside the viewport"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return picture_refusal(obj)
+    _refusal = staticmethod(picture_refusal)
 
     @classmethod
     def description(

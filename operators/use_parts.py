@@ -22,10 +22,7 @@ class _OnParts(OnEach):
     """Half an operator on objects with parts, usually in Object Mode."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return object_mode_refusal(obj)
+    _refusal = staticmethod(object_mode_refusal)
 
 
 class WCD_OT_separate(_OnParts, bpy.types.Operator):
@@ -39,7 +36,7 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
     )
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-        was_active = context.active_object == obj
+        was_active = self._active(context) == obj
         stays = self.original == "HIDE"
         pieces = separate(obj, stays)
         if stays:
@@ -132,9 +129,7 @@ class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
         " sets"
     )
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return parts_refusal(obj)
+    _refusal = staticmethod(parts_refusal)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         write_face_sets(obj)
@@ -150,9 +145,7 @@ class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
         " Paint, shaders and export"
     )
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return parts_refusal(obj)
+    _refusal = staticmethod(parts_refusal)
 
     def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         write_colors(obj)

@@ -15,6 +15,7 @@ PUBLIC = {
     *("TriangleMesh", "PointCloud", "DecompositionError"),
     *("Decomposition", "HullDecomposition", "Measurement"),
     *("decompose_in_steps", "build_hulls_in_steps", "measure_in_steps", "run"),
+    "stretch",
 }
 
 

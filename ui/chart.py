@@ -40,7 +40,7 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         """Draw a row for each number of parts, and say which are good and why."""
         result = result_of(context.active_object)
         psi_by_k = psi_by_k_of(result)
-        gains, best = gains_of(psi_by_k), result.get("best_k", result["k"])
+        gains, best = gains_of(psi_by_k), result["best_k"]
         good = good_numbers(psi_by_k, best)
         for text in (offer_of(good), reason_for(best, gains), details_of(result)):
             if text:
@@ -83,16 +83,15 @@ def offer_of(good: Sequence[int]) -> str | None:
 
 def has_details(result: Mapping[str, Any]) -> bool:
     """Return whether parts were split further: then no bar tells their number."""
-    parameters, best = result["parameters"], result.get("best_k", result["k"])
-    levels = parameters.get("levels", 1)
-    if levels == 0:
-        return not parameters["parts"] and result["k"] > best
-    return bool(levels > 1)
+    parameters = result["parameters"]
+    if parameters["levels"] == 0:
+        return not parameters["parts"] and result["k"] > result["best_k"]
+    return bool(parameters["levels"] > 1)
 
 
 def details_of(result: Mapping[str, Any]) -> str | None:
     """Return how many parts more there are because some of them hide details."""
-    if result["parameters"].get("levels", 1) or not has_details(result):
+    if result["parameters"]["levels"] or not has_details(result):
         return None
     more = result["k"] - result["best_k"]
     return f"{result['best_k']} parts of the whole, and {more} more in their details."

@@ -15,8 +15,8 @@ from .sidebar import (
     OUT_OF_DATE,
     Sidebar,
     draw_choices,
-    hulls_of,
-    hulls_of_now,
+    hull_rows_of,
+    hull_rows_of_now,
     line,
     result_of,
 )
@@ -50,10 +50,10 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         )
         hand_over(settings, button, HULL_RUN)
         result = result_of(context.active_object).get("hulls", {})
-        hulls = hulls_of(context.active_object) if result else []
+        hulls = hull_rows_of(context.active_object) if result else []
         if not hulls:
             return
-        current = bool(hulls_of_now(context.active_object))
+        current = bool(hull_rows_of_now(context.active_object))
         largest = f"{max(hull['error'] for hull in hulls):.3g}"
         line(layout, "Largest Error", largest if current else OUT_OF_DATE)
         complete = current and len(hulls) == len(result["hulls"])

@@ -10,71 +10,12 @@ from ..operators.bridge.views.isolating import isolating
 from ..operators.settings import HULL_RUN, MEASURE, RUN, SELECTION, hand_over
 from .sidebar import draw_choices
 
-# How an operator is drawn, and what a menu holds: see below.
+# How an operator is drawn: with the settings that it takes from the scene, with the
+# property that its submenu offers, or with a text and the values of properties.
 _How: TypeAlias = tuple[str, ...] | str | dict[str, Any]
+# What a menu holds, in its order: operators; names of submenus; and None for a line
+# between groups.
 _Entries: TypeAlias = tuple[tuple[str, _How] | str | None, ...]
-
-# What each menu holds, in its order: operators with the settings that they take from
-# the scene, with the property that their submenu offers, or with a text and the values
-# of properties; names of submenus; and None for a line between groups.
-_PARTS: _Entries = (
-    ("wcd.decompose", RUN),
-    ("wcd.measure", MEASURE),
-    ("wcd.measure_selection", SELECTION),
-    None,
-    "WCD_MT_edit",
-    "WCD_MT_view",
-    "WCD_MT_use",
-    "WCD_MT_hulls",
-    None,
-    ("wcd.show_sight", SELECTION),
-    ("wcd.hide_sight", ()),
-    ("wcd.show_picture", "picture"),
-    None,
-    ("wcd.clear", ()),
-)
-_EDIT: _Entries = (
-    ("wcd.merge_parts", ()),
-    ("wcd.split_parts", {"text": "Split Convex Parts in Two", "parts": 2}),
-    ("wcd.split_parts", {"text": "Split Convex Parts by ψ", "parts": 0}),
-    ("wcd.assign_faces", ()),
-    ("wcd.smooth_seams", ()),
-    ("wcd.mirror_parts", "direction"),
-    None,
-    ("wcd.rename_part", ()),
-    ("wcd.rename_parts", {"text": "Rename All Convex Parts"}),
-    ("wcd.lock_parts", ()),
-    None,
-    ("wcd.refresh_parts", ()),
-)
-_VIEW: _Entries = (
-    ("wcd.pick_parts", ()),
-    ("wcd.select_parts", ()),
-    ("wcd.select_boundary", ()),
-    ("wcd.frame_parts", ()),
-    None,
-    ("wcd.isolate_parts", {"hide": True}),
-    ("wcd.isolate_parts", {"text": "Show All Convex Parts", "hide": False}),
-    None,
-    ("wcd.mark_seams", ()),
-    ("wcd.unmark_seams", ()),
-)
-_USE: _Entries = (
-    ("wcd.separate", "original"),
-    ("wcd.explode", ()),
-    ("wcd.implode", ()),
-    None,
-    ("wcd.show_colors", "colors"),
-    ("wcd.face_sets", ()),
-    ("wcd.color_attribute", ()),
-)
-_HULLS: _Entries = (
-    ("wcd.build_hulls", HULL_RUN),
-    ("wcd.make_rigid", "kind"),
-    ("wcd.show_hulls", "look"),
-    None,
-    ("wcd.remove_hulls", ()),
-)
 
 # The menus of Blender that get the submenu at their end.
 _HOMES = ("VIEW3D_MT_object", "VIEW3D_MT_edit_mesh")
@@ -103,35 +44,88 @@ class WCD_MT_parts(_Entered, bpy.types.Menu):
     """All operators on convex parts."""
 
     bl_label = "Convex Parts"
-    _entries = _PARTS
+    _entries = (
+        ("wcd.decompose", RUN),
+        ("wcd.measure", MEASURE),
+        ("wcd.measure_selection", SELECTION),
+        None,
+        "WCD_MT_edit",
+        "WCD_MT_view",
+        "WCD_MT_use",
+        "WCD_MT_hulls",
+        None,
+        ("wcd.show_sight", SELECTION),
+        ("wcd.hide_sight", ()),
+        ("wcd.show_picture", "picture"),
+        None,
+        ("wcd.clear", ()),
+    )
 
 
 class WCD_MT_edit(_Entered, bpy.types.Menu):
     """The operators that change parts by hand."""
 
     bl_label = "Edit Parts"
-    _entries = _EDIT
+    _entries = (
+        ("wcd.merge_parts", ()),
+        ("wcd.split_parts", {"text": "Split Convex Parts in Two", "parts": 2}),
+        ("wcd.split_parts", {"text": "Split Convex Parts by ψ", "parts": 0}),
+        ("wcd.assign_faces", ()),
+        ("wcd.smooth_seams", ()),
+        ("wcd.mirror_parts", "direction"),
+        None,
+        ("wcd.rename_part", ()),
+        ("wcd.rename_parts", {"text": "Rename All Convex Parts"}),
+        ("wcd.lock_parts", ()),
+        None,
+        ("wcd.refresh_parts", ()),
+    )
 
 
 class WCD_MT_view(_Entered, bpy.types.Menu):
     """The operators that select and show parts, and mark their seams."""
 
     bl_label = "Pick, Select and View"
-    _entries = _VIEW
+    _entries = (
+        ("wcd.pick_parts", ()),
+        ("wcd.select_parts", ()),
+        ("wcd.select_boundary", ()),
+        ("wcd.frame_parts", ()),
+        None,
+        ("wcd.isolate_parts", {"hide": True}),
+        ("wcd.isolate_parts", {"text": "Show All Convex Parts", "hide": False}),
+        None,
+        ("wcd.mark_seams", ()),
+        ("wcd.unmark_seams", ()),
+    )
 
 
 class WCD_MT_use(_Entered, bpy.types.Menu):
     """The operators that make something of parts."""
 
     bl_label = "Use the Parts"
-    _entries = _USE
+    _entries = (
+        ("wcd.separate", "original"),
+        ("wcd.explode", ()),
+        ("wcd.implode", ()),
+        None,
+        ("wcd.show_colors", "colors"),
+        ("wcd.face_sets", ()),
+        ("wcd.color_attribute", ()),
+    )
 
 
 class WCD_MT_hulls(_Entered, bpy.types.Menu):
     """The operators on collision hulls."""
 
     bl_label = "Collision Hulls"
-    _entries = _HULLS
+    _entries = (
+        ("wcd.build_hulls", HULL_RUN),
+        ("wcd.make_rigid", "kind"),
+        ("wcd.show_hulls", "look"),
+        None,
+        ("wcd.remove_hulls", ()),
+    )
 
 
 class WCD_MT_pick(bpy.types.Menu):

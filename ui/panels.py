@@ -18,7 +18,7 @@ from .parts_table import draw_table
 from .sidebar import (
     LABELS,
     Sidebar,
-    hulls_of_now,
+    hull_rows_of_now,
     line,
     paragraph,
     rank_text,
@@ -37,7 +37,7 @@ def notes_of(obj: bpy.types.Object | None) -> list[str]:
     results = [result] if figures and not figures.problem else []
     if obj and is_of_now(obj, measured := result.get("measured", {})):
         results.append(measured)
-    if obj and hulls_of_now(obj):
+    if obj and hull_rows_of_now(obj):
         results.append(result["hulls"])
     notes = [note for noted in results for note in noted.get("notes", ())]
     return list(dict.fromkeys(notes))

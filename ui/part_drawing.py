@@ -16,7 +16,7 @@ from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.parts.palette import srgb_of
 from ..operators.bridge.parts.rows import chosen_numbers, look_left
 from ..operators.bridge.refusals import faces_refusal
-from ..operators.running.watching import stop_timer
+from ..operators.bridge.watching import stop_timer
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_identities, shown_parts
 from ..operators.viewport.viewports import redraw

@@ -12,7 +12,7 @@ from ..operators.bridge.parts.figures import PartFigures
 from ..operators.bridge.views.isolating import isolating
 from ..operators.viewport import picking
 from ..operators.viewport.shown_figures import shown_figures
-from .sidebar import hulls_of, hulls_of_now, width_of
+from .sidebar import hull_rows_of, hull_rows_of_now, width_of
 
 # Rows that are seen at once, at least and at most.
 _FEWEST_ROWS = 3
@@ -32,7 +32,7 @@ _GO_FIRST = ("Area", "Faces", "Hull")
 
 
 class WCD_UL_parts(bpy.types.UIList):
-    """The table of parts: figures come from the record, ticks and locks from rows."""
+    """The table of parts: figures of mesh and record, ticks and locks of rows."""
 
     def draw_item(
         self,
@@ -58,8 +58,8 @@ class WCD_UL_parts(bpy.types.UIList):
         swatch.enabled = obj.data.is_editable  # not if it is linked from a library
         swatch.prop(row, "color", text="")
         line.prop(row, "name", text="", emboss=False)
-        texts = _figures(figures, place, hulls_of_now(obj))
-        for name in headings(hulls_of(obj), width_of(context), len(obj.wcd_parts)):
+        texts = _figures(figures, place, hull_rows_of_now(obj))
+        for name in headings(hull_rows_of(obj), width_of(context), len(obj.wcd_parts)):
             _cell(line, name, texts[name])
         lock = "LOCKED" if row.locked else "UNLOCKED"
         line.prop(row, "locked", text="", icon=lock, emboss=False)
@@ -151,7 +151,7 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
     heading.label(text="", icon="BLANK1")
     heading.label(text="Part")
     n_rows = len(obj.wcd_parts)
-    for name in headings(hulls_of(obj), width, n_rows):
+    for name in headings(hull_rows_of(obj), width, n_rows):
         _cell(heading, name, name)
     for _ in range(
         2 if n_rows > _MOST_ROWS else 1

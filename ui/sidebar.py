@@ -44,7 +44,7 @@ def result_of(obj: bpy.types.Object | None) -> dict[str, Any]:
     return {key: value for key, value in record.items() if key != "parts"}
 
 
-def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
+def hull_rows_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
     """Return what is noted of an object's hulls, without those that were deleted.
 
     Hulls that the user renamed have their new names. "object" is the hull itself.
@@ -56,9 +56,9 @@ def hulls_of(obj: bpy.types.Object) -> list[dict[str, Any]]:
     ]
 
 
-def hulls_of_now(obj: bpy.types.Object) -> list[dict[str, Any]]:
+def hull_rows_of_now(obj: bpy.types.Object) -> list[dict[str, Any]]:
     """Return the same if their figures are of the faces that the object has now."""
-    hulls = hulls_of(obj)
+    hulls = hull_rows_of(obj)
     return hulls if hulls and is_of_now(obj, result_of(obj)["hulls"]) else []
 
 

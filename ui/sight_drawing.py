@@ -56,14 +56,15 @@ def _draw() -> None:
     if (
         obj is None
         or not space.overlay.show_overlays
-        or not obj.visible_in_viewport_get(space)
+        or not obj.visible_get(viewport=space)
     ):
         return
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
     gpu.state.blend_set("ALPHA")
     with gpu.matrix.push_pop():
         gpu.matrix.multiply_matrix(obj.matrix_world)
-        gpu.matrix.multiply_matrix(Matrix.Diagonal((*(1 / overlay.scale), 1.0)))
+        to_object = Matrix(np.linalg.inv(overlay.stretch).tolist()).to_4x4()
+        gpu.matrix.multiply_matrix(to_object)
         for batch, color, depth_test in _batches(overlay.view):
             gpu.state.depth_test_set(depth_test)
             shader.uniform_float("color", color)

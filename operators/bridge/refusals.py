@@ -213,10 +213,10 @@ def hull_refusal(obj: Candidate) -> str | None:
     return reason
 
 
-def rigid_refusal(
+def no_hulls_refusal(
     obj: Candidate, owners: Container[Candidate] | None = None
 ) -> str | None:
-    """Return why an object, not among `owners` of hulls, cannot be a rigid body."""
+    """Return why the hulls of an object cannot be used; only `owners` have hulls."""
     reason = hull_refusal(obj)
     if reason is None and obj not in (owners_of_hulls() if owners is None else owners):
         return f"{obj.name} has no hulls; build them first"

@@ -9,16 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Container
 
 from .converted import was_converted
-from .hulls.listed import owners_of_hulls
-from .hulls.lost_hulls import has_hulls_to_clear
 from .mesh.seams import has_marked_seams
 from .read.carrier import is_copy
 from .refusals import (
     LEAVE_EDIT_MODE,
     Candidate,
     library_refusal,
+    no_hulls_refusal,
     refusal,
-    rigid_refusal,
 )
 from .stored.names import CARRIER_TAG, WHOLE_MESH
 from .stored.notes import or_not_ours
@@ -27,9 +25,7 @@ from .stored.restore import has_parts
 
 
 @or_not_ours
-def clear_refusal(
-    obj: Candidate, has_hulls: Callable[[Candidate], bool] = has_hulls_to_clear
-) -> str | None:
+def clear_refusal(obj: Candidate, has_hulls: Callable[[Candidate], bool]) -> str | None:
     """Return why nothing can be cleared from an object."""
     if was_converted(obj):
         return _object_refusal(obj)
@@ -50,14 +46,11 @@ def clear_refusal(
     return None
 
 
-def remove_hulls_refusal(
-    obj: Candidate, owners: Container[Candidate] | None = None
-) -> str | None:
+def remove_hulls_refusal(obj: Candidate, owners: Container[Candidate]) -> str | None:
     """Return why hulls cannot be removed from an object, if it is among `owners`."""
-    owners = owners_of_hulls() if owners is None else owners
     if obj in owners and obj.type != "MESH":  # it was converted since
         return _object_refusal(obj)
-    return rigid_refusal(obj, owners)
+    return no_hulls_refusal(obj, owners)
 
 
 def _has_ours(obj: Candidate) -> bool:

@@ -55,10 +55,7 @@ class _Edit(Replacement):
     """Half an operator that edits parts."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return edit_refusal(obj)
+    _refusal = staticmethod(edit_refusal)
 
 
 class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
@@ -125,9 +122,7 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
     bl_label = "Assign Faces to Convex Part"
     bl_description = "Give the selected faces to the highlighted part"
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return assign_refusal(obj)
+    _refusal = staticmethod(assign_refusal)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object
@@ -198,9 +193,7 @@ class WCD_OT_refresh_parts(_Edit, bpy.types.Operator):
         " object that was joined to this one get names, groups and materials here"
     )
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return decomposed_refusal(obj)
+    _refusal = staticmethod(decomposed_refusal)
 
     def _begin(
         self, context: bpy.types.Context, obj: bpy.types.Object

@@ -44,10 +44,7 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
         " replace. The two parts of a pair, .L and .R, keep one name"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return edit_refusal(obj)
+    _refusal = staticmethod(edit_refusal)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the names."""

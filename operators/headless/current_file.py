@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import bpy
 
+from ..bridge.homes import view_layers
 from ..bridge.hulls.listed import is_hull
 from ..bridge.mesh.points import count_points, is_cloud
 from ..bridge.refusals import WORKED_ON
@@ -40,12 +41,7 @@ def mesh_objects() -> list[bpy.types.Object]:
 
 def objects_in_view_layers() -> set[bpy.types.Object]:
     """Return the objects of all view layers of all scenes, hidden or not."""
-    return {
-        obj
-        for scene in bpy.data.scenes
-        for layer in scene.view_layers
-        for obj in layer.objects
-    }
+    return {obj for layer in view_layers() for obj in layer.objects}
 
 
 def has_shape(obj: bpy.types.Object) -> bool:

@@ -18,11 +18,10 @@ from ...core.parameters.parameter import field_of, info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps, T
-from ..bridge.work.file_end import call_at_end, call_now_instead
+from ..bridge.watching import call_at_end, call_now_instead, stop_timer
 from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
-from .watching import stop_timer
 
 # Parameters, and whether a first look at the parts is enough.
 Wanted: TypeAlias = tuple[Parameters, bool]

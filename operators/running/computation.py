@@ -35,6 +35,8 @@ class Computation(OnObjects):
     # Whether `invoke` reports at once that nothing can be done: what a timer invokes
     # has no window to report to until it runs.
     _reports_at_once = True
+    # Whether it runs in a window, which stays alive.
+    _in_window = False
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Compute while Blender waits."""
@@ -47,6 +49,7 @@ class Computation(OnObjects):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to compute while the window stays alive."""
+        self._in_window = True
         works = self._read(context)
         errors = [work for work in works if isinstance(work, DecompositionError)]
         if self._reports_at_once and len(errors) == len(works):

@@ -11,8 +11,8 @@ import bpy
 
 from ...core.errors import DecompositionError
 from ..bridge.views.node_modifiers import is_view
+from ..bridge.watching import changed_objects, stop_timer, unwatch, watch
 from ..bridge.work.in_step import bring_in_step
-from .watching import changed_objects, stop_timer, unwatch, watch
 
 # How many faces the objects with such modifiers have, by their `session_uid`.
 _n_faces: dict[int, int] = {}

@@ -136,11 +136,12 @@ def active_object(context: bpy.types.Context) -> Any:
 def candidates(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Return the selected objects, or those in Edit Mode; the active one comes first.
 
-    In other modes it is the only one: no other object is in them. Hulls that are
+    In other modes it is the only one: no other object is in them. So it is where a
+    script set the window to None: the context has no selection then. Hulls that are
     selected with their object go with it.
     """
-    active = active_object(context)
-    if active and active.mode not in {"OBJECT", "EDIT"}:
+    active, no_window = active_object(context), not hasattr(context, "selected_objects")
+    if no_window or (active and active.mode not in {"OBJECT", "EDIT"}):
         return [active]
     in_edit_mode = active and active.mode == "EDIT"
     there = context.objects_in_mode if in_edit_mode else context.selected_objects

@@ -24,10 +24,10 @@ from ..bridge.stored.record import (
     noted_mesh,
     noted_parameters,
 )
+from ..bridge.watching import stop_timer, unwatch, watch
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
 from . import modal
-from .watching import stop_timer, unwatch, watch
 
 # Seconds that settings rest before their parts are found.
 _REST = 0.3

@@ -1,4 +1,4 @@
-"""Choose, lock and rename parts, as a click in the viewport or the pie menu does."""
+"""Choose, lock, rename and merge parts, as clicks in viewports or the pie menu do."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from ..bridge.homes import objects_in
 from ..bridge.parts.rows import active_row, chosen_numbers, noted_refusal
 from ..bridge.refusals import edit_refusal
 from ..bridge.work.in_step import bring_in_step
-from ..running.on_objects import OnActive, OnEach
+from ..running.on_objects import OnActive, OnEach, is_free
+from . import picking
 
 
 def choose(obj: bpy.types.Object, number: int, extend: bool) -> None:
@@ -54,10 +55,7 @@ class _OnRows(OnActive, OnEach):
     """Half an operator on rows of the table."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return edit_refusal(obj)
+    _refusal = staticmethod(edit_refusal)
 
 
 class WCD_OT_choose_part(bpy.types.Operator):
@@ -150,6 +148,28 @@ WCD_OT_rename_part.__annotations__ = {
 }
 
 
+class WCD_OT_merge_next(bpy.types.Operator):
+    """Merge the chosen parts with the next one that is clicked."""
+
+    bl_idname = "wcd.merge_next"
+    bl_label = "Merge with Next Click"
+    bl_description = "Merge the highlighted part with the part that you click next"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether parts are picked."""
+        picked = picking.current is not None
+        return is_free(cls, None if picked else "No parts are picked; press Pick Parts")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Wait for the click."""
+        if picking.current is not None:
+            picking.current.merging = True
+        picking.tell(context)
+        return {"FINISHED"}
+
+
 def _absence(context: bpy.types.Context, obj: bpy.types.Object) -> str | None:
     """Return why an object cannot become the active one."""
     if obj in objects_in(context.view_layer):
@@ -157,4 +177,9 @@ def _absence(context: bpy.types.Context, obj: bpy.types.Object) -> str | None:
     return f"{obj.name} is not in the view layer; link it to a collection that is"
 
 
-CLASSES: tuple[Any, ...] = (WCD_OT_choose_part, WCD_OT_lock_parts, WCD_OT_rename_part)
+CLASSES: tuple[Any, ...] = (
+    WCD_OT_choose_part,
+    WCD_OT_lock_parts,
+    WCD_OT_rename_part,
+    WCD_OT_merge_next,
+)

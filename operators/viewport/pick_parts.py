@@ -18,7 +18,7 @@ from .choose_parts import choose_too
 from .part_at import make_tree, part_at
 from .shown_parts import n_parts_of
 from .turning import Turning, keeps
-from .viewports import navigates, viewport_at
+from .viewports import CLICKED_MODES, navigates, viewport_at
 
 # The pie menu, which `ui` draws.
 _MENU = "WCD_MT_pick"
@@ -73,7 +73,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Take an event; navigation and all else that is not ours passes."""
-        if picking.current is not self._picking:  # ended by the button, or by a load
+        if self._is_over(context):
             return {"FINISHED", "PASS_THROUGH"}
         now = modal.busy(), n_parts_of(context.active_object)
         if self._told != now:
@@ -91,6 +91,12 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         if self._keep(context, event) and event.type in _ENTER:
             return {"RUNNING_MODAL"}
         return self._press(context, event)
+
+    def _is_over(self, context: bpy.types.Context) -> bool:
+        """Return whether the picking has ended; end it if other modes take clicks."""
+        if context.mode not in CLICKED_MODES:
+            picking.stop()
+        return picking.current is not self._picking  # or by the button, or by a load
 
     def _keep(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Keep the number of parts that the wheel asked for if a press means that."""
@@ -211,35 +217,15 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             self.report({"WARNING"}, str(error).removeprefix("Error: ").strip())
 
 
-class WCD_OT_merge_next(bpy.types.Operator):
-    """Merge the chosen parts with the next one that is clicked."""
-
-    bl_idname = "wcd.merge_next"
-    bl_label = "Merge with Next Click"
-    bl_description = "Merge the highlighted part with the part that you click next"
-    bl_options: ClassVar[set[str]] = {"INTERNAL"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether parts are picked."""
-        picked = picking.current is not None
-        return is_free(cls, None if picked else "No parts are picked; press Pick Parts")
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Wait for the click."""
-        if picking.current is not None:
-            picking.current.merging = True
-        picking.tell(context)
-        return {"FINISHED"}
-
-
-CLASSES = (WCD_OT_pick_parts, WCD_OT_merge_next)
+CLASSES = (WCD_OT_pick_parts,)
 
 
 def _refusal(context: bpy.types.Context) -> str | None:
     """Return why no parts can be picked."""
     if context.space_data is None or context.space_data.type != "VIEW_3D":
         return "There is no 3D viewport here"
+    if context.mode not in CLICKED_MODES:
+        return "Parts are picked in Object or Edit Mode; switch the mode"
     reason = faces_refusal(context.active_object)
     noted = (obj for obj in context.visible_objects if RESULT in obj)
     return reason and (None if any(not faces_refusal(obj) for obj in noted) else reason)

@@ -11,8 +11,8 @@ import bpy
 
 from ..bridge.read.target import object_with
 from ..bridge.stored.identity import Identity
+from ..bridge.watching import unwatch, watch
 from ..running import modal
-from ..running.watching import unwatch, watch
 from .shown_parts import n_parts_of, shown_identities
 from .turning import Turning
 from .viewports import redraw, show_header
@@ -100,25 +100,24 @@ def tell(context: bpy.types.Context) -> None:
     """Say in the headers what is picked, and in the status bar which keys there are."""
     if current is None:
         return
-    show_header(_header(context))
-    modal.show_hint(current.workspace, _keys(context))
+    show_header(_header(current, context))
+    modal.show_hint(current.workspace, _keys(current, context))
     redraw()
 
 
-def _keys(context: bpy.types.Context) -> str:
+def _keys(picking: Picking, context: bpy.types.Context) -> str:
     """Return which keys there are, for the status bar."""
-    turning = current.turning if current else None
+    turning = picking.turning
     if turning is None:
         return _KEYS
     return _TURNED.format(n_parts_of(context.active_object), turning.n_before)
 
 
-def _header(context: bpy.types.Context) -> str:
+def _header(picking: Picking, context: bpy.types.Context) -> str:
     """Return what is happening, for the header."""
-    part = current.part() if current else None
-    obj = current.object() or context.active_object if current else None
+    part, obj = picking.part(), picking.object() or context.active_object
     of = "" if obj is None else f"{obj.name}: {n_parts_of(obj)} Parts"
-    doing = "Merge with" if current and current.merging else "Pick Parts"
+    doing = "Merge with" if picking.merging else "Pick Parts"
     return "  |  ".join(each for each in (doing, part.name if part else "", of) if each)
 
 

@@ -13,17 +13,18 @@ from ...core.errors import DecompositionError
 from ...core.steps.progress import Steps
 from ..bridge.mesh.points import vertices_now
 from ..bridge.read.shape import stretch
+from ..bridge.read.stretching import stretched
 from ..bridge.read.target import Target
 from ..bridge.refusals import measure_refusal
+from ..bridge.watching import changed_objects, unwatch, watch
 from ..bridge.work.computing import point_viewer_of
 from ..running import modal
 from ..running.computation import Computation
 from ..running.on_objects import OnActive, is_free
-from ..running.watching import changed_objects, unwatch, watch
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
 from .sight_overlay import Overlay
-from .viewports import navigates, ray_at, viewport_at
+from .viewports import CLICKED_MODES, navigates, ray_at, viewport_at
 
 _HINT = (
     "Click a point of the surface to see what it sees. Enter: keep, Esc or Right-Click:"
@@ -44,9 +45,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     _viewer: Any = None  # the `core.PointViewer`, once it is made
 
-    @staticmethod
-    def _refusal(obj: bpy.types.Object | None) -> str | None:
-        return measure_refusal(obj)
+    _refusal = staticmethod(measure_refusal)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Show what the middle of a face sees."""
@@ -65,6 +64,9 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             answer = super().modal(context, event)
             return answer if answer != {"FINISHED"} else self._wait()
         if sight_overlay.current is not self._overlay:  # hidden, or replaced by another
+            return {"FINISHED", "PASS_THROUGH"}
+        if context.mode not in CLICKED_MODES:  # others take clicks; the picture stays
+            modal.show_hint(self._overlay.workspace, None)
             return {"FINISHED", "PASS_THROUGH"}
         if event.value != "PRESS":
             return {"PASS_THROUGH"}
@@ -130,8 +132,8 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     def _show(self, origin: Vector, direction: Vector) -> None:
         """Show what the first point along a ray in object space sees."""
-        scale = self._overlay.scale
-        view = self._viewer.look(np.array(origin) * scale, np.array(direction) * scale)
+        ray = stretched(np.array([origin, direction]), self._overlay.stretch)
+        view = self._viewer.look(*ray)
         if view is not None:
             sight_overlay.show_view(view)
 
@@ -215,5 +217,5 @@ def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:
             f"{obj.name} has no face {face}; it has {len(polygons)}, counted from 0."
         )
     normal = polygons[face].normal
-    height = max(obj.dimensions) * 1e-4
+    height = 1e-4 * float(np.ptp(vertices_now(obj), axis=0).max())
     return polygons[face].center + height * normal, -normal

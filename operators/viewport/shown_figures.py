@@ -1,12 +1,15 @@
 """Keep the figures that panels draw, until the mesh changes.
 
-Panels are drawn many times a second. In the background nothing is kept.
+Panels are drawn many times a second. What is not counted at once is counted, and drawn,
+a moment later. In the background nothing is kept.
 """
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import bpy
@@ -19,17 +22,34 @@ from ..bridge.mesh.fingerprint import fits, together
 from ..bridge.parts.figures import PartFigures, figures_of
 from ..bridge.refusals import WORKED_ON
 from ..bridge.stored.names import RESULT
-from ..running.watching import unwatch, watch
+from ..bridge.watching import changed_objects, stop_timer, unwatch, watch
+from .viewports import redraw
 
 # Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
 # and for how many times as long as counting them took.
 _PAUSE = 0.3
 _REST = 4.0
+# Meshes of more faces are counted in Edit Mode once they have been left alone for so
+# many seconds: that takes longer than a drawing may.
+_MANY = 50_000
+_LULL = 0.5
 # The figures of an object's parts, and the fingerprint of all of its faces.
 _Counted: TypeAlias = tuple[PartFigures | None, NDArray[np.float64] | None]
-# Of the object drawn last: what it was, until when it is kept, and what was found.
-_kept: tuple[tuple[object, ...], float, _Counted] | None = None
-_changed = True
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """The figures of an object: what it was, and until when they are kept."""
+
+    state: tuple[object, ...]
+    mode: str
+    until: float
+    counted: _Counted
+
+
+# Of the object drawn last; and when its faces have changed since, None if not.
+_kept: _Kept | None = None
+_changed: float | None = None
 
 
 def shown_figures(obj: bpy.types.Object | None) -> PartFigures | None:
@@ -48,16 +68,33 @@ def _counted(obj: bpy.types.Object | None) -> _Counted:
     global _kept, _changed
     if obj is None or obj.type not in WORKED_ON:
         return None, None
-    state = obj.session_uid, obj.data.session_uid, obj.mode, obj.get(RESULT)
+    state = obj.session_uid, obj.data.session_uid, obj.get(RESULT)
     now = time.perf_counter()
-    if _kept is not None and _kept[0] == state and not bpy.app.background:
-        until, latest = _kept[1:]
-        if not _changed or now < until:
-            return latest
+    if _kept is not None and _kept.state == state and not bpy.app.background:
+        wait = _due(_kept, obj) - now
+        if wait > 0.0:
+            if wait < math.inf and not bpy.app.timers.is_registered(_draw_again):
+                bpy.app.timers.register(_draw_again, first_interval=wait)
+            return _kept.counted
     counted, ended = _count(obj), time.perf_counter()
     until = ended + max(_PAUSE, _REST * (ended - now))
-    _kept, _changed = (state, until, counted), False
+    _kept, _changed = _Kept(state, obj.mode, until, counted), None
     return counted
+
+
+def _due(kept: _Kept, obj: bpy.types.Object) -> float:
+    """Return when an object is counted again; at infinity if it has not changed."""
+    same_mode = obj.mode == kept.mode
+    if _changed is None and same_mode:
+        return math.inf
+    if obj.mode == "EDIT" and len(obj.data.polygons) > _MANY:
+        return max(kept.until, (_changed or 0.0) + _LULL)
+    return kept.until if same_mode else 0.0
+
+
+def _draw_again() -> None:
+    """Draw the panels, as a timer does: they count what has changed."""
+    redraw()
 
 
 def _count(obj: bpy.types.Object) -> _Counted:
@@ -73,14 +110,25 @@ def _count(obj: bpy.types.Object) -> _Counted:
 
 @bpy.app.handlers.persistent
 def _forget(*_: object) -> None:
-    """Count again when something changes. Blender passes arguments to handlers."""
+    """Count again when anything may change. Blender passes arguments to handlers."""
     global _changed
-    _changed = True
+    _changed = time.perf_counter()
 
 
-_HANDLERS = dict.fromkeys(
-    ("depsgraph_update_post", "undo_post", "redo_post", "load_post"), _forget
-)
+@bpy.app.handlers.persistent
+def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
+    """Count again when the faces of the object drawn last change."""
+    kept = _kept
+    if kept is not None and any(
+        each.session_uid == kept.state[0] for each in changed_objects(graph)
+    ):
+        _forget()
+
+
+_HANDLERS = {
+    "depsgraph_update_post": _forget_changed,
+    **dict.fromkeys(("undo_post", "redo_post", "load_post"), _forget),
+}
 
 
 def register() -> None:
@@ -92,4 +140,5 @@ def unregister() -> None:
     """Undo `register`, and forget all figures."""
     global _kept
     unwatch(_HANDLERS)
+    stop_timer(_draw_again)
     _kept = None

@@ -21,7 +21,7 @@ from ..bridge.mesh.points import is_cloud
 from ..bridge.parts.read import FoundParts, find_parts_on, noted_identities
 from ..bridge.stored.identity import Identity
 from ..bridge.stored.names import OWNER_LAYER, PART_LAYER, RESULT
-from ..running.watching import changed_objects, unwatch, watch
+from ..bridge.watching import changed_objects, unwatch, watch
 
 
 @dataclass(frozen=True, eq=False)

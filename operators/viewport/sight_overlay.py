@@ -22,7 +22,7 @@ class Overlay:
     ----------
     object_uid : int
         The `session_uid` of the object.
-    scale : (3,) float
+    stretch : (3, 3) float
         Object space times this is the space of the view.
     workspace : str
         Name of the workspace whose status bar shows the hint.
@@ -33,7 +33,7 @@ class Overlay:
     """
 
     object_uid: int
-    scale: NDArray[np.float64]
+    stretch: NDArray[np.float64]
     workspace: str
     vertices: NDArray[np.float32]
     view: View | None = None

@@ -9,6 +9,9 @@ import bpy
 from bpy_extras import view3d_utils
 from mathutils import Vector
 
+# Clicks in other modes paint, sculpt or pose.
+CLICKED_MODES = {"OBJECT", "EDIT_MESH"}
+
 
 def viewport_at(
     context: bpy.types.Context, x: int, y: int

@@ -14,12 +14,22 @@ from ..mesh.attributes import IntArray, read_labels
 from ..parts.read import part_labels
 from ..stored.names import FACE_SET_LAYER, FACE_SETS, WHOLE_LAYER
 
+# The types of modifiers that keep something by the numbers of vertices or faces. How
+# they tell that they do, and the object whose mesh it is, if it is another one's.
+_BOUND = {
+    "SURFACE_DEFORM": ("is_bound", "target"),
+    "MESH_DEFORM": ("is_bound", "object"),
+    "LAPLACIANDEFORM": ("is_bind", ""),
+    "CORRECTIVE_SMOOTH": ("is_bind", ""),
+}
+
 
 def has_work_beside_faces(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
     """Return whether a cut mesh of known geometry has work that `whole` has not."""
     mesh = obj.data
-    # Cuts are refused where there are sculpted details: these came later.
-    if sculpted_details(obj):
+    # Cuts are refused where there are sculpted details or bound modifiers: these came
+    # later.
+    if sculpted_details(obj) or bound_modifier(obj):
         return True
     if _animation(mesh) != _animation(whole):
         return True
@@ -31,6 +41,23 @@ def has_work_beside_faces(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
 def sculpted_details(obj: bpy.types.Object) -> bool:
     """Return whether a Multires modifier of an object has details, on its faces."""
     return any(m.type == "MULTIRES" and m.total_levels > 0 for m in obj.modifiers)
+
+
+def bound_modifier(obj: bpy.types.Object) -> bpy.types.Modifier | None:
+    """Return a modifier that is bound to the vertices or faces of an object's mesh.
+
+    It may be one of another object, which deforms with this one. None if there is none.
+    """
+    for owner in bpy.data.objects:
+        for each in owner.modifiers:
+            if each.type not in _BOUND or not getattr(each, _BOUND[each.type][0]):
+                continue
+            if each.type == "CORRECTIVE_SMOOTH" and each.rest_source != "BIND":
+                continue
+            target = getattr(each, _BOUND[each.type][1], None)
+            if obj.data in (owner.data, target and target.data):
+                return each
+    return None
 
 
 def _animation(mesh: bpy.types.Mesh) -> list[Any]:

@@ -15,6 +15,7 @@ from ....core.geometry.cutting.refined import Cut
 from ....core.geometry.mesh import TriangleMesh
 from ..mesh.attributes import read_floats
 from ..mesh.corner_normals import give_back_normals, keep_normals
+from ..read.stretching import stretched, unstretched
 
 # Layers of faces while they are cut: the number of the whole face, that of the triangle
 # if the whole face is bent, and the part.
@@ -33,16 +34,16 @@ class CutMesh:
     ----------
     mesh : bpy.types.Mesh
         In Object Mode.
-    factors : (3,) float
+    stretch : (3, 3) float
         What coordinates are multiplied by in the space of the planes.
 
     Attributes
     ----------
-    factors : (3,) float
+    stretch : (3, 3) float
     """
 
-    def __init__(self, mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> None:
-        self.factors = factors
+    def __init__(self, mesh: bpy.types.Mesh, stretch: NDArray[np.float64]) -> None:
+        self.stretch = stretch
         self._bm = bm = bmesh.new()
         bm.from_mesh(mesh)
         keep_normals(bm, mesh)
@@ -74,7 +75,7 @@ class CutMesh:
         self._flatten(pieces, cuts)
         for cut in cuts:
             faces = [piece for face in cut.faces.tolist() for piece in pieces[face]]
-            normal = cut.normal * self.factors
+            normal = stretched(cut.normal, self.stretch)
             length = float(np.linalg.norm(normal))
             # In a fixed order, so that cutting again gives the same.
             edges = dict.fromkeys(edge for face in faces for edge in face.edges)
@@ -83,7 +84,7 @@ class CutMesh:
                 self._bm,
                 geom=[*vertices, *edges, *faces],
                 dist=near / length,
-                plane_co=cut.point / self.factors,
+                plane_co=unstretched(cut.point, self.stretch),
                 plane_no=normal / length,
             )["geom"]
             for face in cut.faces.tolist():
@@ -148,7 +149,7 @@ class CutMesh:
         bm.faces.index_update()
         corners = bm.calc_loop_triangles()
         return TriangleMesh(
-            np.array([vertex.co for vertex in bm.verts]) * self.factors,
+            stretched(np.array([vertex.co for vertex in bm.verts]), self.stretch),
             np.array([[corner.vert.index for corner in each] for each in corners]),
             np.array([each[0].face.index for each in corners]),
         )

@@ -33,7 +33,7 @@ class Pieces:
     cuts : sequence of Cut
     near : float
         A plane that is this near to a corner runs through it.
-    factors : (3,) float
+    stretch : (3, 3) float
         What coordinates are multiplied by in the space of the planes.
     parts : (N,) int
         Part of each piece after all cuts. Pieces of one face and one part are joined.
@@ -41,13 +41,13 @@ class Pieces:
 
     cuts: list[Cut]
     near: float
-    factors: NDArray[np.float64]
+    stretch: NDArray[np.float64]
     parts: NDArray[np.int64]
 
     @contextmanager
     def of(self, mesh: bpy.types.Mesh) -> Iterator[CutMesh]:
         """Give a mesh with its faces cut, in memory."""
-        with CutMesh(mesh, self.factors) as made:
+        with CutMesh(mesh, self.stretch) as made:
             made.cut(self.cuts, self.near)
             made.join(self.parts.tolist())
             yield made

@@ -102,9 +102,19 @@ def bring_back(obj: bpy.types.Object) -> bool:
 
 def put_back(obj: bpy.types.Object, whole: bpy.types.Mesh) -> None:
     """Give an object, and those that share its mesh, the mesh with its whole faces."""
-    if whole.users > 1:  # a copy of the object has its faces from there, too
-        whole = whole.copy()
-    replace_mesh(obj, whole)
+    replace_mesh(obj, whole.copy() if _is_needed_elsewhere(whole, obj.data) else whole)
+
+
+def _is_needed_elsewhere(whole: bpy.types.Mesh, cut: bpy.types.Mesh) -> bool:
+    """Return whether other objects show whole faces, or need them to get them back.
+
+    Asset marks, fake users and references of the user's are no reason for a copy: what
+    they are for is the mesh that comes back.
+    """
+    if any(obj.data == whole for obj in bpy.data.objects):
+        return True
+    others = (mesh for mesh in bpy.data.meshes if mesh != cut)
+    return any(mesh.get(WHOLE_MESH) == whole for mesh in others)
 
 
 def replace_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:

@@ -14,22 +14,26 @@ from ....core.errors import DecompositionError
 from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
-from ..homes import new_collection
-from ..parts.identities import usual_identities
+from ..homes import hand_over, within_parent
 from ..parts.materials import discard, hull_material, none_missing
+from ..parts.palette import usual_color
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..read.shape import stretch
-from ..stored.names import HULL_TAG
+from ..read.stretching import unstretched
+from ..stored.names import HULL_TAG, MARGIN_TAG, PIECE_TAG
 from ..stored.noted_hulls import write_hull_record
 from .fitting_names import names_that_fit
+from .hull_collections import (
+    collection_for,
+    own_collection,
+    remove_empty_collections,
+)
 from .listed import hulls_of
-from .looks import keep_piece
 from .lost_hulls import (
     has_more,
     leave_to_user,
     lost_hulls,
     noted_by,
-    remove_empty_collections,
 )
 from .placed import pose_of
 from .rigid_bodies import remove_simulation, soften
@@ -63,9 +67,9 @@ def write_hulls(
     kinds = [shape.kind for shape in found.shapes]
     names = names_that_fit(obj, parameters.naming, parameters.template, kinds)
     _check_free(names, obj)
-    erase_hulls(obj)
-    collection = new_collection(obj, f"{obj.name} hulls")
-    collection[HULL_TAG] = obj.name
+    former = own_collection(obj)
+    erase_hulls(obj, kept=former)
+    collection = collection_for(obj, former)
     parts = find_parts_on(obj) if found.has_parts else None
     rows, materials = _materials(obj, found, parts)
     scale = stretch(obj)
@@ -79,7 +83,7 @@ def write_hulls(
         noted.append({"name": hull.name, **figures})
         tag_hull(hull, figures, shape, scale)
         if to_be_edited and shape.kind != "HULL":
-            keep_piece(hull, shape.hull.vertices / scale)
+            keep_piece(hull, unstretched(shape.hull.vertices, scale), has_margin=False)
         hull.parent = obj
         collection.objects.link(hull)
         hulls.append(hull)
@@ -97,8 +101,17 @@ def tag_hull(
     hull[HULL_TAG] = json.dumps(figures | pose_of(shape, scale))
 
 
+def keep_piece(hull: bpy.types.Object, points: np.ndarray, has_margin: bool) -> None:
+    """Keep the points of the piece that a hull is around, (N, 3), in object space."""
+    hull[PIECE_TAG] = points.ravel().tolist()
+    if has_margin:
+        hull[MARGIN_TAG] = True
+
+
 def erase_hulls(
-    obj: bpy.types.Object, chosen: Sequence[bpy.types.Object] | None = None
+    obj: bpy.types.Object,
+    chosen: Sequence[bpy.types.Object] | None = None,
+    kept: bpy.types.Collection | None = None,
 ) -> None:
     """Remove an object's hulls, and our collections if nothing is left in them.
 
@@ -107,6 +120,8 @@ def erase_hulls(
     obj : Object
     chosen : sequence of Object, optional
         The hulls to remove; the others stay.
+    kept : Collection, optional
+        Ours, which stays although nothing is left in it.
     """
     all_of_it = hulls_of(obj)
     hulls = all_of_it if chosen is None else chosen
@@ -122,7 +137,7 @@ def erase_hulls(
     if obj.mode == "OBJECT":
         if chosen is None:
             leave_to_user(obj)
-        _remove([hull for hull in hulls if HULL_TAG in hull])
+        _remove([hull for hull in hulls if HULL_TAG in hull], kept)
 
 
 def erase_lost_hulls() -> int:
@@ -133,10 +148,19 @@ def erase_lost_hulls() -> int:
     return len(hulls)
 
 
-def _remove(hulls: Sequence[bpy.types.Object]) -> None:
-    """Remove hulls with their meshes and materials, and our empty collections."""
+def _remove(
+    hulls: Sequence[bpy.types.Object], kept: bpy.types.Collection | None = None
+) -> None:
+    """Remove hulls with their meshes and materials, and our empty collections.
+
+    What the user gave them as children goes to their object.
+    """
+    removed = set(hulls)
+    for child in bpy.data.objects if removed else ():
+        if child.parent in removed and HULL_TAG not in child:
+            hand_over(child, child.parent.parent, within_parent(child.parent))
     discard(hulls)
-    remove_empty_collections()
+    remove_empty_collections(kept)
 
 
 def _materials(
@@ -147,8 +171,8 @@ def _materials(
         own = part_materials(obj, parts)
         return found.parts, none_missing(parts.identities, own)
     rows = found.parts if found.has_parts else np.arange(found.n_hulls)
-    identities = usual_identities(int(rows.max()) + 1)
-    return rows, [hull_material(row, each.color) for row, each in enumerate(identities)]
+    n_materials = int(rows.max()) + 1
+    return rows, [hull_material(row, usual_color(row)) for row in range(n_materials)]
 
 
 def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
@@ -174,7 +198,7 @@ def hull_mesh(
     """Return the mesh of a shape, with a material or without."""
     vertices, faces = core.faces_of(shape)
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata((vertices / scale).tolist(), [], faces.tolist())
+    mesh.from_pydata(unstretched(vertices, scale).tolist(), [], faces.tolist())
     if material is not None:
         mesh.materials.append(material)
     return mesh

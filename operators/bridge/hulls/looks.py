@@ -1,15 +1,12 @@
-"""How hulls are seen, and the pieces that they are around."""
+"""How hulls are seen: through, solid or as wires."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
 from ..parts.materials import discard_unused, is_ours
-from ..stored.names import PIECE_TAG
 
 # The choices, with their labels and tooltips.
 TRANSPARENT, SOLID, WIRE = "TRANSPARENT", "SOLID", "WIRE"
@@ -70,19 +67,3 @@ def _transparent(material: bpy.types.Material) -> bpy.types.Material:
         if node.type == "BSDF_PRINCIPLED":
             node.inputs["Alpha"].default_value = _OPACITY
     return copy
-
-
-def keep_piece(hull: bpy.types.Object, points: NDArray[np.float64]) -> None:
-    """Keep the points of the piece that a hull is around, (N, 3), in object space."""
-    hull[PIECE_TAG] = points.ravel().tolist()
-
-
-def piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
-    """Return the points of the piece that a hull is around, and if they are its own.
-
-    A convex hull is itself around its piece, and has its margin already.
-    """
-    if PIECE_TAG in hull:
-        return np.array(hull[PIECE_TAG]).reshape(-1, 3), False
-    points = np.array([vertex.co for vertex in hull.data.vertices], dtype=np.float64)
-    return points, True

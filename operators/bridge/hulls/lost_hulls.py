@@ -10,6 +10,7 @@ from ..homes import homes_of
 from ..stored.names import HULL_TAG, RESULT
 from ..stored.noted_hulls import figures_on, noted_hulls
 from ..stored.record import record_if_ours
+from .hull_collections import hull_collections
 from .listed import hulls_of, listed_hulls
 
 
@@ -22,7 +23,7 @@ def lost_hulls() -> list[bpy.types.Object]:
     """
     found = [
         hull
-        for collection in _hull_collections()
+        for collection in hull_collections()
         if _object_is_gone(collection)
         for hull in _without_object(collection)
     ]
@@ -30,17 +31,13 @@ def lost_hulls() -> list[bpy.types.Object]:
     return [hull for hull in dict.fromkeys(found) if hull.name not in noted]
 
 
-def has_hulls_to_clear(obj: bpy.types.Object) -> bool:
-    """Return whether our collections hold hulls of an object, or lost ones."""
-    return hulls_to_clear()(obj)
-
-
 def hulls_to_clear() -> Callable[[bpy.types.Object], bool]:
-    """Return `has_hulls_to_clear` for many objects, after one look at the file.
+    """Return what tells whether our collections hold hulls of an object, or lost ones.
 
-    Panels ask for it many times a second, and files have thousands of objects.
+    It looks at the file once: panels ask many times a second, and files have thousands
+    of objects.
     """
-    there = (each for c in _hull_collections() for each in c.objects)
+    there = (each for c in hull_collections() for each in c.objects)
     owners = {each.parent for each in there if HULL_TAG in each}
     some_are_lost = bool(lost_hulls())
     return lambda obj: HULL_TAG not in obj and (some_are_lost or obj in owners)
@@ -57,23 +54,11 @@ def leave_to_user(obj: bpy.types.Object) -> None:
         if has_more(hull) or (entries and hull not in listed):
             del hull[HULL_TAG]
     noted = noted_by(obj)
-    for collection in _hull_collections():
+    for collection in hull_collections():
         if collection[HULL_TAG] == obj.name:
             for hull in list(_without_object(collection)):
                 if hull.name in noted:
                     del hull[HULL_TAG]
-
-
-def remove_empty_collections() -> None:
-    """Remove the collections that we made for hulls, and that hold nothing."""
-    for collection in _hull_collections():
-        if not collection.all_objects and not collection.children:
-            bpy.data.collections.remove(collection)
-
-
-def _hull_collections() -> list[bpy.types.Collection]:
-    """Return the collections that we made for hulls, and can change."""
-    return [c for c in bpy.data.collections if HULL_TAG in c and c.is_editable]
 
 
 def _object_is_gone(collection: bpy.types.Collection) -> bool:
@@ -82,8 +67,6 @@ def _object_is_gone(collection: bpy.types.Collection) -> bool:
     Another one may have its name now: that has no hulls, or the hulls may be its own.
     """
     name = collection[HULL_TAG]
-    if not isinstance(name, str):  # older versions noted no name
-        return False
     return name not in bpy.data.objects or not noted_by(bpy.data.objects[name])
 
 

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import bpy
+import numpy as np
+from mathutils import Matrix
+from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
@@ -13,8 +17,11 @@ from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
+from ..homes import hand_over, within_parent
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
+from ..read.stretching import stretched
+from ..stored.names import MARGIN_TAG, PIECE_TAG
 from ..stored.noted_hulls import (
     forget_hulls,
     noted_hull_parameters,
@@ -22,14 +29,22 @@ from ..stored.noted_hulls import (
     noted_mesh_of_hulls,
 )
 from ..stored.record import HULLS, record_of, write_record
+from ..work.apart import hulls_around
 from ..work.libraries import with_libraries
-from ..work.session_cache import session_cache
-from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, tag_hull
+from .hull_objects import (
+    erase_hulls,
+    figures_of_hull,
+    hull_mesh,
+    keep_piece,
+    tag_hull,
+)
 from .listed import hulls_of, listed_hulls
-from .looks import keep_piece, look_like, look_of, piece_of
+from .looks import look_like, look_of
 
 
-def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecomposition]:
+def refit(
+    obj: bpy.types.Object, name: str, shape: str, in_window: bool = False
+) -> Steps[HullDecomposition]:
     """Return the steps that fit another shape to the piece that a hull is around.
 
     Parameters
@@ -39,6 +54,8 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
         Of a hull of the object.
     shape : str
         'HULL', 'BOX', 'CAPSULE', 'SPHERE' or 'CYLINDER'.
+    in_window : bool
+        Whether the steps run in a window, which must stay alive.
 
     Raises
     ------
@@ -48,18 +65,18 @@ def refit(obj: bpy.types.Object, name: str, shape: str) -> Steps[HullDecompositi
     hull = hull_called(obj, name)
     _noted_row(obj, name)
     parameters = replace(noted_hull_parameters(obj), shape=shape)
-    points, has_margin = piece_of(hull)
+    points, has_margin = _piece_of(hull)
     if has_margin:
         parameters = replace(parameters, margin=0.0)
-    points = points * stretch(obj)
+    points = stretched(points, stretch(obj))
     seen = read_as(noted_mesh_of_hulls(obj), obj)
     mesh, unit = seen.shape if seen else read_shape(obj), scene_unit(obj)
     assert isinstance(mesh, TriangleMesh)  # clouds have no hulls
 
-    def work() -> Steps[HullDecomposition]:
-        cache = session_cache()
-        steps = core.refit_in_steps(mesh, points, parameters, cache, unit)
-        return (yield from steps)
+    def work() -> Steps[HullDecomposition]:  # the core is imported by its first step
+        refit_in_steps = core.refit_in_steps
+        fit = partial(refit_in_steps, mesh, points, parameters, scene_unit=unit)
+        return (yield from hulls_around(mesh, fit, in_window))
 
     return with_libraries((), work())
 
@@ -69,13 +86,14 @@ def write_refit(
 ) -> bpy.types.Object:
     """Give a hull of an object the shape that was found; return the hull."""
     hull, row, (shape,) = hull_called(obj, name), _noted_row(obj, name), found.shapes
-    points, _ = piece_of(hull)
+    piece = _piece_of(hull)
     scale, former, look = stretch(obj), hull.data, look_of(hull)
     material = former.materials[0] if former.materials else None
     hull.data = hull_mesh(former.name, shape, scale, material)
     if former.users == 0:  # else the user has linked copies of the hull
         bpy.data.meshes.remove(former)
-    keep_piece(hull, points)
+    keep_piece(hull, *piece)
+    _bring_to_object(hull)
     record = record_of(obj)
     hulls = record[HULLS][HULLS]
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
@@ -102,6 +120,28 @@ def remove_hull(obj: bpy.types.Object, name: str) -> None:
         return
     record[HULLS][HULLS] = kept
     _note(obj, record, sum(each["volume"] for each in kept) / before)
+
+
+def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
+    """Return the points of the piece that a hull is around, and if they have a margin.
+
+    They are in the space of its object: the hull may have another place there, as after
+    the object's transform was applied. A convex hull that was built is around its piece
+    with its own vertices.
+    """
+    has_margin = PIECE_TAG not in hull or MARGIN_TAG in hull
+    kept = hull.get(PIECE_TAG) or [x for v in hull.data.vertices for x in v.co]
+    points = np.array(kept, dtype=np.float64).reshape(-1, 3)
+    matrix = np.array(within_parent(hull))
+    return points @ matrix[:3, :3].T + matrix[:3, 3], has_margin
+
+
+def _bring_to_object(hull: bpy.types.Object) -> None:
+    """Put a hull at the origin of its object; its children stay where they are."""
+    within = within_parent(hull)
+    for child in hull.children:
+        hand_over(child, hull, within)
+    hull.matrix_parent_inverse = hull.matrix_basis = Matrix()
 
 
 def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ....core.geometry.primitives import CollisionShape
 from ..read.shape import stretch
+from ..read.stretching import unstretched
 from ..stored.noted_hulls import figures_on
 
 # Axes that differ by less, in length or from a right angle, are those of a solid.
@@ -48,15 +49,16 @@ class Primitive:
 def pose_of(shape: CollisionShape, scale: NDArray[np.float64]) -> dict[str, Any]:
     """Return kind, center, axes and sizes of a primitive, in object space.
 
-    Axes are rows. Object space is not scaled yet: where the `scale`, (3,), differs by
-    axis, the axes have other lengths than 1 there. Sizes are multiples of them.
+    Axes are rows. Object space is not scaled yet: the `scale`, (3, 3), is its stretch.
+    Where that is not the identity, the axes have other lengths than 1 there, and may
+    be sheared. Sizes are multiples of them.
     """
     if shape.kind == "HULL":
         return {"kind": shape.kind}
     return {
         "kind": shape.kind,
-        "center": (shape.center / scale).tolist(),
-        "axes": (shape.axes / scale).tolist(),
+        "center": unstretched(shape.center, scale).tolist(),
+        "axes": unstretched(shape.axes, scale).tolist(),
         "sizes": shape.sizes.tolist(),
     }
 
@@ -104,7 +106,7 @@ def primitive_of(
     return found
 
 
-def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
+def pose_in_scene(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
     """Return pose, size and volume of a shape, in the scene.
 
     Parameters
@@ -119,11 +121,10 @@ def placed(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
         `position` is the center. `rotation` is a unit quaternion (w, x, y, z); it
         turns the axes of the scene into those of the shape. `size` has `extents` along
         the axes, or `radius` and `length`; the length of a capsule excludes its ends.
-        A hull is not turned: its extents are those of its bounding box. So it is with
-        the mesh of a primitive that a parent shears.
+        A hull is not turned: its extents are those of its bounding box.
     """
     to_scene, scale = np.array(obj.matrix_world, dtype=np.float64), stretch(obj)
-    turn = to_scene[:3, :3] / scale  # it keeps angles, and may mirror
+    turn = unstretched(to_scene[:3, :3], scale)  # it keeps angles, and may mirror
     volume = float(shape.volume) * abs(float(np.linalg.det(turn)))
     found = _moved(pose_of(shape, scale), to_scene) if shape.kind != "HULL" else None
     if found is not None:

@@ -20,11 +20,12 @@ from .layers import flush_edits
 
 
 def select_faces(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
-    """Select faces, and nothing else unless `extend`."""
+    """Select faces, and nothing else unless `extend`; hidden ones stay unselected."""
     mesh = obj.data
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, "faces", chosen, extend)
         return
+    chosen = chosen & ~read_flags(mesh.polygons, "hide")
     of_faces = chosen[corner_faces(mesh)]
     vertices, edges = corner_vertices(mesh)[of_faces], corner_edges(mesh)[of_faces]
     _select(mesh.vertices, _flags(len(mesh.vertices), vertices), extend)
@@ -40,7 +41,7 @@ def selected_faces(obj: bpy.types.Object) -> BoolArray:
 
 
 def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None:
-    """Select edges, and nothing else unless `extend`.
+    """Select edges, and nothing else unless `extend`; hidden ones stay unselected.
 
     If Blender is in face select mode, it is set to edge select mode.
     """
@@ -51,6 +52,7 @@ def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     if mesh.is_editmode:
         _select_in_edit_mode(mesh, "edges", chosen, extend)
         return
+    chosen = chosen & ~read_flags(mesh.edges, "hide")
     ends = read_ints(mesh.edges, "vertices", 2)[chosen].ravel()
     _select(mesh.vertices, _flags(len(mesh.vertices), ends), extend)
     _select(mesh.edges, chosen, extend)
@@ -105,11 +107,15 @@ def _select(elements: Any, chosen: BoolArray, extend: bool) -> None:
     if extend:
         chosen = chosen | read_flags(elements, "select")
     mesh = elements.id_data
-    flags = mesh.attributes.get(".select_edge")
+    attributes, active = mesh.attributes, mesh.attributes.active
+    name = None if active is None else active.name
+    flags = attributes.get(".select_edge")
     if elements == mesh.edges and flags is not None:
         # Blender 5.0 crashes if it writes to those that it loaded from a file.
-        mesh.attributes.remove(flags)
+        attributes.remove(flags)
     write_flags(elements, "select", chosen)
+    if name is not None:
+        attributes.active = attributes[name]  # removing one makes another active
 
 
 def _select_in_edit_mode(

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import cache
 
 import bpy
 
@@ -64,13 +63,6 @@ class Newcomers:
     def _names(self) -> set[str]:
         """Return the names that new parts must not have."""
         return {each.name for each in self.known}
-
-
-@cache
-def usual_identities(n_parts: int) -> tuple[Identity, ...]:
-    """Return the identities of parts that were never edited, numbered from 0."""
-    newcomers = Newcomers(())
-    return tuple(newcomers.add() for _ in range(n_parts))
 
 
 def identities_of_run(

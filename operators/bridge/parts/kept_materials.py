@@ -13,18 +13,18 @@ import bpy
 import numpy as np
 
 from ..mesh.layers import layers_of
-from ..stored.names import GROUP_LAYER, OVERLAY, OWNER, OWNER_LAYER, PART_LAYER
+from ..stored.names import GROUP_LAYER, KEPT_MATERIALS, OWNER, OWNER_LAYER, PART_LAYER
 from .materials import name_of
 
 
 def is_overlaid(obj: bpy.types.Object) -> bool:
     """Return whether the colors of an object's parts are an overlay."""
-    return obj.type == "MESH" and OVERLAY in obj.data
+    return obj.type == "MESH" and KEPT_MATERIALS in obj.data
 
 
 def kept_materials(mesh: bpy.types.Mesh) -> dict[int, bpy.types.Material]:
     """Return the materials that a mesh keeps, by the numbers of the parts."""
-    found = mesh.get(OVERLAY) or {}
+    found = mesh.get(KEPT_MATERIALS) or {}
     return {int(key): found[key] for key in found.keys() if found[key]}  # noqa: SIM118
 
 
@@ -35,7 +35,7 @@ def keep(obj: bpy.types.Object, materials: Mapping[int, bpy.types.Material]) -> 
     which groups are ours.
     """
     mesh, layers, owner = obj.data, layers_of(obj), _checksum(obj.name)
-    mesh[OVERLAY] = {str(number): each for number, each in materials.items()}
+    mesh[KEPT_MATERIALS] = {str(number): each for number, each in materials.items()}
     mesh[OWNER] = owner
     layers.set_faces(OWNER_LAYER, np.full(len(mesh.polygons), owner, dtype=np.int32))
     numbers = layers.faces(PART_LAYER)
@@ -75,7 +75,7 @@ def _checksum(name: str) -> int:
 def drop_kept(mesh: bpy.types.Mesh) -> list[bpy.types.Material]:
     """Keep no materials any more, and return those that were kept."""
     materials = list(kept_materials(mesh).values())
-    for name in (OVERLAY, OWNER):
+    for name in (KEPT_MATERIALS, OWNER):
         if name in mesh:
             del mesh[name]
     return materials

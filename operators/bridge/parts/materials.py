@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..stored.identity import Identity, has_name, part_name, plain_name
-from ..stored.names import MATERIAL_NAME, MATERIAL_TAG, OVERLAY
+from ..stored.names import KEPT_MATERIALS, MATERIAL_NAME, MATERIAL_TAG
 from ..stored.restore import read_restore
 from .palette import Color
 
@@ -65,7 +65,7 @@ def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
     slots before are left out: a separated part has the material of what it was.
     """
     slots: dict[int, list[int]] = {}
-    if OVERLAY in mesh:  # those in slots came with another object
+    if KEPT_MATERIALS in mesh:  # those in slots came with another object
         return slots
     restore = read_restore(mesh)
     for index, material in enumerate(mesh.materials):

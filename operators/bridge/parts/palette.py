@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 # Linear red, green and blue, each in 0…1.
 Color: TypeAlias = tuple[float, float, float]
@@ -44,6 +45,11 @@ _PALETTE = (
     (0x8F4000, 0xDA834A),
     (0xFF6897, 0xFFB3C5),
 )
+# Their channels, (24, 2, 3), and the linear ones in numbers that Blender can hold.
+_SRGB = (np.array(_PALETTE)[..., None] >> np.array((16, 8, 0)) & 0xFF) / 255
+_LINEAR = np.where(
+    _SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4
+).astype(np.float32)
 # Linear RGBA of what has no part and no material.
 UNPAINTED = (0.8, 0.8, 0.8, 1.0)
 # Colors as near as this, in each channel, are the same one.
@@ -59,18 +65,23 @@ def free_color(used: Iterable[Sequence[float]]) -> Color:
 
     If all are in use, the one that fewest parts have.
     """
-    there = np.array([color[:3] for color in used]).reshape(-1, 3)
-    counts = [_count(pair, there) for pair in _PALETTE]
-    return _linear(_unpacked(_PALETTE[int(np.argmin(counts))][0]))
+    there = np.array([color[:3] for color in used]).reshape(-1, 1, 1, 3)
+    counts = _are_same(there).sum(axis=(0, 2))
+    return _color(_LINEAR[np.argmin(counts), 0])
+
+
+def usual_color(number: int) -> Color:
+    """Return the color of a new part that has this number of new ones before it.
+
+    It is what `free_color` gives one after the other.
+    """
+    return _color(_LINEAR[number % len(_LINEAR), 0])
 
 
 def partner_color(color: Sequence[float]) -> Color:
     """Return the color of the mirror image of a part with this linear color."""
-    for pair in _PALETTE:
-        first, second = (_linear(_unpacked(each)) for each in pair)
-        for one, other in ((first, second), (second, first)):
-            if np.abs(np.subtract(one, color[:3])).max() < _SAME:
-                return other
+    for pair, side in np.argwhere(_are_same(np.array(color[:3]))):
+        return _color(_LINEAR[pair, 1 - side])
     gray = 0.0 if np.mean(color[:3]) > _LIGHT else 1.0
     red, green, blue = (c + (gray - c) * _LIGHTER for c in color[:3])
     return red, green, blue
@@ -85,21 +96,12 @@ def srgb_of(color: Sequence[float]) -> Color:
     return red, green, blue
 
 
-def _count(pair: tuple[int, int], used: np.ndarray) -> int:
-    """Return how many of the used colors are one of a pair."""
-    colors = np.array([_linear(_unpacked(each)) for each in pair])
-    differences = np.abs(used[:, None] - colors[None]).max(axis=2, initial=0.0)
-    return int((differences < _SAME).sum())
+def _are_same(colors: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which colors of the palette are the same as each color."""
+    return np.abs(colors - _LINEAR).max(axis=-1) < _SAME
 
 
-def _unpacked(color: int) -> Color:
-    """Return the channels of a color, each in 0…1."""
-    red, green, blue = ((color >> shift & 0xFF) / 255 for shift in (16, 8, 0))
-    return red, green, blue
-
-
-def _linear(srgb: Color) -> Color:
-    """Return the linear color of an sRGB one, in numbers that Blender can hold."""
-    linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in srgb)
-    red, green, blue = (float(np.float32(c)) for c in linear)
+def _color(channels: NDArray[np.float32]) -> Color:
+    """Return a color of the palette as Blender takes it."""
+    red, green, blue = channels.tolist()
     return red, green, blue

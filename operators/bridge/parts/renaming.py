@@ -9,11 +9,12 @@ from typing import Any
 import bpy
 
 from ....core.errors import DecompositionError
+from ..hulls.listed import hulls_of
 from ..hulls.looks import look_like, look_of
 from ..mesh.points import is_cloud
 from ..refusals import library_refusal, name_refusal
 from ..stored.identity import Identity
-from ..stored.names import HULL_TAG, OVERLAY
+from ..stored.names import KEPT_MATERIALS
 from ..stored.noted_parts import identities_of
 from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
@@ -139,7 +140,7 @@ def _change(obj: bpy.types.Object, identity: Identity) -> None:
 def _home(obj: bpy.types.Object, number: int) -> tuple[Any, int | str]:
     """Return what holds the material of a part, and its place there; None for none."""
     if is_overlaid(obj):
-        kept, key = obj.data[OVERLAY], str(number)
+        kept, key = obj.data[KEPT_MATERIALS], str(number)
         return (kept if key in kept else None), key
     slots = [] if is_cloud(obj) else part_slots(obj.data).get(number, [])
     return (obj.data.materials, slots[0]) if slots else (None, 0)
@@ -149,10 +150,11 @@ def _give_hulls(
     obj: bpy.types.Object, before: bpy.types.Material, material: bpy.types.Material
 ) -> None:
     """Give the hulls of a part its material, in place of the one before."""
-    for child in obj.children if before != material else ():
-        if HULL_TAG in child and before in child.data.materials[:]:
-            child.data.materials[0] = material
-            child.color = (*material.diffuse_color[:3], child.color[3])
-            look_like([child], look_of(child))
+    for hull in hulls_of(obj) if before != material else ():
+        slots = hull.data.materials
+        if before in slots[:]:
+            slots[slots[:].index(before)] = material
+            hull.color = (*material.diffuse_color[:3], hull.color[3])
+            look_like([hull], look_of(hull))
     if before != material:
         discard_unused([before])

@@ -188,12 +188,12 @@ def chosen_parts(obj: bpy.types.Object) -> list[int]:
     """Return the places of the parts that buttons act on: see `chosen_numbers`.
 
     Places are among the parts that the object has now, by number. Rows of parts that
-    have no faces do not count.
+    have no faces do not count; if there are no others, it is the first part.
     """
     numbers = chosen_numbers(obj)
     identities = part_identities(obj)
     places = [p for p, each in enumerate(identities) if each.number in numbers]
-    return places or [active_part(obj)]
+    return places or [0]
 
 
 def hull_shapes(obj: bpy.types.Object) -> dict[int, str]:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
-from ..homes import new_collection
+from ..homes import hand_over, new_collection
 from ..hulls.hull_objects import erase_hulls
 from ..hulls.rigid_bodies import soften
 from ..mesh.corner_normals import give_back_normals, keep_normals
@@ -89,24 +89,8 @@ def _bare_copy(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
 def _replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
     """Remove an object whose parts were separated; `piece` gets its children."""
     for child in obj.children:
-        inverse = _inverse_held_by(obj, child)
-        if child.parent_type.startswith("VERTEX"):
-            child.parent_type = "OBJECT"
-        child.parent = piece
-        child.matrix_parent_inverse = inverse  # Blender resets it with the parent
+        hand_over(child, piece, Matrix())
     discard([obj])
-
-
-def _inverse_held_by(obj: bpy.types.Object, child: bpy.types.Object) -> Matrix:
-    """Return the inverse that leaves a child in place if the whole object holds it.
-
-    On a piece, the numbers of vertices that hold it are those of others. Its location
-    stays what it is: that may be animated.
-    """
-    if not child.parent_type.startswith("VERTEX"):
-        return child.matrix_parent_inverse.copy()
-    place = obj.matrix_world.inverted_safe() @ child.matrix_world
-    return place @ child.matrix_basis.inverted_safe()
 
 
 def area_of(obj: bpy.types.Object) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
-from ..stored.names import MATERIAL_LAYER, OVERLAY
+from ..stored.names import KEPT_MATERIALS, MATERIAL_LAYER
 from ..stored.restore import Restore, sharers
 from .materials import is_ours
 
@@ -120,7 +120,7 @@ def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
     ]
     first = min([len(restore.slots), *ours])
     empty = [i for i in range(first, len(mesh.materials)) if mesh.materials[i] is None]
-    n_missing = 0 if OVERLAY in mesh else max(len(restore.groups) - len(ours), 0)
+    n_missing = 0 if KEPT_MATERIALS in mesh else max(len(restore.groups) - len(ours), 0)
     return sorted(ours + empty[:n_missing])
 
 

@@ -76,10 +76,12 @@ def write_parts(
     identities = kept or before.continued_by(obj, decomposition, faces)
     former = _made_bare(obj, faces)
     decomposition, ready, identities = by_number(obj, decomposition, ready, identities)
-    restore = _write_mesh(obj, decomposition, ready, identities, before.materials)
+    restore, identities, materials = _write_mesh(
+        obj, decomposition, ready, identities, before.materials
+    )
     _write_layers(obj, decomposition, identities, by_hand)
     write_restore(obj.data, restore)
-    _note(obj, decomposition, ready, parameters, restore, identities, before)
+    _note(obj, decomposition, ready, parameters, identities, materials, before)
     show(obj, *also_shown)
     if overlaid:
         show_as_overlay(obj)
@@ -113,14 +115,11 @@ def _note(
     decomposition: Decomposition,
     ready: ByLabel,
     parameters: Parameters,
-    restore: Restore,
     identities: Sequence[Identity],
+    materials: Sequence[str],
     before: BeforeWriting,
 ) -> None:
     """Write the record and the rows, on all objects that share the mesh."""
-    if restore.groups:
-        identities = _named(identities, restore.groups)
-    materials = _material_names(obj, len(identities))
     measured_on = [to_be_noted(row) for row in ready.sums]
     for sharer in sharers(obj):
         write_result(
@@ -150,13 +149,6 @@ def _write_layers(
         set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
 
 
-def _material_names(obj: bpy.types.Object, n_parts: int) -> list[str]:
-    """Return the name of each part's material. All parts of a cloud share one."""
-    if is_cloud(obj):
-        return [obj.data.materials[-1].name] * n_parts
-    return [each.name for each in obj.data.materials[-n_parts:]]
-
-
 def check_writable(obj: bpy.types.Object) -> None:
     """Raise if parts cannot be written to an object."""
     reason = refusal(obj)
@@ -184,8 +176,11 @@ def _write_mesh(
     ready: ByLabel,
     identities: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
-) -> Restore:
-    """Write parts to a mesh without parts; return how to bring it back."""
+) -> tuple[Restore, Sequence[Identity], list[str]]:
+    """Write parts to a mesh without parts.
+
+    Return how to bring it back, who the parts are, and the names of their materials.
+    """
     mesh = obj.data
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
     users = [group.name for group in obj.vertex_groups]
@@ -202,9 +197,11 @@ def _write_mesh(
     for name, vertices in zip(groups, ready.vertices, strict=False):  # or no groups
         layers.fill_group(obj.vertex_groups[name], vertices)
     layers.finish()
-    return Restore(
+    restore = Restore(
         groups=groups, active_group=active_group, user_groups=users, **before
     )
+    shared = len(identities) if is_cloud(obj) else 1  # all parts of a cloud share one
+    return restore, identities, [each.name for each in materials] * shared
 
 
 def _add_groups(

@@ -36,24 +36,7 @@ class EmbreeRayCaster:
         directions: NDArray[np.float64],
         reach: NDArray[np.float64],
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Return the nearest triangle along each ray, and its distance.
-
-        Parameters
-        ----------
-        origins : (M, 3) float
-            Starts of the rays, in the space of the mesh.
-        directions : (M, 3) float
-            Unit vectors.
-        reach : (M,) float
-            Hits farther away than this are misses.
-
-        Returns
-        -------
-        triangles : (M,) int
-            Row of the mesh's triangles, −1 for a miss.
-        distances : (M,) float
-            `inf` for a miss.
-        """
+        """Return the first triangle along each ray and its distance, as `RayCaster`."""
         rays = [
             np.ascontiguousarray(array, dtype=np.float32)
             for array in (origins, directions, reach)

@@ -99,6 +99,35 @@ def mesh_of(shape: object, faces: object) -> TriangleMesh:
     return mesh
 
 
+def stretch(shape: object) -> NDArray[np.float64]:
+    """Return the matrix that coordinates in results of a shape are multiplied by.
+
+    Results of Blender objects have the proportions that these have in the scene, at the
+    volume of their mesh. Multiply by the inverse to get to the object's own space.
+
+    Parameters
+    ----------
+    shape : object
+        As for `decompose`.
+
+    Returns
+    -------
+    (3, 3) float
+        Symmetric, of determinant 1. It is diagonal for an object that no parent shears.
+        It is the identity where the scale is uniform, and for all but objects.
+
+    Raises
+    ------
+    DecompositionError
+        If the scale of an object is zero, or its place is not finite.
+    """
+    if not _is_blender_object(shape):
+        return np.eye(3)
+    from .shape import stretch as stretch_of_object
+
+    return stretch_of_object(shape)
+
+
 def scene_unit_of(shape: object) -> float:
     """Return the length of 1 in the coordinates of a shape that a script passed.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix
 
-from ..homes import homes_of, objects_in
+from ..homes import home_of, homes_of, objects_in, takes_more, view_layers
 from ..parts.erase import erase_parts
 from ..parts.materials import discard
 from ..refusals import CONVERTIBLE
@@ -20,15 +20,13 @@ from .evaluated import SeenMesh
 from .shown_mesh import evaluated_copy
 
 
-def carrier_for(
-    obj: bpy.types.Object, seen: SeenMesh | None = None
-) -> bpy.types.Object:
+def carrier_for(obj: bpy.types.Object, seen: SeenMesh | None) -> bpy.types.Object:
     """Return the object to be read: a mesh itself, or a new carrier.
 
     Parameters
     ----------
     obj : bpy.types.Object
-    seen : SeenMesh, optional
+    seen : SeenMesh or None
         The mesh as it is seen, if that is read.
 
     Raises
@@ -41,6 +39,7 @@ def carrier_for(
     mesh = evaluated_copy(obj) if obj.type == "MESH" else converted(obj)
     carrier = bpy.data.objects.new(mesh.name, mesh)
     carrier[CARRIER_TAG] = obj.name
+    carrier[HIDDEN_IN_TAG] = [bpy.context.scene.name, bpy.context.view_layer.name]
     carrier.parent = obj
     # Blender computes no matrices of objects that are in no collection.
     carrier.matrix_world = obj.matrix_world
@@ -52,47 +51,68 @@ def _needs_carrier(obj: bpy.types.Object, seen: SeenMesh | None) -> bool:
     return obj.type in CONVERTIBLE or (seen is not None and not seen.corresponds)
 
 
-def placed_carrier(
-    obj: bpy.types.Object, seen: SeenMesh | None = None
-) -> bpy.types.Object:
+def placed_carrier(obj: bpy.types.Object, seen: SeenMesh | None) -> bpy.types.Object:
     """Return the object to be written to: a mesh itself, or its carrier.
 
-    The carrier is placed beside its source, instead of an earlier one, and becomes the
-    active object; the source is hidden. The carrier is made again if undo has removed
+    The carrier is placed beside its source, instead of an earlier one, and is selected
+    in place of it; the source is hidden. The carrier is made again if undo has removed
     it meanwhile.
     """
     if not _needs_carrier(obj, seen):
         return obj
     waiting = [child for child in obj.children if is_waiting(child)]
     carrier = waiting[0] if waiting else carrier_for(obj, seen)
-    earlier = [child for child in obj.children if CARRIER_TAG in child]
-    _remove(obj, [each for each in earlier if each != carrier])
+    _remove(obj, [each for each in _carriers_of(obj) if each != carrier])
     carrier.name = carrier.data.name = f"{obj.name} parts"
     carrier.data[CARRIER_TAG] = carrier.data.name
     carrier.matrix_basis = Matrix()
-    for collection in homes_of(obj):
+    for collection in {home_of(obj), *filter(takes_more, homes_of(obj))}:
         collection.objects.link(carrier)
-    bpy.context.view_layer.update()
-    # The user may look at another view layer since the computation began.
-    shown = bpy.context.view_layer.objects
-    if carrier.name in shown:
-        obj.select_set(False)
-        carrier.select_set(True)
-        shown.active = carrier
-    _hide_source(carrier)
+    _take_place(carrier)
     return carrier
 
 
-def _hide_source(carrier: bpy.types.Object) -> None:
-    """Hide the source of a carrier, and note on it how that was shown."""
-    source, layer = carrier.parent, bpy.context.view_layer
-    there = source in objects_in(layer)
-    was_shown = there and not source.hide_get()
+def replaced_carriers(
+    obj: bpy.types.Object, seen: SeenMesh | None
+) -> list[bpy.types.Object]:
+    """Return the carriers that `placed_carrier` removes; their hulls have to go before.
+
+    Carriers that become the user's are not among them.
+    """
+    if not _needs_carrier(obj, seen):
+        return []
+    earlier = [child for child in _carriers_of(obj) if not is_waiting(child)]
+    return [each for each in earlier if _is_ours_alone(each) and not is_copy(each)]
+
+
+def _carriers_of(source: bpy.types.Object) -> list[bpy.types.Object]:
+    """Return the carriers of a source, with copies of them."""
+    return [child for child in source.children if CARRIER_TAG in child]
+
+
+def _is_ours_alone(carrier: bpy.types.Object) -> bool:
+    """Return whether a carrier is still a mesh, and holds nothing but hulls."""
+    only_hulls = all(HULL_TAG in child for child in carrier.children_recursive)
+    return only_hulls and carrier.type == "MESH"
+
+
+def _take_place(carrier: bpy.types.Object) -> None:
+    """Hide the source of a carrier, note how that was shown, and select the carrier.
+
+    The user may look at another view layer since the computation began.
+    """
+    source, layer = carrier.parent, _layer_of(carrier)
+    layer.update()  # else it has no new object in Blender 4.2
+    there = objects_in(layer)
+    was_shown = source in there and not source.hide_get(view_layer=layer)
     carrier[HIDDEN_TAG] = [was_shown, not source.hide_render]
-    if was_shown:
-        carrier[HIDDEN_IN_TAG] = [bpy.context.scene.name, layer.name]
-    if there:
-        source.hide_set(True)
+    if source in there:
+        source.select_set(False, view_layer=layer)
+        source.hide_set(True, view_layer=layer)
+    if carrier in there:
+        carrier.select_set(True, view_layer=layer)
+        if layer.objects.active in {source, None}:  # none if it was an earlier carrier
+            layer.objects.active = carrier
     source.hide_render = True
 
 
@@ -102,20 +122,18 @@ def _show_source(carrier: bpy.types.Object) -> None:
     if source is None or was_shown is None:
         return
     in_view, in_render = was_shown
-    layer = _layer_of(carrier)
-    if in_view and source in objects_in(layer):
+    if in_view and source in objects_in(layer := _layer_of(carrier)):
         source.hide_set(False, view_layer=layer)
     if in_render:
         source.hide_render = False
 
 
 def _layer_of(carrier: bpy.types.Object) -> bpy.types.ViewLayer:
-    """Return the view layer in which we hid the source of a carrier.
+    """Return the view layer in which the source of a carrier was read, and hidden.
 
-    It is the present one if that is not known: older versions did not note it, and the
-    user may rename it.
+    It is the present one if that is not known: the user may rename it.
     """
-    scene, name = carrier.get(HIDDEN_IN_TAG, ("", ""))
+    scene, name = carrier[HIDDEN_IN_TAG]
     layers = bpy.data.scenes[scene].view_layers if scene in bpy.data.scenes else {}
     return layers.get(name) or bpy.context.view_layer
 
@@ -126,14 +144,12 @@ def _remove(source: bpy.types.Object, carriers: list[bpy.types.Object]) -> None:
     These are all copies, and carriers that the user converted to something else, or
     that have children of the user's.
     """
-    there = [child for child in source.children if CARRIER_TAG in child]
-    copies = list(filter(is_copy, there))  # while the carriers are there
+    copies = list(filter(is_copy, _carriers_of(source)))  # while the carriers are there
     for carrier in carriers:
         _show_source(carrier)
         if carrier in copies:
             continue
-        only_hulls = all(HULL_TAG in child for child in carrier.children)
-        if only_hulls and carrier.type == "MESH":
+        if _is_ours_alone(carrier):
             discard([carrier])
         else:
             _leave_to_user(carrier)
@@ -150,7 +166,8 @@ def is_copy(carrier: bpy.types.Object) -> bool:
     if is_waiting(carrier):
         return False
     mesh = carrier.data
-    noted = mesh.get(CARRIER_TAG, f"{carrier[CARRIER_TAG]} parts")  # older: no note
+    # Data that the user gave a carrier have no note.
+    noted = mesh.get(CARRIER_TAG, f"{carrier[CARRIER_TAG]} parts")
     return carrier.name != noted and (mesh.name != noted or mesh.users > 1)
 
 
@@ -174,19 +191,14 @@ def clear_carrier(carrier: bpy.types.Object) -> None:
     if is_copy(carrier):
         _remove(source, [])
         return
-    layers = _layers_with(carrier)
+    present = bpy.context.view_layer
+    active_in = [layer for layer in view_layers() if carrier == layer.objects.active]
     _remove(source, [carrier])
-    for layer in layers:
+    for layer in {present, *active_in}:
         if source in objects_in(layer):
             source.select_set(True, view_layer=layer)
-            layer.objects.active = source
-
-
-def _layers_with(carrier: bpy.types.Object) -> list[bpy.types.ViewLayer]:
-    """Return the view layers whose active object is a carrier, and the present one."""
-    present = bpy.context.view_layer
-    layers = [layer for scene in bpy.data.scenes for layer in scene.view_layers]
-    return [at for at in layers if at == present or at.objects.active == carrier]
+            if layer in active_in:
+                layer.objects.active = source
 
 
 def discard_waiting() -> None:

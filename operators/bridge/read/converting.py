@@ -43,7 +43,7 @@ _MOST_HALVINGS = 10
 
 
 @contextmanager
-def mesh_of(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+def lent_mesh(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
     """Give the mesh of an object, or one made of a curve that is removed at the end.
 
     Raises

@@ -23,6 +23,7 @@ from ..mesh.known import triangles_of
 from ..stored.record import EVALUATED, ORIGINAL
 from .shape import stretch
 from .shown_mesh import count_instances, differs, evaluated
+from .stretching import stretched
 
 # Carries face numbers, counted from 1, while a mesh is evaluated; 0 is no face.
 _LAYER = "wcd_face"
@@ -172,7 +173,7 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
     if corresponds:
         origins = origins[_nearest(centers, known)]
     return SeenMesh(
-        TriangleMesh(vertices * stretch(obj), triangles, polygons),
+        TriangleMesh(stretched(vertices, stretch(obj)), triangles, polygons),
         areas,
         origins,
         own_areas,

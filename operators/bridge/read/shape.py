@@ -15,7 +15,8 @@ from ....core.steps.progress import Progress, Steps, run
 from ..mesh.known import triangles_in_steps, vertex_positions
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
-from .converting import mesh_of
+from .converting import lent_mesh
+from .stretching import is_diagonal, sheared_scale, stretched, unstretched
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
 _SAME_SCALE = 1e-5
@@ -32,9 +33,9 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     """Return the triangles of an object's mesh, without modifiers, or its points.
 
     Coordinates are in object space, in Blender units. If the object's scale differs by
-    axis, they are multiplied by its `stretch`, because samples are spread over the
-    shape that the user sees. Mirroring is left out: it changes no line of sight, and
-    would turn the triangles inside out.
+    axis, or a parent shears it, they are multiplied by its `stretch`, because samples
+    are spread over the shape that the user sees. Mirroring is left out: it changes no
+    line of sight, and would turn the triangles inside out.
 
     All is read at once, so that the object may change before the steps are done.
 
@@ -47,20 +48,20 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     DecompositionError
         At once, if an object has no usable faces or points, or no proper place.
     """
-    factors = stretch(obj)
+    matrix = stretch(obj)
     if is_cloud(obj):
-        return as_steps(_cloud(obj, factors))
+        return as_steps(_cloud(obj, matrix))
     flush_edits(obj)
-    with mesh_of(obj) as mesh:
-        return _mesh_in_steps(mesh, factors)
+    with lent_mesh(obj) as mesh:
+        return _mesh_in_steps(mesh, matrix)
 
 
-def _cloud(obj: bpy.types.Object, factors: NDArray[np.float64]) -> PointCloud:
-    """Return the points of an object, its coordinates multiplied by factors (3,)."""
+def _cloud(obj: bpy.types.Object, matrix: NDArray[np.float64]) -> PointCloud:
+    """Return the points of an object, its coordinates multiplied by a stretch."""
     read = normals_of(obj)
     # Stretching tilts normals the other way.
-    normals = None if read is None else read.astype(np.float64) / factors
-    return PointCloud(positions_of(obj).astype(np.float64) * factors, normals)
+    normals = None if read is None else unstretched(read.astype(np.float64), matrix)
+    return PointCloud(stretched(positions_of(obj).astype(np.float64), matrix), normals)
 
 
 def as_steps(shape: Shape) -> Steps[Shape]:
@@ -69,19 +70,19 @@ def as_steps(shape: Shape) -> Steps[Shape]:
     return shape
 
 
-def read_mesh(mesh: bpy.types.Mesh, factors: NDArray[np.float64]) -> TriangleMesh:
-    """Return the triangles of a mesh, its coordinates multiplied by factors (3,).
+def read_mesh(mesh: bpy.types.Mesh, matrix: NDArray[np.float64]) -> TriangleMesh:
+    """Return the triangles of a mesh, its coordinates multiplied by a stretch (3, 3).
 
     Raises
     ------
     DecompositionError
         If the mesh has no usable faces.
     """
-    return run(_mesh_in_steps(mesh, factors))
+    return run(_mesh_in_steps(mesh, matrix))
 
 
 def _mesh_in_steps(
-    mesh: bpy.types.Mesh, factors: NDArray[np.float64]
+    mesh: bpy.types.Mesh, matrix: NDArray[np.float64]
 ) -> Steps[TriangleMesh]:
     """Return what `read_mesh` returns; the mesh is read and checked at once."""
     places = vertex_positions(mesh)
@@ -92,7 +93,7 @@ def _mesh_in_steps(
     def work() -> Steps[TriangleMesh]:
         vertices, triangles, polygons = yield from read
         yield Progress("Surface", 0.0)
-        vertices = vertices * factors
+        vertices = stretched(vertices, matrix)
         vertices.flags.writeable = False  # as the others: the shape need not copy it
         return TriangleMesh(vertices, triangles, polygons)
 
@@ -100,17 +101,25 @@ def _mesh_in_steps(
 
 
 def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
-    """Return the factor of each axis, (3,), that gives a mesh its proportions.
+    """Return the matrix, (3, 3), that gives a mesh its proportions.
 
-    Their product is 1: they keep volumes, and lengths of 1 are about as long as in
-    object space. All are 1 if the scale is uniform.
+    It is symmetric: it turns nothing. Its determinant is 1: it keeps volumes, and
+    lengths of 1 are about as long as in object space. It is diagonal if no parent
+    shears the object, and the identity if the scale is uniform.
 
     Raises
     ------
     DecompositionError
         If the scale is zero, or the object's place is not finite.
     """
-    scale = _scale_of(obj)
+    scale, axes = _scale_of(obj)
+    matrix: NDArray[np.float64] = (axes * _factors(scale)) @ axes.T
+    # The matrix of an object is in single precision, too. The rest would be noise.
+    return matrix if is_diagonal(matrix) else matrix.astype(np.float32).astype(float)
+
+
+def _factors(scale: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a scale, (3,), without its size: the product is 1."""
     if scale.max() - scale.min() <= _SAME_SCALE * scale.max():
         return np.ones(3)
     factors: NDArray[np.float64] = scale / np.cbrt(scale.prod())
@@ -125,7 +134,8 @@ def scene_unit(obj: bpy.types.Object) -> float:
     DecompositionError
         As `stretch` does.
     """
-    return float((_scale_of(obj) / stretch(obj)).max())
+    scale, _ = _scale_of(obj)
+    return float((scale / _factors(scale)).max())
 
 
 def has_place(obj: bpy.types.Object) -> bool:
@@ -133,20 +143,27 @@ def has_place(obj: bpy.types.Object) -> bool:
     return bool(np.isfinite(np.array(obj.matrix_world)).all())
 
 
-def _scale_of(obj: bpy.types.Object) -> NDArray[np.float64]:
-    """Return the scale of an object, (3,), without signs; raise as `stretch` does."""
+def _scale_of(
+    obj: bpy.types.Object,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the scale of an object, (3,), without signs, and its axes.
+
+    These are the columns of a matrix, (3, 3). Raise as `stretch` does.
+    """
     if not has_place(obj):
         raise DecompositionError(
             "The object's location, rotation or scale, or its parent's, is not a"
             " number; type one in Sidebar > Item."
         )
-    scale = np.abs(np.array(obj.matrix_world.to_scale(), dtype=np.float64))
+    scale, axes = np.abs(np.array(obj.matrix_world.to_scale(), dtype=float)), np.eye(3)
+    matrix = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
+    scale, axes = sheared_scale(matrix) or (scale, axes)
     if not scale.all():
         raise DecompositionError(
             "The object's scale is zero along an axis; give it a scale in Sidebar >"
             " Item."
         )
-    return scale
+    return scale, axes
 
 
 def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
@@ -157,7 +174,8 @@ def has_proportions_of(obj: bpy.types.Object, other: bpy.types.Object) -> bool:
     DecompositionError
         As `stretch` does.
     """
-    return np.allclose(stretch(obj), stretch(other), _SAME_SCALE, 0.0)
+    between = unstretched(stretch(obj), stretch(other))
+    return np.allclose(between, np.eye(3), 0.0, _SAME_SCALE)
 
 
 def have_equal_shapes(

@@ -100,7 +100,7 @@ def evaluated_copy(obj: bpy.types.Object) -> bpy.types.Mesh:
 
 
 def new_mesh_of(
-    found: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None = None
+    found: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None
 ) -> bpy.types.Mesh:
     """Return a new mesh of the file that equals that of an evaluated object.
 
@@ -108,7 +108,7 @@ def new_mesh_of(
     ----------
     found : Object
         An evaluated object, or the object of an instance.
-    depsgraph : Depsgraph, optional
+    depsgraph : Depsgraph or None
         With it, layers that Blender does not need to draw are kept, too. It must not
         be given for the object of an instance.
     """

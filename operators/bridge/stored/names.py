@@ -47,7 +47,7 @@ FACE_SETS = ".sculpt_face_set"
 
 # Custom properties of a mesh with colors as an overlay: the materials that its parts
 # had, by number, and the value of `OWNER_LAYER` on its own faces.
-OVERLAY = "wcd_overlay"
+KEPT_MATERIALS = "wcd_overlay"
 OWNER = "wcd_owner"
 
 # Custom properties of a material of ours: the number and the name of the part. Those of
@@ -57,8 +57,10 @@ MATERIAL_NAME = "wcd_name"
 # Custom property of hulls: the figures of a hull. Of the collections made for them: the
 # name of their object.
 HULL_TAG = "wcd_hull"
-# Custom property of hulls: the points of the piece that a primitive is around.
+# Custom property of hulls: the points of the piece that it is around.
 PIECE_TAG = "wcd_piece"
+# And there if these points have the margin already, as those of a convex hull have.
+MARGIN_TAG = "wcd_margin"
 # Custom property of objects that we made rigid bodies, and of our collection of bodies.
 RIGID_TAG = "wcd_rigid"
 # Custom property of the node group that makes exploded views.
@@ -77,7 +79,7 @@ PICTURE_TAG = "wcd_picture_kind"
 CARRIER_TAG = "wcd_parts_of"
 # Custom property of such an object: how the curve was shown before we hid it.
 HIDDEN_TAG = "wcd_hidden"
-# And where we hid it: the names of the scene and the view layer.
+# And where it was read, and hidden: the names of the scene and the view layer.
 HIDDEN_IN_TAG = "wcd_hidden_in"
 
 # Bytes that Blender keeps of the name of a vertex group.

@@ -127,7 +127,7 @@ def write_result(
     decomposition: Decomposition,
     parameters: Parameters,
     identities: Sequence[Identity],
-    materials: list[str],
+    materials: Sequence[str],
     measured_on: Sequence[Sequence[float]],
 ) -> None:
     """Note a decomposition on its object; measurements and hulls stay noted."""
@@ -156,7 +156,7 @@ def write_result(
 def _entries(
     decomposition: Decomposition,
     identities: Sequence[Identity],
-    materials: list[str],
+    materials: Sequence[str],
     measured_on: Sequence[Sequence[float]],
 ) -> list[dict[str, Any]]:
     """Return what is noted of each part."""

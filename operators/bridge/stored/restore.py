@@ -33,10 +33,10 @@ class Restore:
     had_material_index : bool
         Whether the mesh kept material indices at all.
     user_groups : list of str or None
-        Names of the vertex groups before; None if an older version did not note them.
-    tagged : list of str or None
+        Names of the vertex groups before; None if the note was lost.
+    tagged : list of str
         Which of `slots` were made for parts, of another object or of what this one was
-        separated from; None if an older version did not note them.
+        separated from.
     """
 
     groups: list[str]
@@ -45,8 +45,8 @@ class Restore:
     active_slot: int
     material_index: int | None
     had_material_index: bool
-    user_groups: list[str] | None = None
-    tagged: list[str] | None = None
+    user_groups: list[str] | None
+    tagged: list[str]
 
     def had(self, material: bpy.types.Material) -> bool:
         """Return whether a material that was made for a part was in a slot before.
@@ -54,7 +54,7 @@ class Restore:
         The names of other materials do not count: the user may rename such a material,
         and a part can get the name then.
         """
-        return material.name in (self.slots if self.tagged is None else self.tagged)
+        return material.name in self.tagged
 
 
 def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
@@ -67,9 +67,7 @@ def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
     noted = read_note(mesh, RESTORE)
     if not noted:
         return _guessed(mesh)
-    # Older versions of the extension did not note these.
-    names = {each.name for each in fields(Restore)}
-    if noted.keys() | {"user_groups", "tagged"} != names:
+    if noted.keys() != {each.name for each in fields(Restore)}:
         raise not_ours(mesh, RESTORE)
     return Restore(**noted)
 
@@ -89,6 +87,7 @@ def _guessed(mesh: bpy.types.Mesh) -> Restore | None:
         active_slot=0,
         material_index=0,
         had_material_index=bool(users),
+        user_groups=None,
         tagged=[],
     )
 

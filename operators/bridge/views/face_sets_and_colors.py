@@ -13,14 +13,14 @@ from ..mesh.attributes import read_labels
 from ..mesh.layers import layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..parts.palette import UNPAINTED
-from ..parts.read import part_identities, part_labels
+from ..parts.read import FoundParts, find_parts_on, part_identities
 from ..stored.identity import Identity
 from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:
     """Make a face set of each part; Clear restores the former face sets."""
-    layers, labels = layers_of(obj), _labels(obj)
+    layers, labels = layers_of(obj), _found(obj).labels.astype(np.int32)
     if layers.faces(FACE_SET_LAYER) is None:
         before = layers.faces(FACE_SETS)
         layers.set_faces(
@@ -32,8 +32,8 @@ def write_face_sets(obj: bpy.types.Object) -> None:
 
 def write_colors(obj: bpy.types.Object) -> None:
     """Give the corners of faces the colors of their parts."""
-    layers, labels = layers_of(obj), _labels(obj)
-    layers.set_colors(COLOR_LAYER, _colors(part_identities(obj))[labels])
+    layers, found = layers_of(obj), _found(obj)
+    layers.set_colors(COLOR_LAYER, _colors(found.identities)[found.labels])
     layers.finish()
 
 
@@ -47,7 +47,8 @@ def paint_points(
 def show_colors(obj: bpy.types.Object) -> None:
     """Bring the colors of points, and of corners if they have them, up to date."""
     if is_cloud(obj):
-        paint_points(obj, _labels(obj), part_identities(obj))
+        found = _found(obj)
+        paint_points(obj, found.labels, found.identities)
     elif shown(obj)[1]:
         write_colors(obj)
 
@@ -86,8 +87,8 @@ def _colors(identities: Sequence[Identity]) -> NDArray[np.float32]:
     return np.array([(*each.color, 1.0) for each in identities], dtype=np.float32)
 
 
-def _labels(obj: bpy.types.Object) -> np.ndarray:
-    labels = part_labels(obj)
-    if labels is None:
+def _found(obj: bpy.types.Object) -> FoundParts:
+    found = find_parts_on(obj)
+    if found is None:
         raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
-    return labels
+    return found

@@ -20,7 +20,7 @@ from ....core.results.views import Picture
 from ....core.steps.progress import Progress, Steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
-from ..parts.read import part_identities, part_labels
+from ..parts.read import find_parts_on
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
@@ -149,19 +149,19 @@ def picture_of(obj: bpy.types.Object, kind: str) -> Steps[Picture]:
         At once, if the object cannot be read, or has no record of its parts.
     """
     parameters = noted_parameters(obj)
-    labels, reading = part_labels(obj), shape_in_steps(obj)
-    if labels is None or parameters is None:
+    found, reading = find_parts_on(obj), shape_in_steps(obj)
+    if found is None or parameters is None:
         raise DecompositionError(
             f"{obj.name} has no record of its parts; decompose it again."
         )
-    colors = np.array([srgb_of(each.color) for each in part_identities(obj)])
+    colors = np.array([srgb_of(each.color) for each in found.identities])
 
     def work() -> Steps[Picture]:
         shape, cache = (yield from reading), session_cache()
         prepared = yield from within(cache.prepare(shape), 0.0, 0.1)
         memo = yield from within(cache.see(prepared, parameters), 0.1, 0.9)
         yield Progress("Picture", 0.9)
-        return core.draw_picture(kind, memo, labels, parameters, colors)
+        return core.draw_picture(kind, memo, found.labels, parameters, colors)
 
     return with_libraries((), work())
 

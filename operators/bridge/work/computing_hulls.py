@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import bpy
@@ -24,6 +25,7 @@ from ..read.evaluated import SeenMesh
 from ..read.shape import scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records
+from .apart import hulls_around
 from .computing import read_seen
 from .libraries import with_libraries
 from .session_cache import session_cache
@@ -35,6 +37,7 @@ def build_hulls_of(
     hull_parameters: HullParameters,
     seen: SeenMesh | None = None,
     processes: Processes | None = None,
+    in_window: bool = False,
 ) -> Steps[HullDecomposition]:
     """Return the steps that build hulls around an object or its parts.
 
@@ -51,14 +54,15 @@ def build_hulls_of(
         The mesh as it is seen, to be used in place of the object's own.
     processes : Processes, optional
         Where hulls are built at once, if no parts have to be found for them.
+    in_window : bool
+        Whether the steps run in a window, which must stay alive.
 
     Raises
     ------
     DecompositionError
         At once, if the object cannot be read or can have no hulls.
     """
-    reason = hull_refusal(obj)
-    if reason:
+    if reason := hull_refusal(obj):
         raise DecompositionError(f"{reason}.")
     check_records(obj)
     notes, read = read_seen(obj, seen, for_parts=False)
@@ -75,7 +79,7 @@ def build_hulls_of(
         job = run(read), hull_parameters, core.ShapeCache(core.no_rays), *rest
         steps = processes.steps("Cutting", core.build_hulls_in_steps, *job)
     else:
-        steps = _hulls_here(read, parameters, hull_parameters, *rest)
+        steps = _hulls_here(read, parameters, hull_parameters, in_window, *rest)
     return with_libraries(notes, _enlarged(steps, size))
 
 
@@ -83,18 +87,21 @@ def _hulls_here(
     read: Steps[Shape],
     parameters: Parameters,
     hull_parameters: HullParameters,
+    in_window: bool,
     labels: NDArray[np.int64] | None,
     *rest: Any,
 ) -> Steps[HullDecomposition]:
-    """Build hulls in this process; find parts for them first if there are none."""
-    shape, cache, start = (yield from read), session_cache(), 0.0
+    """Build hulls now; find parts for them first if there are none."""
+    shape, start = (yield from read), 0.0
     needs_parts = labels is None and hull_parameters.pieces == "PARTS"
     if needs_parts:
         start = 0.4
-        parts = core.decompose_in_steps(shape, parameters, cache)
+        parts = core.decompose_in_steps(shape, parameters, session_cache())
         labels = (yield from within(parts, 0.0, start)).labels
-    steps = core.build_hulls_in_steps(shape, hull_parameters, cache, labels, *rest)
-    found = yield from within(steps, start, 1.0)
+    names = ("seed", "scene_unit", "kinds")
+    options = dict(zip(names, rest, strict=True), labels=labels)
+    build = partial(core.build_hulls_in_steps, shape, hull_parameters, **options)
+    found = yield from within(hulls_around(shape, build, in_window), start, 1.0)
     if needs_parts:  # the object does not get them
         found = replace(found, parts=np.full_like(found.parts, -1))
     return found

@@ -13,7 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Progress, Steps, within
-from ..cuts.beside_faces import sculpted_details
+from ..cuts.beside_faces import bound_modifier, sculpted_details
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
 from ..cuts.whole_mesh import is_cut, whole_mesh_of
@@ -40,7 +40,7 @@ def gets_new_faces(
     ------
     DecompositionError
         If faces are to be cut in Edit Mode, those of a mesh as it is seen, or those
-        under sculpted details.
+        that sculpted details or modifiers are bound to.
     """
     if seen is not None and parameters.seams == "CUT":
         raise DecompositionError(
@@ -52,7 +52,7 @@ def gets_new_faces(
     if obj.type != "MESH" or not obj.data.polygons:
         return False
     if parameters.seams == "CUT":
-        _check_no_details(obj)
+        _check_free_faces(obj)
     if not obj.data.is_editmode:
         return parameters.seams == "CUT" or is_cut(obj)
     if parameters.seams == "CUT":
@@ -63,14 +63,21 @@ def gets_new_faces(
     return False
 
 
-def _check_no_details(obj: bpy.types.Object) -> None:
-    """Raise if a mesh has sculpted details, which are stored by its faces' corners."""
+def _check_free_faces(obj: bpy.types.Object) -> None:
+    """Raise if something is stored by the faces or vertices of an object's mesh."""
     for each in sharers(obj):
         if sculpted_details(each):
             raise DecompositionError(
                 f"{each.name} has a Multires modifier, whose sculpted details cuts"
                 " would spoil; apply it, or choose Keep Faces for Seams."
             )
+    bound = bound_modifier(obj)
+    if bound is not None:
+        raise DecompositionError(
+            f"The modifier {bound.name} of {bound.id_data.name} is bound to the faces"
+            f" of {obj.name} as they are, and cuts would spoil that; apply it, or"
+            " choose Keep Faces for Seams."
+        )
 
 
 def decompose_whole_faces(
@@ -86,8 +93,8 @@ def decompose_whole_faces(
     check_writable(obj)
     # Faces are cut of the mesh itself only: see `gets_new_faces`.
     notes = reading_notes(obj, has_choice=parameters.seams != "CUT")
-    factors, mesh = stretch(obj), whole_mesh_of(obj)
-    shape, made = read_mesh(mesh, factors), CutMesh(mesh, factors)
+    matrix, mesh = stretch(obj), whole_mesh_of(obj)
+    shape, made = read_mesh(mesh, matrix), CutMesh(mesh, matrix)
 
     def work() -> Steps[Edited]:
         yield from load_libraries()
@@ -152,7 +159,7 @@ def _cut(
         after = replace(after, ranks=found.ranks[order])
     if len(labels) == n_wholes:
         return after, None
-    return after, Pieces(cuts, near, made.factors, of_pieces)
+    return after, Pieces(cuts, near, made.stretch, of_pieces)
 
 
 def _measured(

@@ -26,11 +26,6 @@ def merging(chosen: Sequence[int], into: int) -> MakeChange:
         Parts to merge.
     into : int
         Part that they become.
-
-    Returns
-    -------
-    callable
-        For `edit_object`.
     """
 
     def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
@@ -48,11 +43,6 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
     faces : (P,) bool
         Faces to assign.
     part : int
-
-    Returns
-    -------
-    callable
-        For `edit_object`.
 
     Raises
     ------
@@ -85,10 +75,10 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
     n_parts : int
         Number of parts that each becomes; 0 lets psi decide.
 
-    Returns
-    -------
-    callable
-        For `edit_object`; its steps raise DecompositionError if no part was split.
+    Raises
+    ------
+    DecompositionError
+        In its steps, if no part was split.
     """
 
     def change(
@@ -135,11 +125,6 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
         Parts whose seams are smoothed.
     smoothness : float
         Weight lambda of the smoothness term (eq. 4).
-
-    Returns
-    -------
-    callable
-        For `edit_object`.
     """
 
     def change(
@@ -161,10 +146,10 @@ def mirroring(to_negative: bool) -> MakeChange:
     to_negative : bool
         Whether to copy from positive X to negative X, or the reverse.
 
-    Returns
-    -------
-    callable
-        For `edit_object`; its steps raise DecompositionError without symmetry.
+    Raises
+    ------
+    DecompositionError
+        In its steps, if the shape is not symmetric.
     """
 
     def change(

@@ -12,7 +12,7 @@ from ..parts.figures import figures_of
 from ..parts.present_parts import faces_by_hand
 from ..parts.write import write_parts
 from ..stored.noted_parts import identities_of
-from ..stored.record import noted_parameters, record_of
+from ..stored.record import note_mesh, noted_mesh, noted_parameters, record_of
 
 
 def bring_in_step(obj: bpy.types.Object) -> None:
@@ -34,7 +34,7 @@ def bring_in_step(obj: bpy.types.Object) -> None:
         figures.measured_on[:, 0].astype(np.int64),
         figures.measured_on[:, 1],
     )
-    parameters = noted_parameters(obj) or Parameters()
+    parameters, mesh = noted_parameters(obj) or Parameters(), noted_mesh(obj)
     unknown = float("nan")
     decomposition = Decomposition(
         labels=figures.found.labels,
@@ -49,3 +49,4 @@ def bring_in_step(obj: bpy.types.Object) -> None:
     )
     by_hand = faces_by_hand(obj, len(figures.found.labels))
     write_parts(obj, decomposition, parameters, figures.identities, by_hand)
+    note_mesh(obj, mesh)

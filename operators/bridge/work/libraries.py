@@ -17,6 +17,7 @@ import bpy
 from .... import core
 from ....core.errors import DecompositionError, missing_library
 from ....core.steps.progress import Progress, Steps
+from ..watching import stop_timer
 
 Result = TypeVar("Result")  # of any kind that has notes
 
@@ -69,8 +70,7 @@ def load_while_idle() -> None:
 
 def unregister() -> None:
     """Load no more."""
-    if bpy.app.timers.is_registered(_load_next):
-        bpy.app.timers.unregister(_load_next)
+    stop_timer(_load_next)
 
 
 def _load_next() -> float | None:

@@ -36,7 +36,7 @@ from ..stored.record import record_of
 from .computing import decompose_object, read_seen
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
-from .run_edit import Edited, ready_to_write, written
+from .run_edit import Edited, on_own_faces, ready_to_write
 from .session_cache import session_cache
 
 _NOT_CUT = (
@@ -94,7 +94,7 @@ def decompose_unlocked(
 
     def work() -> Steps[Edited]:
         found = _with_known_numbers((yield from steps), record)
-        return Edited(written(found, seen), None, parameters, seen=seen)
+        return Edited(on_own_faces(found, seen), None, parameters, seen=seen)
 
     return ready_to_write(obj, work())
 
@@ -167,7 +167,9 @@ def _decompose_rest(
         pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
         said = (*notes, *found.notes)
         found = replace(found, ranks=ranks, pairs=pairs, notes=said)
-        return Edited(written(found, seen), None, parameters, parts.by_hand, seen=seen)
+        return Edited(
+            on_own_faces(found, seen), None, parameters, parts.by_hand, seen=seen
+        )
 
     return ready_to_write(obj, work())
 

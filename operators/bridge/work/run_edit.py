@@ -94,7 +94,7 @@ class Edited:
         let_undo_see_all(obj)
 
 
-def written(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
+def on_own_faces(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
     """Return parts of a mesh as it is seen as parts of the faces that get them."""
     return found if seen is None else seen.on_own_faces(found)
 

@@ -14,7 +14,7 @@ import bpy
 from .... import core
 from ..mesh import known
 from ..rays.bvh import BvhRayCaster
-from .file_end import call_at_end, call_now_instead
+from ..watching import call_at_end, call_now_instead
 
 # Most results that are kept while files are worked through.
 _RESULTS = 64

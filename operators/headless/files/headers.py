@@ -1,12 +1,17 @@
 """What files say of themselves at their beginning: .ply, binary .stl, and counts.
 
-Readers ask it of what they are given, and writers of what they have written.
+It finds the rows of a binary .ply by that. Readers ask it of what they are given, and
+writers of what they have written.
 """
 
 from __future__ import annotations
 
 import struct
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 # Bytes of binary .stl: before the triangles, and of each of them.
 STL_HEADER = 84
@@ -62,6 +67,62 @@ class Element:
             n_words += 1
         return n_words <= len(words)
 
+    def table(self, order: str, data: bytes, start: int) -> NDArray[np.void] | None:
+        """Return the rows in binary form; None if they differ in length or some miss.
+
+        The members of the list of property n are called "members n", counted from 0.
+        """
+        if not self.n_rows or not self.properties:
+            return np.zeros(0, np.dtype([]))
+        fields: list[tuple[Any, ...]] = []
+        lengths, end = {}, start
+        for place, codes in enumerate(self.properties.values()):
+            length = 1
+            if len(codes) > 1:  # as long as in the first row
+                name, first = f"length {place}", struct.Struct(order + codes[0])
+                if end + first.size > len(data):
+                    return None
+                lengths[name] = length = max(first.unpack_from(data, end)[0], 0)
+                fields.append((name, order + codes[0]))
+                end += first.size
+            fields.append((f"members {place}", order + codes[-1], (length,)))
+            end += length * struct.calcsize(codes[-1])
+        if start + (end - start) * self.n_rows > len(data):
+            return None
+        table = np.frombuffer(data, np.dtype(fields), self.n_rows, start)
+        same = all((table[name] == length).all() for name, length in lengths.items())
+        return table if same else None
+
+    def walk(
+        self, order: str, data: bytes, start: int, wanted: int | None = None
+    ) -> tuple[list[bytes], int]:
+        """Go through rows in binary form; return what is wanted, and where they end.
+
+        This is the members of the list `wanted`. The end of rows that are cut short is
+        beyond the file.
+        """
+        if not self.has_lists:
+            row = order + "".join(self.properties.values())
+            return [], start + self.n_rows * struct.calcsize(row)
+        pieces: list[bytes] = []
+        kinds = [
+            (place == wanted, struct.Struct(order + codes[0]), codes[1:])
+            for place, codes in enumerate(self.properties.values())
+        ]
+        sizes = {codes: struct.calcsize(codes) for _, _, codes in kinds}
+        for _ in range(self.n_rows):
+            for is_wanted, first, members in kinds:
+                end = start + first.size
+                if end > len(data):
+                    return pieces, end
+                if members:
+                    n_members = max(first.unpack_from(data, start)[0], 0)
+                    start, end = end, end + n_members * sizes[members]
+                if is_wanted:
+                    pieces.append(data[start:end])
+                start = end
+        return pieces, start
+
 
 @dataclass(frozen=True)
 class Header:
@@ -96,26 +157,11 @@ class Header:
         """Return where the binary data ends; beyond the file if that is cut short."""
         offset = self.size
         for element in self.elements:
-            if element.has_lists:
-                offset = self._end_of_lists(element, data, offset)
+            table = element.table(self.order, data, offset)
+            if table is None:
+                _, offset = element.walk(self.order, data, offset)
             else:
-                row = self.order + "".join(element.properties.values())
-                offset += element.n_rows * struct.calcsize(row)
-        return offset
-
-    def _end_of_lists(self, element: Element, data: bytes, offset: int) -> int:
-        """Return where the rows of an element with lists end that begin at `offset`."""
-        formats = [
-            (struct.Struct(self.order + codes[0]), struct.calcsize(codes[-1]))
-            for codes in element.properties.values()
-        ]
-        lists = [len(codes) > 1 for codes in element.properties.values()]
-        for _ in range(element.n_rows):
-            for (first, member), is_list in zip(formats, lists, strict=True):
-                if offset + first.size > len(data):
-                    return len(data) + 1
-                length = first.unpack_from(data, offset)[0] if is_list else 0
-                offset += first.size + max(length, 0) * member
+                offset += table.nbytes
         return offset
 
 

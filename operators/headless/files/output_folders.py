@@ -101,15 +101,27 @@ def owned_names(path: Path) -> frozenset[str]:
     return frozenset(ours) | {MANIFEST}
 
 
+def check_outside(file: Path) -> None:
+    """Check that a file is not among the meshes of some simulator file.
+
+    Raises
+    ------
+    DecompositionError
+        If it is: that file would no longer have its meshes.
+    """
+    folder = file.resolve().parent
+    if not (folder / MANIFEST).exists():
+        return
+    owner = _contents(folder / MANIFEST)[0] or "another output"
+    raise DecompositionError(
+        f"{file} is in {folder}, which holds the meshes of {owner}; choose another"
+        " place."
+    )
+
+
 def _read_manifest(manifest: Path, output: str) -> dict[str, str]:
     """Return the digest of each file that a manifest lists."""
-    try:
-        content = json.loads(manifest.read_bytes())
-        belongs_to = content["belongs_to"]
-        listed = content["files"].items()
-        ours = {str(name): str(each["sha256"]) for name, each in listed}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        belongs_to, ours = None, {}
+    belongs_to, ours = _contents(manifest)
     if belongs_to != output:
         owner = f"belongs to {belongs_to}" if belongs_to else "was not written by us"
         raise DecompositionError(
@@ -117,6 +129,17 @@ def _read_manifest(manifest: Path, output: str) -> dict[str, str]:
             f" name for its meshes; rename the folder, or give {output} another name."
         )
     return ours
+
+
+def _contents(manifest: Path) -> tuple[str | None, dict[str, str]]:
+    """Return whose a folder is by its manifest, and the digests of its files."""
+    try:
+        content = json.loads(manifest.read_bytes())
+        listed = content["files"].items()
+        ours = {str(name): str(each["sha256"]) for name, each in listed}
+        return content["belongs_to"], ours
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None, {}
 
 
 def _write_manifest(folder: Path, output: str) -> None:

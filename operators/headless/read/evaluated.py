@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import bpy
 
-from ...bridge.homes import objects_in
+from ...bridge.homes import objects_in, view_layers
 from ...bridge.parts.erase import erase_parts
 from ...bridge.parts.materials import discard_unused
 from ...bridge.read.shown_mesh import new_mesh_of, shown_modifiers
@@ -49,7 +49,7 @@ def everything_shown() -> Iterator[list[Layer]]:
 
     Blender evaluates neither modifiers nor instances of what is hidden.
     """
-    layers = [layer for scene in bpy.data.scenes for layer in scene.view_layers]
+    layers = view_layers()
     hidden = [
         owner
         for owners in (bpy.data.collections, bpy.data.objects)

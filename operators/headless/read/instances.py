@@ -13,6 +13,7 @@ from pathlib import Path
 import bpy
 
 from ....core.errors import DecompositionError
+from ...bridge.homes import view_layers
 from ...bridge.hulls.listed import is_hull
 from .evaluated import EvaluatedMeshes, everything_shown, give_mesh
 from .instance_objects import Instance, add_objects
@@ -91,9 +92,8 @@ def realize_instances(with_modifiers: bool) -> dict[str, str]:
 
 def _update_places() -> None:
     """Compute where all objects are."""
-    for scene in bpy.data.scenes:
-        for layer in scene.view_layers:
-            layer.update()
+    for layer in view_layers():
+        layer.update()
 
 
 @dataclass(frozen=True)

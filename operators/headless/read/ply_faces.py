@@ -5,7 +5,6 @@ Blender leaves them out without a word.
 
 from __future__ import annotations
 
-import struct
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -94,64 +93,15 @@ def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:
     start = header.size
     for element in header.elements:
         place = _place_of_corners(element)
-        table = _table(element, header.order, data, start)
+        table = element.table(header.order, data, start)
         if table is not None:
             if place is not None:
                 found: NDArray[Any] = table[f"members {place}"]
                 return found
             start += table.nbytes
             continue
-        pieces, start = _walk(element, header.order, data, start, place)
+        pieces, start = element.walk(header.order, data, start, place)
         if place is not None:
             code = list(element.properties.values())[place][1]
             return np.frombuffer(b"".join(pieces), header.order + code)
     return np.zeros(0)
-
-
-def _table(
-    element: Element, order: str, data: bytes, start: int
-) -> NDArray[np.void] | None:
-    """Return the rows of an element; None if their lists differ in length."""
-    if not element.n_rows or not element.properties:
-        return np.zeros(0, np.dtype([]))
-    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
-    lengths, end = {}, start
-    for place, codes in enumerate(element.properties.values()):
-        if len(codes) > 1:  # as long as in the first row
-            (length,) = struct.unpack_from(order + codes[0], data, end)
-            end += struct.calcsize(codes[0])
-            lengths[f"length {place}"] = length = max(int(length), 0)
-            fields.append((f"length {place}", order + codes[0]))
-            fields.append((f"members {place}", order + codes[1], (length,)))
-        else:
-            length = 1
-            fields.append((f"member {place}", order + codes))
-        end += length * struct.calcsize(codes[-1])
-    if start + (end - start) * element.n_rows > len(data):
-        return None
-    table = np.frombuffer(data, np.dtype(fields), element.n_rows, start)
-    same = all((table[name] == length).all() for name, length in lengths.items())
-    return table if same else None
-
-
-def _walk(
-    element: Element, order: str, data: bytes, start: int, wanted: int | None
-) -> tuple[list[bytes], int]:
-    """Go through rows whose lists differ; return those that are wanted, and the end."""
-    pieces: list[bytes] = []
-    kinds = [
-        (place == wanted, len(codes) > 1 and struct.Struct(order + codes[0]), codes)
-        for place, codes in enumerate(element.properties.values())
-    ]
-    sizes = {codes: struct.calcsize(codes[-1]) for _, _, codes in kinds}
-    for _ in range(element.n_rows):
-        for is_wanted, length, codes in kinds:
-            n_members = 1
-            if length:
-                n_members = max(int(length.unpack_from(data, start)[0]), 0)
-                start += length.size
-            end = start + n_members * sizes[codes]
-            if is_wanted:
-                pieces.append(data[start:end])
-            start = end
-    return pieces, start

@@ -4,8 +4,25 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from ..formats import HULL_FORMATS, HULLS_WITHIN_ENDINGS, USUAL_UP
+
+
+class _Once(argparse.Action):
+    """Stores the value of an option; two are refused, since one would be dropped."""
+
+    def __call__(
+        self,
+        _parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        _option: str | None = None,
+    ) -> None:
+        """Store the value."""
+        if getattr(namespace, self.dest) is not None:
+            raise argparse.ArgumentError(self, "it is given twice; name one file")
+        setattr(namespace, self.dest, values)
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
@@ -39,14 +56,20 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 def _add_outputs(files: argparse._ArgumentGroup) -> None:
     """Add the files to write."""
     files.add_argument(
-        "--output", metavar="OUTPUT", help="write the model with its parts"
+        "--output",
+        metavar="OUTPUT",
+        action=_Once,
+        help="write the model with its parts",
     )
     files.add_argument(
         "--picture",
         metavar="PICTURE.png",
+        action=_Once,
         help="write a picture of the parts, seen from the front and the back",
     )
-    files.add_argument("--hulls", metavar="HULLS", help="write collision hulls")
+    files.add_argument(
+        "--hulls", metavar="HULLS", action=_Once, help="write collision hulls"
+    )
     files.add_argument(
         "--hulls-format",
         type=str.lower,
@@ -62,6 +85,7 @@ def _add_outputs(files: argparse._ArgumentGroup) -> None:
     files.add_argument(
         "--report",
         metavar="FILE.json",
+        action=_Once,
         type=Path,
         help="write the parameters and the parts with their areas and convexity ranks"
         " as JSON; - prints it to standard output, and results to standard error",

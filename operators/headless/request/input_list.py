@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from codecs import BOM_UTF8
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -35,7 +36,7 @@ def _listed() -> list[Path]:
         )
     try:
         # As bytes: a path need not be text in the encoding of the stream.
-        lines = sys.stdin.buffer.read().splitlines()
+        lines = sys.stdin.buffer.read().removeprefix(BOM_UTF8).splitlines()
     except OSError as error:
         raise DecompositionError(
             f"Standard input cannot be read ({error.strerror})."

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ....core.errors import DecompositionError
 from ..files.claims import check_companion, check_distinct, companion_of
+from ..files.output_folders import check_outside
 from ..files.replacing import explaining, is_stream
 from ..formats import (
     HULL_ENDINGS,
@@ -71,10 +72,7 @@ def targets_for(
     DecompositionError
         If a target cannot be written, is an input, or would be written twice.
     """
-    if with_hulls and output is None:
-        raise DecompositionError(
-            "--with-hulls needs --output, which names the file for model and hulls."
-        )
+    _check_asked(output, report, with_hulls)
     endings = HULLS_WITHIN_ENDINGS if with_hulls else MODEL_ENDINGS
     option = "--output, with --with-hulls," if with_hulls else "--output"
     outputs = _resolved(inputs, output, option, endings)
@@ -96,6 +94,18 @@ def targets_for(
         with explaining(companion, "written"):
             check_companion(file, companion)
     return tuple(map(Targets, outputs, pictures, hull_files))
+
+
+def _check_asked(output: str | None, report: Path | None, with_hulls: bool) -> None:
+    """Check that what is asked for has one meaning."""
+    if with_hulls and output is None:
+        raise DecompositionError(
+            "--with-hulls needs --output, which names the file for model and hulls."
+        )
+    if report and _NAME in str(report):
+        raise DecompositionError(
+            f"One report tells of all inputs; leave {_NAME} out of --report."
+        )
 
 
 def _resolved(
@@ -136,6 +146,7 @@ def _check_writable(file: Path) -> None:
         raise DecompositionError(
             f"{file} cannot be written: the folder {folder} is read-only."
         )
+    check_outside(file)
 
 
 def _may(path: Path, mode: int) -> bool:

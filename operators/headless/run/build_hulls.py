@@ -14,7 +14,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ...bridge.hulls.hull_objects import figures_of_hull, write_hulls
-from ...bridge.hulls.placed import placed
+from ...bridge.hulls.placed import pose_in_scene
 from ...bridge.parts.rows import hull_shapes
 from ...bridge.read.reading_notes import reading_notes
 from ...bridge.read.shape import have_equal_shapes
@@ -173,7 +173,11 @@ def _hulls_of(
         meshes = [hull.data for hull in built.hulls] if built else None
         hulls = write_hulls(obj, found, parameters, meshes)
         figures = tuple(
-            {"name": hull.name, **figures_of_hull(found, row), **placed(shape, obj)}
+            {
+                "name": hull.name,
+                **figures_of_hull(found, row),
+                **pose_in_scene(shape, obj),
+            }
             for row, (hull, shape) in enumerate(zip(hulls, found.shapes, strict=True))
         )
     if built is None:

@@ -15,7 +15,7 @@ from ....core.parameters.hull_names import hull_names
 from ...bridge.hulls.fitting_names import names_that_fit
 from ...bridge.stored.noted_hulls import figures_on
 from ..addons import FBX, enable
-from ..shear import shear_in_meshes, without_parents
+from ..shear import in_their_places, shear_in_meshes, without_parents
 from .names import hulls_by_owner
 from .one_scene import one_scene
 
@@ -47,10 +47,17 @@ def write_fbx(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
         If a hull cannot have the name that Unreal needs.
     """
     enable(FBX)
-    with shear_in_meshes(hulls), _for_unreal(hulls), one_scene():
+    with (
+        shear_in_meshes(hulls),
+        _for_unreal(hulls),
+        one_scene(hulls) as objects,
+        in_their_places(objects),
+    ):
         bpy.ops.export_scene.fbx(
             filepath=str(path),
             use_custom_props=True,
+            # Parts and hulls belong to the faces without modifiers.
+            use_mesh_modifiers=False,
             mesh_smooth_type="FACE",
             add_leaf_bones=False,
         )

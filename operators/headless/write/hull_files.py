@@ -111,7 +111,12 @@ def _save_bodies(
 def _glb(path: Path, hulls: Sequence[bpy.types.Object], _up: str) -> None:
     """Export .glb with colliders."""
     enable(GLTF)
-    with quiet_blender(), shear_in_meshes(hulls), without_parents(hulls), one_scene():
+    with (
+        quiet_blender(),
+        shear_in_meshes(hulls),
+        without_parents(hulls),
+        one_scene(hulls),
+    ):
         select_only(hulls)
         bpy.ops.export_scene.gltf(
             filepath=str(path),

@@ -16,7 +16,7 @@ from ..files.replacing import explaining, replacing
 from ..files.whole import check_obj
 from ..formats import axes, up_in
 from ..quiet import quiet_blender
-from ..shear import without_parents
+from ..shear import in_their_places
 from .collider_marks import mark_glb
 from .fbx_files import write_fbx
 from .obj_files import restore_digits
@@ -90,8 +90,8 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
     # The extras hold the record, which is the custom property "wcd" of each object.
     with (
         _smooth(hulls),
-        one_scene(),
-        without_parents(_orphans()),
+        one_scene(hulls) as objects,
+        in_their_places(objects),
         painted_clouds() as with_points,
     ):
         bpy.ops.export_scene.gltf(
@@ -107,15 +107,6 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
         )
     if hulls:
         mark_glb(path, len(hulls))
-
-
-def _orphans() -> list[bpy.types.Object]:
-    """Return the objects of the scene whose parents are not in it.
-
-    The exporter would leave them out.
-    """
-    objects = bpy.context.scene.objects
-    return [obj for obj in objects if obj.parent and obj.parent.name not in objects]
 
 
 @contextmanager

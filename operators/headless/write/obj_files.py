@@ -16,10 +16,10 @@ import numpy as np
 from .names import legal_names, names_of_hulls, names_of_objects
 from .placed_meshes import (
     Float64Array,
+    digits_of,
     matrix_of,
     placed,
     turned_up,
-    written,
 )
 
 # Blender's exporter rounds to this, and computes in single precision.
@@ -43,7 +43,7 @@ def write_obj(
     names = legal_names([name for name, _, _ in meshes], "obj")
     for name, (_, vertices, faces) in zip(names, meshes, strict=True):
         lines.append(f"o {name}")
-        lines += [f"v {written(vertex)}" for vertex in vertices]
+        lines += [f"v {digits_of(vertex)}" for vertex in vertices]
         lines += ["f " + " ".join(str(v + first) for v in face) for face in faces]
         first += len(vertices)
     path.write_text("\n".join([*lines, ""]), encoding="utf-8", newline="\n")
@@ -86,7 +86,7 @@ def restore_digits(path: Path, up: str) -> None:
             del shapes[name][0]
             own[place] = known.get(exported, name)  # hulls have their own
             for row, vertex in zip(rows, vertices, strict=True):
-                lines[row] = f"v {written(vertex)}"
+                lines[row] = f"v {digits_of(vertex)}"
     for name, new, block in zip(old, legal_names(own, "obj"), blocks, strict=True):
         if new != name:
             lines[block] = [_renamed(line, name, new) for line in lines[block]]

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import bpy
 
+from ...bridge.hulls.listed import is_hull
 from ...bridge.read.shape import has_place
 from ...bridge.refusals import WORKED_ON
 from ..current_file import mesh_objects, objects_in_view_layers
@@ -21,16 +22,18 @@ def written_meshes() -> list[bpy.types.Object]:
 
 
 @contextmanager
-def one_scene() -> Iterator[None]:
+def one_scene(
+    hulls: Sequence[bpy.types.Object] = (),
+) -> Iterator[Sequence[bpy.types.Object]]:
     """Bring all objects into one scene, for exporters; take it back at the end.
 
-    These are the objects of all view layers, hidden ones too, and the empties and
-    armatures that they hang on. Objects of excluded collections are left out, and those
-    whose place is not a number.
+    Yields them: the objects of all view layers, hidden ones too, and the empties and
+    armatures that they hang on. Objects of excluded collections are left out, those
+    whose place is not a number, and hulls of an earlier run: all but `hulls`.
     """
     scene, window = bpy.context.scene, bpy.context.window
     layer, name = window.view_layer, scene.name
-    objects = _written(scene)
+    objects = _written(scene, hulls)
     hidden = [obj for obj in objects if obj.hide_viewport]
     copy = _copy_with(scene, objects)
     try:
@@ -43,7 +46,7 @@ def one_scene() -> Iterator[None]:
         for obj in [obj for obj in objects if obj.hide_get()]:
             obj.hide_set(False)
         bpy.context.view_layer.update()
-        yield
+        yield objects
     finally:
         window.scene, window.view_layer = scene, layer
         bpy.data.scenes.remove(copy)
@@ -53,9 +56,13 @@ def one_scene() -> Iterator[None]:
         bpy.context.view_layer.update()
 
 
-def _written(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+def _written(
+    scene: bpy.types.Scene, hulls: Sequence[bpy.types.Object]
+) -> list[bpy.types.Object]:
     """Return the objects to be written, those of a scene first, in its order."""
-    written = objects_in_view_layers()
+    chosen = set(hulls)
+    seen = objects_in_view_layers()
+    written = {obj for obj in seen if obj in chosen or not is_hull(obj)}
     written |= set(_needed(written))
     scenes = [scene, *bpy.data.scenes]
     every = dict.fromkeys(obj for each in scenes for obj in each.objects)

@@ -202,10 +202,15 @@ def _number(mesh: bpy.types.Mesh, parts: IntArray, name: str) -> None:
 
 
 def _object_like(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
-    """Return a new object with `mesh` that has the name and place of `obj`."""
-    copy = bpy.data.objects.new(obj.name, mesh)
-    copy.matrix_world = obj.matrix_world
-    return copy
+    """Return a new object with the name of `obj` and `mesh`, moved to its place.
+
+    The mesh itself is moved: an object without a parent has no shear. Faces of mirrored
+    objects are turned around, which the exporter does not do.
+    """
+    mesh.transform(obj.matrix_world)
+    if obj.matrix_world.determinant() < 0:
+        mesh.flip_normals()
+    return bpy.data.objects.new(obj.name, mesh)
 
 
 def _material_colors(mesh: bpy.types.Mesh) -> FloatArray:

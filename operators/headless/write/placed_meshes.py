@@ -10,6 +10,8 @@ from ...bridge.mesh.known import triangles_of
 
 Float64Array = NDArray[np.float64]
 TriangleArray = NDArray[np.int64]
+# Digits that keep numbers of single and of double precision as they are.
+SINGLE, DOUBLE = 9, 17
 
 
 def matrix_of(obj: bpy.types.Object) -> Float64Array:
@@ -53,10 +55,10 @@ def turned_up(vertices: Float64Array, up: str) -> Float64Array:
     return np.stack([x, z, -y], axis=1)
 
 
-def written(numbers: Float64Array) -> str:
+def digits_of(numbers: Float64Array, n_digits: int = SINGLE) -> str:
     """Return numbers as text with nine digits: no single-precision digit is lost.
 
     Nine digits from the first one that is not zero, so models of any size keep theirs.
     """
     # Adding 0 turns -0 into 0.
-    return " ".join(f"{number + 0.0:.9g}" for number in numbers)
+    return " ".join(f"{number + 0.0:.{n_digits}g}" for number in numbers)

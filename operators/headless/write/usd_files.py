@@ -18,8 +18,9 @@ from ...bridge.mesh.attributes import read_floats, read_ints
 from ...bridge.mesh.known import corner_vertices
 from ...bridge.mesh.points import is_cloud, positions_of
 from ...bridge.views.face_sets_and_colors import point_colors
+from ..shear import has_shear, shear_in_meshes, without_shear
 from .names import legal_names, names_of_hulls, names_of_objects
-from .placed_meshes import matrix_of, written
+from .placed_meshes import digits_of
 
 _ROOT = "/root"
 _MATERIALS = "_materials"
@@ -65,19 +66,26 @@ def write_usd(
     names = [*(own[obj.name] for obj in objects), *names_of_hulls(hulls, "usd")]
     names = legal_names([_MATERIALS, *names], "usd")[1:]
     lines = [_HEAD]
-    for obj, name in zip(objects, names, strict=False):
-        if is_cloud(obj):
-            lines += _points(obj, name)
-        else:
-            lines += _model(obj, name, paths)
-    for hull, name in zip(hulls, names[len(objects) :], strict=True):
-        extra = ['uniform token physics:approximation = "convexHull"']
-        if objects:
-            extra.append('uniform token purpose = "guide"')
-        lines += _prim("Mesh", hull, name, _COLLIDER, [*_surface(hull.data), *extra])
+    # Not all programs read shear in the matrix of a prim; Blender does not.
+    with shear_in_meshes([*objects, *hulls]):
+        for obj, name in zip(objects, names, strict=False):
+            if is_cloud(obj):
+                lines += _points(obj, name)
+            else:
+                lines += _model(obj, name, paths)
+        for hull, name in zip(hulls, names[len(objects) :], strict=True):
+            lines += _hull(hull, name, bool(objects))
     if materials:
         lines += _material_scope(materials, labels)
     path.write_text("\n".join([*lines, "}", ""]), encoding="utf-8", newline="\n")
+
+
+def _hull(hull: bpy.types.Object, name: str, beside_objects: bool) -> list[str]:
+    """Return the lines of a hull."""
+    extra = ['uniform token physics:approximation = "convexHull"']
+    if beside_objects:
+        extra.append('uniform token purpose = "guide"')
+    return _prim("Mesh", hull, name, _COLLIDER, [*_surface(hull.data), *extra])
 
 
 def _prim(
@@ -88,8 +96,11 @@ def _prim(
     content: Sequence[str],
 ) -> list[str]:
     """Return the lines of a prim in the place of an object."""
+    place = obj.matrix_world
+    if has_shear(place):
+        place = without_shear(place)
     # USD multiplies rows by matrices: theirs are the transpose of ours.
-    rows = ", ".join(_tuples(matrix_of(obj).T))
+    rows = ", ".join(_tuples(np.array(place, dtype=np.float64).T))
     content = [
         *content,
         f"matrix4d xformOp:transform = ( {rows} )",
@@ -206,7 +217,7 @@ def _material_scope(
 
 def _tuples(rows: NDArray[np.floating[Any]]) -> list[str]:
     """Return rows of numbers as tuples of USD."""
-    return [f"({written(row).replace(' ', ', ')})" for row in rows]
+    return [f"({digits_of(row).replace(' ', ', ')})" for row in rows]
 
 
 def _text(text: str) -> str:

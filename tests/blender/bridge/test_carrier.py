@@ -44,7 +44,7 @@ def test_the_scale_of_the_curve_is_that_of_the_shape_that_is_read():
     hand.scale = (1, 3, 1)
     bpy.context.view_layer.update()
     expected = shape.read_shape(hand)
-    found = shape.read_shape(carrier.carrier_for(hand))
+    found = shape.read_shape(carrier.carrier_for(hand, None))
     assert (found.vertices == expected.vertices).all()
     assert (found.triangles == expected.triangles).all()
 
@@ -78,7 +78,7 @@ def test_a_carrier_without_parts_is_discarded_alone():
     hand = hand_curve()
     bpy.ops.wcd.decompose(**FAST)
     objects, meshes = bpy.data.objects[:], bpy.data.meshes[:]
-    waiting = carrier.carrier_for(hand)
+    waiting = carrier.carrier_for(hand, None)
     assert carrier.is_waiting(waiting)
     carrier.discard_waiting()
     assert bpy.data.objects[:] == objects
@@ -87,9 +87,9 @@ def test_a_carrier_without_parts_is_discarded_alone():
 
 def test_a_carrier_that_undo_removed_is_made_again():
     hand = hand_curve()
-    carrier.carrier_for(hand)
+    carrier.carrier_for(hand, None)
     carrier.discard_waiting()
-    placed = carrier.placed_carrier(hand)
+    placed = carrier.placed_carrier(hand, None)
     assert (placed.name, placed.parent) == ("Hand parts", hand)
     assert placed == bpy.context.active_object
 
@@ -173,3 +173,46 @@ def test_children_of_a_carrier_keep_it():
     assert again(hand, seed=1) != placed
     assert lamp.parent == placed
     assert "wcd_parts_of" not in placed
+
+
+def hulls_on(placed):
+    """Build hulls around the parts of a carrier; return the names of its children."""
+    activate(placed)
+    bpy.ops.wcd.build_hulls(pieces="PARTS", max_error=0.5)
+    return {child.name for child in placed.children}
+
+
+def test_hulls_of_a_carrier_go_with_it():
+    hand = hand_curve()
+    hand.location.x = 5.0
+    assert len(hulls_on(again(hand))) == 2
+    bpy.ops.wcd.make_rigid()
+    placed = again(hand, seed=1)
+    assert set(bpy.data.objects) == {hand, placed}
+    assert not bpy.data.collections
+    assert bpy.context.scene.rigidbody_world is None
+    hulls_on(placed)
+    bpy.ops.wcd.clear()
+    assert set(bpy.data.objects) == {hand}
+
+
+def test_hulls_of_a_carrier_that_stays_stay_with_it():
+    hand = hand_curve()
+    placed = again(hand)
+    lamp = bpy.data.objects.new("Lamp", None)
+    lamp.parent = placed
+    names = hulls_on(placed)
+    assert len(names) == 3
+    again(hand, seed=1)
+    assert {child.name for child in placed.children} == names
+
+
+def test_what_a_hull_of_a_carrier_holds_keeps_both():
+    hand = hand_curve()
+    placed = again(hand)
+    names = hulls_on(placed)
+    lamp = bpy.data.objects.new("Lamp", None)
+    lamp.parent = placed.children[0]
+    again(hand, seed=1)
+    assert {child.name for child in placed.children} == names
+    assert lamp.parent in placed.children[:]

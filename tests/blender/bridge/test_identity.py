@@ -17,7 +17,7 @@ from mathutils import Matrix
 from shapes import chair, comb, mug
 from weak_convex_decomposition.operators.bridge.parts.palette import partner_color
 from weak_convex_decomposition.operators.bridge.parts.read import part_identities
-from weak_convex_decomposition.ui.sidebar import hulls_of
+from weak_convex_decomposition.ui.sidebar import hull_rows_of
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
@@ -221,9 +221,9 @@ def test_hulls_follow_colors_and_those_that_the_user_deleted_are_not_listed(monk
     monkey.wcd_parts[0].color = (0.5, 0.25, 0.125)
     assert first.data.materials[:] == monkey.data.materials[:1]
     assert tuple(first.color[:3]) == (0.5, 0.25, 0.125)
-    assert len(hulls_of(monkey)) == len(hulls) == 4
+    assert len(hull_rows_of(monkey)) == len(hulls) == 4
     bpy.data.objects.remove(hulls[0])
-    assert len(hulls_of(monkey)) == 3
+    assert len(hull_rows_of(monkey)) == 3
     bpy.ops.wcd.clear()
     assert not [o for o in bpy.data.objects if "wcd_hull" in o]
 

@@ -5,6 +5,7 @@ import pytest
 from weak_convex_decomposition.operators.bridge.parts.palette import (
     free_color,
     partner_color,
+    usual_color,
 )
 
 N_COLORS = 24
@@ -97,6 +98,11 @@ def test_free_colors_are_not_in_use_until_all_are():
     assert len(set(used)) == N_COLORS
     assert free_color([*used, used[0]]) == used[1]
     assert free_color([partner_color(used[0])]) == used[1]
+
+
+def test_usual_colors_are_those_of_one_new_part_after_the_other():
+    n_parts = 2 * N_COLORS + 1
+    assert [usual_color(number) for number in range(n_parts)] == palette(n_parts)
 
 
 def test_the_first_parts_are_told_apart_by_color_blind_people():

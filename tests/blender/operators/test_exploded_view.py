@@ -15,6 +15,11 @@ from hand_made import (
 )
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
+from weak_convex_decomposition.operators.bridge.stored.record import (
+    EVALUATED,
+    note_mesh,
+    noted_mesh,
+)
 from weak_convex_decomposition.operators.bridge.views.exploding import (
     explode,
     exploding,
@@ -67,8 +72,10 @@ def torus_beside(suzanne, colors="MATERIALS"):
 def test_a_view_after_a_join_moves_each_part_by_itself(suzanne, monkeypatch):
     monkeypatch.setattr(joins, "_start", list)  # the operator does it in its undo step
     labels = torus_beside(suzanne)
+    note_mesh(suzanne, EVALUATED)
     bpy.ops.object.join()
     call("explode", distance=0.7)
+    assert noted_mesh(suzanne) == EVALUATED
     expected = moved_apart(suzanne.data, labels, 0.7)
     assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
     check_in_step(suzanne)

@@ -4,6 +4,7 @@ import json
 import re
 
 import bpy
+import numpy as np
 import pytest
 import weak_convex_decomposition as wcd
 from conftest import ROOT
@@ -74,3 +75,18 @@ def test_removed_objects_are_refused(suzanne):
 def test_the_function_that_returns_parts_says_who_cuts_faces(suzanne):
     with pytest.raises(wcd.DecompositionError, match="or the command line"):
         wcd.decompose(suzanne, seams="CUT")
+
+
+def test_a_stretch_leads_back_to_the_space_of_the_object():
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    cube.scale = (1, 1, 8)
+    bpy.context.view_layer.update()
+    stretch = wcd.stretch(cube)
+    assert stretch == pytest.approx(np.diag([0.5, 0.5, 4]))
+    (shape,) = wcd.build_hulls(cube).shapes
+    corners = shape.hull.vertices @ np.linalg.inv(stretch)
+    assert np.unique(corners.round(6)).tolist() == [-1, 1]
+    areas = wcd.decompose(cube).areas
+    assert areas == pytest.approx([2 * 1 + 4 * 8])  # of a box of 1 by 1 by 8
+    assert (wcd.stretch(corners) == np.eye(3)).all()

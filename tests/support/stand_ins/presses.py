@@ -106,8 +106,8 @@ class Pressed:
         self.reports.append((*kind, text))
 
 
-def press(cls, window):
-    """Return an operator that runs modally on the active object."""
+def press(cls, window, **values):
+    """Return an operator that runs modally on the active object, with some values."""
     context = SimpleNamespace(
         active_object=bpy.context.active_object,
         selected_objects=bpy.context.selected_objects,
@@ -118,6 +118,7 @@ def press(cls, window):
         workspace=SimpleNamespace(name="Layout"),
     )
     pressed = Pressed(cls)
+    vars(pressed).update(values)
     assert cls.poll(context)
     answer = pressed.invoke(context, MOUSE)
     assert answer == {"RUNNING_MODAL"}, answer

@@ -8,13 +8,12 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from mathutils import Color
 
 from .....core.parameters.bodies import BodyParameters
 from .....core.solids.mass_properties import MassProperties
 from ....bridge.hulls.placed import Primitive, primitive_of
 from ....bridge.mesh.attributes import read_ints
-from ....bridge.parts.palette import UNPAINTED
+from ....bridge.parts.palette import UNPAINTED, srgb_of
 from ..names import hulls_by_owner, legal_names, names_of_hulls
 from ..obj_files import write_obj
 from ..placed_meshes import Float64Array, TriangleArray, matrix_of, placed
@@ -194,11 +193,8 @@ def _four_vertices(
 
 def _color_of(material: bpy.types.Material | None) -> tuple[float, ...]:
     """Return the color of a material in the viewport, as screens show it."""
-    if material is None:
-        return UNPAINTED
-    red, green, blue, opacity = material.diffuse_color
-    shown = Color((red, green, blue)).from_scene_linear_to_srgb()
-    return (*shown, opacity)
+    color = material.diffuse_color if material else UNPAINTED
+    return (*srgb_of(color), color[3])
 
 
 def _named(bodies: Sequence[Body]) -> list[Body]:

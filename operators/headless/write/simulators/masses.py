@@ -66,8 +66,8 @@ def mass_notes(
     notes = []
     if without_solid:
         notes.append(
-            f"Mass and inertia are those of the hulls where the surface is not closed:"
-            f" {some_of(without_solid)}."
+            f"Mass and inertia are those of the hulls where the surface is not closed,"
+            f" or encloses nothing: {some_of(without_solid)}."
         )
     for name, mass in masses.items():
         if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ....bridge.hulls.placed import Primitive, quaternion_of
-from ..placed_meshes import written
+from ..placed_meshes import DOUBLE, digits_of
 from .bodies import Body, Geometry
 from .small_hulls import is_shell
 from .urdf import write_xml
@@ -44,15 +44,15 @@ def write_mjcf(path: Path, model: str, bodies: Sequence[Body], folder: str) -> N
             world,
             "body",
             name=body.name,
-            pos=written(body.frame[:3, 3]),
-            quat=written(quaternion_of(body.frame[:3, :3])),
+            pos=digits_of(body.frame[:3, 3]),
+            quat=digits_of(quaternion_of(body.frame[:3, :3])),
         )
         ET.SubElement(element, "freejoint", name=body.name)
         _add_inertia(element, body)
         for shape in body.visuals:
             # Open meshes have no volume, which MuJoCo refuses without "shell".
             _add_mesh(assets, shape, folder, inertia="shell")
-            _add_geom(element, shape, "visual", rgba=written(np.array(shape.color)))
+            _add_geom(element, shape, "visual", rgba=digits_of(np.array(shape.color)))
         for shape in body.collisions:
             if shape.primitive is None:
                 small = {"inertia": "shell"} if is_shell(shape) else {}
@@ -68,9 +68,10 @@ def _add_inertia(element: ET.Element, body: Body) -> None:
     ET.SubElement(
         element,
         "inertial",
-        pos=written(body.mass.center),
+        pos=digits_of(body.mass.center),
         mass=f"{body.mass.mass:.9g}",
-        fullinertia=written(upper),
+        # Nine digits would lose the thin direction of a plate.
+        fullinertia=digits_of(upper, DOUBLE),
     )
 
 
@@ -95,7 +96,7 @@ def _settings_of(primitive: Primitive) -> dict[str, str]:
     lengths = {"BOX": [0, 1, 2], "SPHERE": [0]}.get(primitive.kind, [0, 2])
     return {
         "type": primitive.kind.lower(),
-        "size": written(primitive.sizes[lengths]),
-        "pos": written(primitive.center),
-        "quat": written(quaternion_of(primitive.rotation)),
+        "size": digits_of(primitive.sizes[lengths]),
+        "pos": digits_of(primitive.center),
+        "quat": digits_of(quaternion_of(primitive.rotation)),
     }

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ....bridge.hulls.placed import Primitive, angles_of
-from ..placed_meshes import Float64Array, written
+from ..placed_meshes import DOUBLE, Float64Array, digits_of
 from .bodies import GROUND, Body, Geometry
 
 
@@ -70,8 +70,9 @@ def _add_link(robot: ET.Element, body: Body, folder: str) -> None:
     _add_origin(inertial, body.mass.center)
     ET.SubElement(inertial, "mass", value=f"{body.mass.mass:.9g}")
     rows = body.mass.inertia
+    # Nine digits would lose the thin direction of a plate.
     tensor = {
-        f"i{'xyz'[i]}{'xyz'[j]}": f"{rows[i, j] + 0.0:.9g}"
+        f"i{'xyz'[i]}{'xyz'[j]}": digits_of(rows[i, j : j + 1], DOUBLE)
         for i in range(3)
         for j in range(i, 3)
     }
@@ -80,7 +81,7 @@ def _add_link(robot: ET.Element, body: Body, folder: str) -> None:
         visual = ET.SubElement(link, "visual", name=shape.name)
         _add_mesh(visual, shape, folder)
         material = ET.SubElement(visual, "material", name=shape.name)
-        ET.SubElement(material, "color", rgba=written(np.array(shape.color)))
+        ET.SubElement(material, "color", rgba=digits_of(np.array(shape.color)))
     for shape in body.collisions:
         for number, each in enumerate(_pieces(shape.primitive), start=1):
             name = shape.name if number == 1 else f"{shape.name} end {number - 1}"
@@ -113,7 +114,7 @@ def _add_primitive(element: ET.Element, primitive: Primitive) -> None:
     geometry = ET.SubElement(element, "geometry")
     radius, half = f"{primitive.sizes[0]:.9g}", primitive.sizes[2]
     if primitive.kind == "BOX":
-        ET.SubElement(geometry, "box", size=written(2 * primitive.sizes))
+        ET.SubElement(geometry, "box", size=digits_of(2 * primitive.sizes))
     elif primitive.kind == "SPHERE":
         ET.SubElement(geometry, "sphere", radius=radius)
     else:
@@ -131,4 +132,4 @@ def _add_origin(
 ) -> None:
     """Add a place and a rotation matrix; without one, axes are those of the link."""
     angles = np.zeros(3) if rotation is None else angles_of(rotation)
-    ET.SubElement(element, "origin", xyz=written(place), rpy=written(angles))
+    ET.SubElement(element, "origin", xyz=digits_of(place), rpy=digits_of(angles))

@@ -64,7 +64,7 @@ def test_bends_of_a_seam_stay_and_straight_seams_get_none(quarters, n_corners, f
     mesh = mesh_object("Square", places, [(0, 1, 2, 3)]).data
     middle = np.array([1.9 + far, 2.1, 0.0])
     normals = np.array([[0.96, 0.28, 0.0], [-0.28, 0.96, 0.0]])
-    with CutMesh(mesh, np.ones(3)) as made:
+    with CutMesh(mesh, np.eye(3)) as made:
         made.cut([Cut(middle, each, np.array([0])) for each in normals], 1e-3)
         shape = made.triangles()
         inside = np.zeros((4, 3))  # a point of each piece

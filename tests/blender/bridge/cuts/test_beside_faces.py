@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from hand_made import face_values
+from hand_made import activate, face_values
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
     edited_since_cut,
@@ -132,6 +132,65 @@ def test_faces_under_sculpted_details_are_not_cut(angle):
     assert not is_cut(angle)
 
 
+def bind(obj, kind, target):
+    """Give an object a modifier that is bound to its vertices, or those of another."""
+    activate(obj)
+    modifier = obj.modifiers.new("Bound", kind)
+    if kind == "SURFACE_DEFORM":
+        modifier.target = target
+    elif kind == "MESH_DEFORM":
+        modifier.object = target
+    elif kind == "CORRECTIVE_SMOOTH":
+        modifier.rest_source = "BIND"
+    else:
+        obj.vertex_groups.new(name="Anchors").add([0, 3], 1.0, "REPLACE")
+        modifier.vertex_group = "Anchors"
+    bpy.context.view_layer.update()
+    name = kind.lower().replace("_", "")
+    assert getattr(bpy.ops.object, f"{name}_bind")(modifier="Bound") == {"FINISHED"}
+    bpy.context.view_layer.update()
+
+
+def bind_to_a_cage(kind):
+    def bound(obj):
+        bpy.ops.mesh.primitive_cube_add(size=12)
+        bind(obj, kind, bpy.context.active_object)
+
+    return bound
+
+
+def be_a_cage(obj):
+    bpy.ops.mesh.primitive_cube_add(size=0.5, location=(2, 0.5, 0.5))
+    bind(bpy.context.active_object, "MESH_DEFORM", obj)
+    activate(obj)
+
+
+BOUND = [
+    *map(bind_to_a_cage, ["SURFACE_DEFORM", "MESH_DEFORM", "LAPLACIANDEFORM"]),
+    bind_to_a_cage("CORRECTIVE_SMOOTH"),
+    be_a_cage,
+]
+
+
+@pytest.mark.parametrize("work", BOUND)
+def test_faces_that_a_modifier_is_bound_to_are_not_cut(angle, work):
+    work(angle)
+    with pytest.raises(RuntimeError, match=r"modifier Bound of .* Keep Faces for Seam"):
+        cut()
+    cut("KEEP")
+    assert not is_cut(angle)
+
+
+@pytest.mark.parametrize("work", BOUND)
+def test_a_modifier_that_is_bound_to_cut_faces_keeps_them(angle, work):
+    cut()
+    mesh = angle.data
+    work(angle)
+    assert edited_since_cut(angle)
+    bpy.ops.wcd.clear()
+    assert angle.data == mesh
+
+
 def test_details_sculpted_on_cut_faces_are_an_edit(angle):
     cut()
     subdivide(angle)
@@ -139,3 +198,38 @@ def test_details_sculpted_on_cut_faces_are_an_edit(angle):
     mesh = angle.data
     bpy.ops.wcd.clear()
     assert angle.data == mesh
+
+
+def keep_always(obj):
+    obj.data.use_fake_user = True
+
+
+def mark_as_asset(obj):
+    obj.data.asset_mark()
+    obj.data.asset_data.description = "Mine"
+
+
+def refer_to_mesh(obj):
+    bpy.context.scene["mine"] = obj.data
+
+
+@pytest.mark.parametrize("tie", [keep_always, mark_as_asset, refer_to_mesh])
+@pytest.mark.parametrize("again", ["CUT", "KEEP"])
+def test_a_mesh_that_is_not_used_by_objects_alone_comes_back_itself(angle, tie, again):
+    tie(angle)
+    mesh, n_users = angle.data, angle.data.users
+    cut()
+    cut(again, parts=3)
+    bpy.ops.wcd.clear()
+    assert angle.data == mesh
+    assert bpy.data.meshes[:] == [mesh]
+    assert (mesh.name, mesh.users) == ("L", n_users)
+
+
+def test_whole_faces_that_another_object_shows_stay_there(angle):
+    mesh = angle.data
+    cut()
+    other = bpy.data.objects.new("Other", mesh)
+    bpy.ops.wcd.clear()
+    assert other.data == mesh != angle.data
+    assert len(angle.data.polygons) == len(mesh.polygons)

@@ -59,3 +59,22 @@ def test_objects_that_keep_their_parts_are_named(tmp_path, capsys, option, is_na
     assert main([*words, "--quiet"]) == 0
     said = capsys.readouterr().err
     assert said.count("Solid: It keeps its parts; options that find") == is_named
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ("--hulls a.xml --hulls b.xml", "argument --hulls: it is given twice"),
+        ("--output=a.glb --output=a.glb", "argument --output: it is given twice"),
+        ("--report r.json --report=-", "argument --report: it is given twice"),
+        ("--report o/{name}.json", "leave {name} out of --report"),
+    ],
+)
+def test_outputs_are_not_dropped_or_named_by_chance(options, sentence, capsys):
+    with pytest.raises(SystemExit):
+        parse(["a.off", *options.split()], "wcd")
+    assert sentence in capsys.readouterr().err
+
+
+def test_a_setting_may_be_given_again():
+    assert parse(["a.off", "--parts=2", "--parts=3"], "wcd").parameters.parts == 3

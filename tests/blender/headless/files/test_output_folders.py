@@ -167,3 +167,25 @@ def test_an_input_in_a_folder_that_is_replaced(tmp_path, model, capfd, run):
     words = [tmp_path / "z_urdf" / "a.obj", "--hulls", tmp_path / "z.urdf"]
     assert run(*words) == 2
     assert "which is written as a whole" in capfd.readouterr().err
+
+
+def test_meshes_of_an_earlier_output_are_not_replaced(tmp_path, model, capfd, run):
+    write(tmp_path / "z.urdf", **{"001": "v 0 0 0"})
+    folder = tmp_path / "z_urdf"
+    (tmp_path / "link.obj").symlink_to(folder / "001.obj")
+    before = content(tmp_path)
+    for option, place in (
+        ("--hulls", folder / "001.obj"),
+        ("--hulls", tmp_path / "link.obj"),
+        ("--output", folder / "new.obj"),
+        ("--report", folder / MANIFEST),
+        ("--hulls", folder / "{name}.obj"),
+    ):
+        capfd.readouterr()
+        assert run(model, option, place) == 2, place
+        assert "z_urdf, which holds the meshes of z.urdf;" in capfd.readouterr().err
+    assert content(tmp_path) == before
+    assert run(model, "--hulls", folder / "more" / "001.obj") == 0
+    (folder / MANIFEST).write_text("{}")
+    assert run(model, "--hulls", folder / "001.obj") == 2
+    assert "which holds the meshes of another output;" in capfd.readouterr().err

@@ -58,7 +58,7 @@ def listed(monkeypatch, data):
 
 
 def test_a_list_of_inputs(tmp_path, model, monkeypatch, capfd):
-    listed(monkeypatch, b"b c.ply\r\n\n" + os.fsencode("ä\udcff.ply"))
+    listed(monkeypatch, b"\xef\xbb\xbfb c.ply\r\n\n" + os.fsencode("ä\udcff.ply"))
     words = ["a.ply", "-", "d.ply", "--output", f"{tmp_path}/{{name}}.glb"]
     request = parse(words, "wcd")
     names = ["a.ply", "b c.ply", "ä\udcff.ply", "d.ply"]

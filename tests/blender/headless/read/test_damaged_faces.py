@@ -1,6 +1,7 @@
 """Damaged .ply and .obj files whose faces or coordinates Blender would leave out."""
 
 import struct
+import time
 
 import bpy
 import numpy as np
@@ -99,6 +100,26 @@ def test_models_with_weights_come_back(tmp_path):
     assert len(load(tmp_path / "a.ply")[0].data.polygons) == 288
 
 
+@pytest.mark.parametrize("form", [form for form, order in ORDERS.items() if order])
+@pytest.mark.parametrize("faces", [TRIANGLES, MIXED], ids=["equal", "mixed"])
+@pytest.mark.parametrize("extra", EXTRA)
+@pytest.mark.parametrize("strips", ["", [(9, 9), (9, 9)], [(9, 9), (9,)]])
+def test_every_cut_through_binary_rows_is_noticed(form, faces, extra, strips):
+    data = ply(form, faces, extra, strips)
+    header = read_header(data)
+    assert header.is_whole(data)
+    assert header.is_whole(data + b"more")
+    for size in range(header.size, len(data)):
+        assert not header.is_whole(data[:size]), size
+
+
+@pytest.mark.parametrize("element", ["vertex 4", "face 3"])
+def test_files_that_promise_more_rows_than_any_has(element):
+    data = ply("binary_little_endian", MIXED)
+    data = data.replace(element.encode(), element[:-1].encode() + b"9" * 18)
+    assert not read_header(data).is_whole(data)
+
+
 def test_the_last_face_of_a_million():
     n_faces = 1_000_000
     head = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\n"
@@ -107,6 +128,9 @@ def test_the_last_face_of_a_million():
     for corner, is_missing in ((2, False), (3, True)):
         last = struct.pack(">B3i", 3, 0, 1, corner)
         data = f"{head}end_header\n".encode() + bytes(12) + rows + last
+        began = time.process_time()
+        assert read_header(data).is_whole(data)
+        assert time.process_time() - began < 0.1
         assert refers_to_missing(read_header(data), data) == is_missing
 
 

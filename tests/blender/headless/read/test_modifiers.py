@@ -62,6 +62,17 @@ def test_without_the_option_modifiers_stay(tmp_path, capsys):
     assert "(Mesh: Evaluated is --apply-modifiers.)" in err
 
 
+@pytest.mark.parametrize("ending", ["glb", "fbx", "obj", "ply", "usd"])
+def test_outputs_hold_the_mesh_that_parts_and_hulls_are_of(tmp_path, ending):
+    cube().modifiers.new("Row", "ARRAY").count = 3
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
+    output = tmp_path / f"out.{ending}"
+    assert main([str(tmp_path / "a.blend"), f"--output={output}", *QUICK]) == 0
+    (read,) = load_file(output, "Z", with_modifiers=False).objects
+    assert len(read.data.polygons) == (12 if ending == "glb" else 6)
+    assert width(read) * read.scale.x == pytest.approx(2)
+
+
 def test_shape_keys_and_armatures_are_applied_as_shown(tmp_path):
     keyed = cube("Keyed")
     keyed.shape_key_add(name="Basis")

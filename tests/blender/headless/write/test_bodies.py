@@ -136,7 +136,7 @@ def test_open_surfaces_weigh_what_their_hulls_weigh(tmp_path):
     bpy.ops.object.mode_set(mode="OBJECT")
     hulls = build_hulls([cube], max_hulls=1)
     (note,) = save_hulls(tmp_path / "a.xml", hulls, "Z", BodyParameters())
-    assert "not closed: Cube" in note
+    assert "or encloses nothing: Cube" in note
     ((mass, center, _),) = simulation.placed_masses(loaded(tmp_path / "a.xml"))
     assert mass == pytest.approx(8000, rel=0.01)
     assert center == pytest.approx([0, 0, 0], abs=0.01)
@@ -179,3 +179,18 @@ def test_a_face_whose_slot_is_gone_is_seen_too(tmp_path):
     save_hulls(tmp_path / "a.xml", build_hulls([block]), "Z", BodyParameters())
     seen = trimesh.load(tmp_path / "a_xml" / "visual_001.obj")
     assert len(seen.faces) == 12
+
+
+def test_no_material_is_as_gray_as_a_new_one(tmp_path):
+    for material in (None, bpy.data.materials.new("Gray")):
+        bpy.ops.mesh.primitive_cube_add()
+        block = bpy.context.active_object
+        block.data.materials.append(material)
+    objects = bpy.data.objects[:]
+    save_hulls(tmp_path / "a.xml", build_hulls(objects), "Z", BodyParameters())
+    geoms = ET.parse(tmp_path / "a.xml").getroot().iter("geom")
+    colors = [geom.get("rgba") for geom in geoms if geom.get("rgba")]
+    assert len(colors) == 2
+    for color in colors:  # 0.8 in sRGB
+        expected = [0.9063317537] * 3 + [1.0]
+        assert [float(word) for word in color.split()] == pytest.approx(expected)

@@ -6,6 +6,7 @@ import struct
 import bpy
 import numpy as np
 import pytest
+from hand_made import build_hulls
 from headless.loading import load
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.write.one_scene import one_scene
@@ -39,6 +40,15 @@ def add_cubes():
     cube("in hidden", 30, collection=hidden)
     cube("elsewhere", 40, scene=bpy.data.scenes.new("Another"))
     cube("excluded", 50, collection=excluded)
+    bpy.context.view_layer.layer_collection.children["Excluded"].exclude = True
+
+
+def add_to_excluded(obj):
+    """Move an object of the scene to a collection that is excluded."""
+    excluded = bpy.data.collections.new("Excluded")
+    bpy.context.scene.collection.children.link(excluded)
+    bpy.context.scene.collection.objects.unlink(obj)
+    excluded.objects.link(obj)
     bpy.context.view_layer.layer_collection.children["Excluded"].exclude = True
 
 
@@ -103,6 +113,33 @@ def test_glb_has_one_scene_and_what_its_objects_hang_on(tmp_path):
     content = json.loads(data[20 : 20 + length])
     assert [scene["name"] for scene in content["scenes"]] == ["Scene"]
     assert {node["name"] for node in content["nodes"]} == {*SHOWN, "holder"}
+
+
+@pytest.mark.parametrize("ending", ["glb", "obj", "fbx", "usd", "ply", "blend"])
+def test_hulls_of_an_earlier_run_are_left_out(tmp_path, ending):
+    ring, _ = cube("Ring", 0), cube("Other", 10)
+    build_hulls([ring], max_hulls=1)
+    output = tmp_path / f"again.{ending}"
+    assert main([str(model_in(tmp_path)), f"--output={output}", *QUICK]) == 0
+    load(output, "Z" if ending == "usd" else None)
+    meshes = [each.data for each in bpy.data.objects if each.type == "MESH"]
+    faces = [len(mesh.polygons) for mesh in meshes]
+    whole = 12 if ending == "glb" else 6
+    assert sum(faces) == 2 * whole + (12 if ending == "blend" else 0)
+
+
+def test_hulls_that_are_built_are_written_alone(tmp_path):
+    ring, other = cube("Ring", 0), cube("Other", 10)
+    build_hulls([ring, other], max_hulls=1)
+    other.data.clear_geometry()  # its hull is not built again
+    cube("excluded", 50).parent = ring
+    add_to_excluded(bpy.data.objects["excluded"])
+    output = tmp_path / "both.glb"
+    words = [f"--output={output}", "--with-hulls", *QUICK]
+    assert main([str(model_in(tmp_path)), *words]) == 0
+    load(output)
+    names = sorted(each.name for each in bpy.data.objects)
+    assert names == ["Other", "Ring", "Ring hull 01"]
 
 
 def test_the_scene_of_the_user_is_as_it_was():

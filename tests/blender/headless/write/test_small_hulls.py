@@ -1,7 +1,8 @@
-"""Hulls that are tiny beside others: MuJoCo reads them, or a note names them."""
+"""Hulls and bodies that are tiny or thin: MuJoCo reads them, or a note names them."""
 
 import bpy
 import mujoco
+import numpy as np
 import pytest
 from hand_made import build_hulls
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
@@ -47,3 +48,21 @@ def test_a_crumb_far_from_the_origin_of_its_body_is_flat(tmp_path):
     )
     with pytest.raises(ValueError, match="qhull"):
         mujoco.MjModel.from_xml_path(str(path))
+
+
+@pytest.mark.parametrize("ending", ["xml", "urdf"])
+@pytest.mark.parametrize(
+    ("size", "least"), [((1, 1, 1e-5), 1.0), ((10, 3e-4, 3e-4), 7e-3)]
+)
+def test_thin_bodies_keep_their_inertia(tmp_path, ending, size, least):
+    objects = []
+    for number, turn in enumerate(np.random.default_rng(0).uniform(0, 6, (12, 3))):
+        bpy.ops.mesh.primitive_cube_add(size=1, location=(20 * number, 0, 0))
+        objects.append(bpy.context.active_object)
+        objects[-1].scale, objects[-1].rotation_euler = size, turn
+    bpy.context.view_layer.update()
+    hulls = build_hulls(objects, max_hulls=1)
+    parameters = BodyParameters(density=1e5 if size[0] == 1 else 8000, bodies="EACH")
+    assert save_hulls(tmp_path / f"a.{ending}", hulls, "Z", parameters) == ()
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / f"a.{ending}"))
+    assert model.body_mass.max() == pytest.approx(least, rel=0.1)

@@ -1,4 +1,4 @@
-"""Clear where the parts were not made: in another view layer, or of points."""
+"""Clear: in another view layer, beside other objects, or of points."""
 
 import bpy
 import pytest
@@ -65,6 +65,22 @@ def test_the_curve_is_shown_in_the_present_layer_if_the_other_is_gone():
     bpy.ops.wcd.clear()
     assert not hand.hide_get()
     assert bpy.context.active_object == hand
+
+
+def test_the_active_object_stays_active(suzanne):
+    hand = hand_curve()
+    for active in (suzanne, hand):
+        activate(active)
+        hand.select_set(True)
+        suzanne.select_set(True)
+        bpy.ops.wcd.decompose(samples=100, parts=2)
+        (parts,) = hand.children
+        assert bpy.context.active_object == (parts if active == hand else suzanne)
+        assert parts.select_get()
+        bpy.ops.wcd.clear()
+        assert bpy.context.active_object == active
+        assert hand.select_get()
+        assert suzanne.select_get()
 
 
 if "POINTCLOUD" in _TARGETS:  # since Blender 5

@@ -11,7 +11,7 @@ from stand_ins.layout import Layout, drawn
 from weak_convex_decomposition.operators.bridge.parts.rows import noted_refusal
 from weak_convex_decomposition.operators.editing.rename_parts import WCD_OT_rename_parts
 from weak_convex_decomposition.ui.hulls_panel import WCD_PT_hulls, endings
-from weak_convex_decomposition.ui.sidebar import hulls_of
+from weak_convex_decomposition.ui.sidebar import hull_rows_of
 
 NAMES = ["Head", "Ear.L", "Ear.R", "Jaw"]
 LONG = "an ear that is much too long for the name of a vertex group, as it is"
@@ -123,5 +123,5 @@ def test_names_are_drawn_as_they_are_in_all_languages(pair):
     assert layout.untranslated() == {"Head", "Ear", "Ear  .L .R", "Jaw"}
     bpy.context.scene.wcd.pieces = "PARTS"
     bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
-    hulls = set(endings([hull["name"] for hull in hulls_of(pair)]))
+    hulls = set(endings([hull["name"] for hull in hull_rows_of(pair)]))
     assert {*NAMES, *hulls} <= drawn(WCD_PT_hulls).untranslated()

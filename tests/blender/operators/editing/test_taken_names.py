@@ -6,10 +6,6 @@ from edited import FAST
 from hand_made import activate, decompose_by_hand, in_mode
 from weak_convex_decomposition.operators.bridge.parts.materials import is_ours
 from weak_convex_decomposition.operators.bridge.stored.identity import has_name
-from weak_convex_decomposition.operators.bridge.stored.notes import (
-    parse_json,
-    write_note,
-)
 
 
 def materials_of(obj):
@@ -71,16 +67,6 @@ def test_a_material_of_ours_can_be_in_more_slots_than_one(suzanne):
     bpy.ops.wcd.clear()
     assert not suzanne.data.materials
     assert not [each for each in bpy.data.materials if is_ours(each)]
-
-
-def test_notes_of_older_versions_are_read(suzanne):
-    suzanne.data.materials.append(bpy.data.materials.new("Skin"))
-    decompose_by_hand(suzanne, 3, **FAST)
-    noted = parse_json(suzanne.data["wcd_restore"])
-    assert noted.pop("tagged") == []
-    write_note(suzanne.data, "wcd_restore", noted)
-    bpy.ops.wcd.clear()
-    assert materials_of(suzanne) == ["Skin"]
 
 
 @pytest.mark.parametrize(

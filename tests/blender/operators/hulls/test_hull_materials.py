@@ -64,6 +64,23 @@ def test_hulls_and_parts_share_materials_also_after_an_edit(suzanne):
     assert pytest.approx((0.1, 0.2, 0.3)) in colors
 
 
+def test_a_material_before_that_of_the_part_stays(suzanne):
+    decompose_by_hand(suzanne, 3)
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    part = suzanne.wcd_parts[0]
+    (hull,) = (h for h in hulls_of(suzanne) if h.data.materials[0].name == part.name)
+    mine = bpy.data.materials.new("Mine")
+    hull.data.materials.append(hull.data.materials[0])
+    hull.data.materials[0] = mine
+    part.name = "Head"
+    assert [material.name for material in hull.data.materials] == ["Mine", "Head"]
+    part.color = (0.1, 0.2, 0.3)
+    colored = hull.data.materials[1]
+    assert tuple(colored.diffuse_color)[:3] == pytest.approx((0.1, 0.2, 0.3))
+    assert hull.color[:3] == pytest.approx((0.1, 0.2, 0.3))
+    assert "Part 01" not in bpy.data.materials
+
+
 def test_a_mesh_that_hulls_were_joined_to_has_no_parts_of_theirs(suzanne):
     build()
     with bpy.context.temp_override(selected_editable_objects=bpy.data.objects[:]):

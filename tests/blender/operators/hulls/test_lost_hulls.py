@@ -127,7 +127,7 @@ def test_hulls_that_the_user_took_from_their_object_stay(joined, taken):
     assert ("wcd_hull" in hull) == (taken != "and cleared")
 
 
-@pytest.mark.parametrize("how", ["moved", "linked", "decomposed", "old file"])
+@pytest.mark.parametrize("how", ["moved", "linked", "decomposed"])
 def test_hulls_that_the_user_keeps_stay(joined, how):
     obj, hull = joined
     tagged = bpy.data.collections["Other hulls"]
@@ -138,8 +138,6 @@ def test_hulls_that_the_user_keeps_stay(joined, how):
         tagged.objects.unlink(hull)
     if how == "decomposed":
         decompose_by_hand(hull, 2)
-    if how == "old file":
-        tagged["wcd_hull"] = True
     bpy.context.view_layer.update()  # Blender 4.2 may crash without
     clear(obj)
     assert "Other hull 01" in left()

@@ -100,14 +100,16 @@ def test_one_hull_gets_the_shape_that_it_would_have_been_built_with(suzanne, sha
     assert len(hulls_of(suzanne)) == 3
 
 
-def test_a_hull_comes_back_after_another_shape(built):
+@pytest.mark.parametrize("margin", [0.0, 0.1])
+def test_a_hull_comes_back_after_other_shapes(built, margin):
+    build(pieces="PARTS", margin=margin)
     hull, *others = hulls_of(built)
     before = [tuple(vertex.co) for vertex in hull.data.vertices]
     meshes = [other.data for other in others]
     name = hull.name
-    bpy.ops.wcd.refit_hull(hull=name, shape="SPHERE")
-    assert noted(built)[name]["kind"] == "SPHERE"
-    bpy.ops.wcd.refit_hull(hull=name, shape="HULL")
+    for shape in ("SPHERE", "HULL", "BOX", "HULL"):
+        bpy.ops.wcd.refit_hull(hull=name, shape=shape)
+        assert noted(built)[name]["kind"] == shape
     after = [tuple(vertex.co) for vertex in hulls_of(built)[0].data.vertices]
     assert np.allclose(sorted(after), sorted(before), atol=1e-4)
     assert [other.data for other in hulls_of(built)[1:]] == meshes
@@ -117,17 +119,17 @@ def test_a_renamed_hull_is_listed_and_keeps_its_name(built):
     hull = hulls_of(built)[0]
     figures = noted(built)[hull.name]
     hull.name = "Mine"
-    assert sidebar.hulls_of(built)[0] == {
+    assert sidebar.hull_rows_of(built)[0] == {
         **figures,
         "name": "Mine",
         "object": hull,
     }
     bpy.ops.wcd.refit_hull(hull="Mine", shape="BOX")
-    assert len(sidebar.hulls_of(built)) == 3
+    assert len(sidebar.hull_rows_of(built)) == 3
     assert noted(built)["Mine"]["kind"] == "BOX"
     hull.name = "Mine again"
     bpy.ops.wcd.remove_hull(hull="Mine again")
-    assert len(noted(built)) == len(sidebar.hulls_of(built)) == 2
+    assert len(noted(built)) == len(sidebar.hull_rows_of(built)) == 2
 
 
 def test_a_copy_of_a_hull_is_not_listed_and_stays(built):
@@ -136,7 +138,7 @@ def test_a_copy_of_a_hull_is_not_listed_and_stays(built):
     copy.data = hull.data.copy()
     bpy.context.collection.objects.link(copy)
     mesh, before = copy.data, built["wcd"]
-    assert len(sidebar.hulls_of(built)) == 3
+    assert len(sidebar.hull_rows_of(built)) == 3
     with pytest.raises(RuntimeError, match="is not in the list of Suzanne's hulls"):
         bpy.ops.wcd.refit_hull(hull=copy.name, shape="BOX")
     assert copy.data == mesh

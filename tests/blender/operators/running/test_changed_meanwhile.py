@@ -86,6 +86,22 @@ def test_a_curve_gets_its_mesh_at_the_end_and_esc_leaves_none(window):
     assert hand.children == (carrier,)
 
 
+def test_a_curve_is_hidden_in_the_scene_that_it_was_read_in(window):
+    hand, home = hand_curve(), bpy.context.view_layer
+    pressed = press(WCD_OT_decompose, window)
+    other = bpy.data.scenes.new("Other")
+    with bpy.context.temp_override(scene=other, view_layer=other.view_layers[0]):
+        assert finish(pressed) == {"FINISHED"}
+    (carrier,) = hand.children
+    assert home.objects.active == carrier
+    assert (hand.hide_get(view_layer=home), hand.hide_render) == (True, True)
+    assert carrier.select_get(view_layer=home)
+    assert not hand.select_get(view_layer=home)
+    bpy.ops.wcd.clear()
+    assert not hand.hide_get()
+    assert bpy.context.active_object == hand
+
+
 def test_undo_meanwhile_is_noticed(suzanne, window):
     bpy.ops.ed.undo_push(message="Suzanne")
     bpy.ops.mesh.primitive_cube_add()

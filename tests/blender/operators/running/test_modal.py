@@ -18,7 +18,13 @@ from stand_ins.presses import (
     select,
     values_of,
 )
+from weak_convex_decomposition.core.steps.processes import Processes
+from weak_convex_decomposition.operators.bridge.work import apart
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.operators.hulls import (
+    WCD_OT_build_hulls,
+    WCD_OT_refit_hull,
+)
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
 from weak_convex_decomposition.operators.running import modal
 
@@ -149,3 +155,55 @@ def test_one_at_a_time(suzanne, window, name):
     with pytest.raises(RuntimeError, match="Measure Convexity is running; wait"):
         getattr(bpy.ops.wcd, name)()
     assert finish(pressed) == {"FINISHED"}
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """All processes that are started; every mesh counts as a large one."""
+    made = []
+
+    def noted(count):
+        made.append(Processes(count))
+        return made[-1]
+
+    monkeypatch.setattr(apart, "_MANY", 0)
+    monkeypatch.setattr(apart, "Processes", noted)
+    yield made
+    for processes in made:
+        processes.close()
+
+
+def test_another_process_builds_hulls_of_large_meshes(suzanne, window, started):
+    assert bpy.ops.wcd.build_hulls(**values_of(WCD_OT_build_hulls)) == {"FINISHED"}
+    expected = snapshot(suzanne)
+    assert not started  # a script waits anyway
+    bpy.ops.wcd.remove_hulls()
+    pressed, shares = press(WCD_OT_build_hulls, window), set()
+    while pressed.modal(None, TIMER) == {"PASS_THROUGH"}:
+        shares.add(modal.current.job.progress.fraction)
+    assert snapshot(suzanne) == expected
+    assert len(shares) > 3  # the process tells how far it is
+    (processes,) = started
+    assert [one.poll() is None for one in processes._started] == [False]
+
+
+def test_esc_ends_the_process_that_builds_hulls(suzanne, window, started):
+    before = snapshot(suzanne)
+    pressed = press(WCD_OT_build_hulls, window)
+    while not (started and started[0]._started):
+        pressed.modal(None, TIMER)
+    assert pressed.modal(None, ESC) == {"CANCELLED"}
+    assert snapshot(suzanne) == before
+    assert window.is_clean()
+    assert [one.poll() is None for one in started[0]._started] == [False]
+
+
+def test_a_hull_of_a_large_mesh_gets_another_shape_in_another_process(
+    suzanne, window, started
+):
+    bpy.ops.wcd.build_hulls(max_hulls=2)
+    values = {"hull": suzanne.children[0].name, "shape": "BOX"}
+    pressed = press(WCD_OT_refit_hull, window, **values)
+    assert finish(pressed) == {"FINISHED"}
+    assert len(started) == 1
+    assert 8 in [len(hull.data.vertices) for hull in suzanne.children]

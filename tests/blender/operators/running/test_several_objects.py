@@ -50,6 +50,19 @@ def test_all_selected_objects_are_decomposed_and_no_other():
     assert not decomposed(second)
 
 
+def test_without_a_window_the_active_object_is_worked_on(suzanne):
+    other = add(5)
+    select(suzanne, other)
+    with bpy.context.temp_override(window=None):
+        bpy.ops.wcd.decompose(parts=2, **FAST)
+        bpy.ops.wcd.build_hulls(pieces="PARTS")
+        bpy.ops.wcd.explode()
+        bpy.ops.wcd.separate()
+    hulls_and_pieces = set(bpy.data.objects) - {suzanne, other}
+    assert len(hulls_and_pieces) == 2 + 2
+    assert not decomposed(other)
+
+
 def test_an_active_object_that_is_not_selected_is_left_alone():
     first, second = add(0), add(5)
     activate(second)

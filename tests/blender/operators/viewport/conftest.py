@@ -39,6 +39,7 @@ class Viewport:
     def context(self):
         return SimpleNamespace(
             active_object=bpy.context.active_object,
+            mode=bpy.context.mode,
             window_manager=self.window,
             window=SimpleNamespace(as_pointer=lambda: 1),
             workspace=SimpleNamespace(name="Layout"),

@@ -56,3 +56,17 @@ def test_they_go_once_it_is_deleted(pictured):
     other("Other")
     bpy.ops.wcd.clear()
     assert not bpy.data.images
+
+
+def test_clear_removes_pictures_of_renamed_objects_and_of_the_same_mesh(suzanne):
+    decompose_by_hand(suzanne, 3, samples=60)
+    bpy.ops.wcd.show_picture(picture="SIGHT")
+    suzanne.name = "Monkey"
+    twin = suzanne.copy()
+    bpy.context.collection.objects.link(twin)
+    bpy.ops.wcd.show_picture(picture="SIGHT")  # of both
+    for each in (suzanne, twin):
+        each.select_set(each == suzanne)
+    assert len(bpy.data.images) == 3
+    bpy.ops.wcd.clear()
+    assert not bpy.data.images

@@ -179,6 +179,17 @@ def test_picking_ends_with_the_file_and_by_its_button(viewport, suzanne, tmp_pat
     assert picking.current is None
 
 
+@pytest.mark.parametrize("mode", ["SCULPT", "WEIGHT_PAINT"])
+def test_picking_leaves_clicks_to_other_modes(viewport, suzanne, mode):
+    viewport.hover(suzanne, 2)
+    in_mode(suzanne, "EDIT")
+    assert viewport.event("LEFTMOUSE") == {"RUNNING_MODAL"}
+    in_mode(suzanne, mode)
+    assert viewport.event("LEFTMOUSE") == {"FINISHED", "PASS_THROUGH"}
+    assert viewport.header is viewport.status is picking.current is None
+    assert rows(suzanne) == (2, [False] * 4)
+
+
 def test_picking_needs_parts_and_a_viewport(suzanne):
     with pytest.raises(RuntimeError, match="There is no 3D viewport here"):
         bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")

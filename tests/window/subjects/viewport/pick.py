@@ -177,7 +177,22 @@ def steps(hands):
     assert leftovers() == []
     yield 0.5
     hands.picture("left", hands.area)
+    yield from in_sculpt_mode(hands)
     yield from large(hands)
+
+
+def in_sculpt_mode(hands):
+    """Check that Sculpt Mode ends picking, for its clicks are the brush's."""
+    with hands.context():
+        bpy.ops.wcd.pick_parts("INVOKE_DEFAULT")
+        bpy.ops.object.mode_set(mode="SCULPT")
+    assert picking.current is not None
+    yield from hands.click(at(hands, BROW))
+    yield lambda: picking.current is None
+    assert leftovers() == []
+    hands.picture("sculpt", hands.area)
+    with hands.context():
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def large(hands):

@@ -47,7 +47,8 @@ def shown_at(hands, obj):
     """Return where the picked point is in the window."""
     overlay = sight_overlay.current
     region = hands.region("WINDOW")
-    point = obj.matrix_world @ Vector(overlay.view.point / overlay.scale)
+    seen = np.linalg.solve(overlay.stretch, overlay.view.point)
+    point = obj.matrix_world @ Vector(seen)
     place = location_3d_to_region_2d(region, hands.area.spaces.active.region_3d, point)
     return region.x + place.x, region.y + place.y
 
@@ -57,7 +58,24 @@ def click_button(hands, wanted):
     yield from hands.click(place)
 
 
-def keep_by_enter(hands):
+def only_with_its_object(hands, obj, plain):
+    """Check that the picture is gone where its object is, and comes back with it."""
+    home, (collection,) = hands.window.scene, obj.users_collection
+    hands.window.scene = bpy.data.scenes.new("Elsewhere")
+    yield 0.5
+    assert is_plain(hands, "elsewhere", plain)
+    hands.window.scene = home
+    layer = hands.window.view_layer.layer_collection.children[collection.name]
+    for hidden in (True, False):
+        layer.exclude = hidden
+        yield 0.5
+        assert is_plain(hands, "excluded" if hidden else "back", plain) == hidden
+    with hands.context():
+        bpy.context.view_layer.objects.active = obj
+    yield 0.5
+
+
+def keep_by_enter(hands, obj, plain):
     """Check that Enter keeps the picture and listens no more; a button removes it."""
     yield from click_button(hands, "wcd.show_sight")
     yield lambda: sight_overlay.current is not None
@@ -68,6 +86,7 @@ def keep_by_enter(hands):
     yield from hands.click(middle(hands, up=0.1))
     yield 0.5
     assert sight_overlay.current.view is view
+    yield from only_with_its_object(hands, obj, plain)
     yield from click_button(hands, "wcd.hide_sight")
     yield lambda: sight_overlay.current is None
     assert leftovers() == []
@@ -111,5 +130,5 @@ def steps(hands):
     yield 0.5
     assert is_plain(hands, "hidden", plain)
 
-    yield from keep_by_enter(hands)
+    yield from keep_by_enter(hands, obj, plain)
     assert snapshot(obj) == before

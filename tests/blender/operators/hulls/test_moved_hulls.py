@@ -1,0 +1,76 @@
+"""Other shapes for hulls that are not where their object's own space has them."""
+
+import bpy
+import numpy as np
+import pytest
+from edited import record_of
+from hand_made import activate
+from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
+
+BUILT = {"max_hulls": 1, "max_error": 1.0, "error_unit": "SCENE"}
+PLACE = (3, -2, 1)
+
+
+@pytest.fixture
+def placed(suzanne):
+    """Return an object with one hull, which has a place, a turn and a scale."""
+    suzanne.location, suzanne.rotation_euler = PLACE, (0.3, 0.5, 1)
+    suzanne.scale = (2, 1, 1)
+    bpy.context.view_layer.update()
+    bpy.ops.wcd.build_hulls(**BUILT)
+    return suzanne
+
+
+def refit(obj, shape):
+    """Give the hull of an object another shape; return its corners and its error."""
+    (hull,) = hulls_of(obj)
+    assert bpy.ops.wcd.refit_hull(hull=hull.name, shape=shape) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    (noted,) = record_of(obj)["hulls"]["hulls"]
+    return corners_of(hull), noted["error"]
+
+
+def corners_of(hull):
+    bpy.context.view_layer.update()
+    return np.array([hull.matrix_world @ vertex.co for vertex in hull.data.vertices])
+
+
+def distances(corners):
+    """Return how far corners are from the mirror plane's point; boxes come mirrored."""
+    lengths = np.linalg.norm(corners - PLACE, axis=1)
+    return [lengths.min(), lengths.max()]
+
+
+def sides(corners):
+    return np.ptp(corners, axis=0)
+
+
+@pytest.mark.parametrize("shape", ["SPHERE", "BOX", "HULL"])
+@pytest.mark.parametrize("applied", ["scale", "location", "everything"])
+def test_shapes_are_right_after_a_transform_was_applied(placed, shape, applied):
+    corners, error = refit(placed, shape)
+    bpy.ops.wcd.build_hulls(**BUILT)
+    activate(placed)
+    every = {"location": True, "rotation": True, "scale": True}
+    chosen = {name: name == applied for name in every}
+    bpy.ops.object.transform_apply(**(every if applied == "everything" else chosen))
+    found, found_error = refit(placed, shape)
+    assert distances(found) == pytest.approx(distances(corners), rel=0.02)
+    assert found_error == pytest.approx(error, rel=0.02)
+
+
+def test_a_hull_that_the_user_moved_keeps_its_place_and_states_its_error(placed):
+    _, near = refit(placed, "BOX")
+    (hull,) = hulls_of(placed)
+    hull.location.x += 3.0
+    lamp = bpy.data.objects.new("Lamp", None)
+    bpy.context.collection.objects.link(lamp)
+    lamp.parent, lamp.location = hull, (0, 1, 0)
+    before = corners_of(hull)
+    place = np.array(lamp.matrix_world)
+    for _ in range(2):
+        found, error = refit(placed, "BOX")
+        assert sides(found) == pytest.approx(sides(before), rel=1e-3)
+        assert found.mean(axis=0) == pytest.approx(before.mean(axis=0), abs=1e-3)
+        assert error > near + 1.0
+    assert np.array(lamp.matrix_world) == pytest.approx(place, abs=1e-5)
