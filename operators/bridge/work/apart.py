@@ -37,10 +37,8 @@ def hulls_around(
     is_large = isinstance(shape, TriangleMesh) and len(shape.triangles) > _MANY
     if not (in_window and is_large):
         return (yield from compute(cache=session_cache()))
-    apart, elsewhere = (
-        Processes(1),
-        partial(compute, cache=core.ShapeCache(core.no_rays)),
-    )
+    elsewhere = partial(compute, cache=core.ShapeCache(core.no_rays))
+    apart = Processes(1)
     try:
         return (yield from apart.steps("Solid", elsewhere))
     finally:

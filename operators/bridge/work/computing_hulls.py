@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import bpy
 import numpy as np
@@ -89,7 +89,9 @@ def _hulls_here(
     hull_parameters: HullParameters,
     in_window: bool,
     labels: NDArray[np.int64] | None,
-    *rest: Any,
+    seed: int,
+    scene_unit: float,
+    kinds: Mapping[int, str],
 ) -> Steps[HullDecomposition]:
     """Build hulls now; find parts for them first if there are none."""
     shape, start = (yield from read), 0.0
@@ -98,9 +100,15 @@ def _hulls_here(
         start = 0.4
         parts = core.decompose_in_steps(shape, parameters, session_cache())
         labels = (yield from within(parts, 0.0, start)).labels
-    names = ("seed", "scene_unit", "kinds")
-    options = dict(zip(names, rest, strict=True), labels=labels)
-    build = partial(core.build_hulls_in_steps, shape, hull_parameters, **options)
+    build = partial(
+        core.build_hulls_in_steps,
+        shape,
+        hull_parameters,
+        labels=labels,
+        seed=seed,
+        scene_unit=scene_unit,
+        kinds=kinds,
+    )
     found = yield from within(hulls_around(shape, build, in_window), start, 1.0)
     if needs_parts:  # the object does not get them
         found = replace(found, parts=np.full_like(found.parts, -1))
