@@ -202,6 +202,7 @@ class CollisionShape:
             vertices=self.hull.vertices * scale + center,
             planes=np.column_stack([normals, offsets * scale - normals @ center]),
             volume=self.hull.volume * scale**3,
+            padding=self.hull.padding * scale**3,
         )
         return replace(
             self,

@@ -222,6 +222,7 @@ def _start() -> subprocess.Popen[bytes]:
         stderr=subprocess.DEVNULL,
         env={**os.environ, **dict.fromkeys(names, "1")},
         start_new_session=True,  # Ctrl-C is for this process, which ends the others
+        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # on Windows
     )
 
 
