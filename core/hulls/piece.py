@@ -87,7 +87,8 @@ class Piece:
 
         Films that cuts leave of a solid are no sheets.
         """
-        return self.hull.padding if self.on_surface.all() else 0.0
+        may_be_sheet = not self.solid.closed or self.solid.volume == 0
+        return self.hull.padding if may_be_sheet and self.on_surface.all() else 0.0
 
     @property
     def extremes(self) -> NDArray[np.float64]:
