@@ -62,6 +62,11 @@ def test_decomposes_suzanne(seen):
     assert all(re.fullmatch(r"Part \d\d(\.[LR])?", name) for name in seen["groups"])
 
 
+def test_another_process_finds_the_package_and_the_wheels(seen):
+    assert seen["answered"] == [True]
+    assert seen["hulls"] == 4
+
+
 @pytest.mark.usefixtures("seen")
 def test_enabling_prints_nothing(bare_blender):
     done = bare_blender.run(SCRIPTS / "enable.py")

@@ -1,8 +1,12 @@
-"""Install the zip argv[1], decompose Suzanne, and write what was seen to argv[2]."""
+"""Install the zip argv[1], decompose Suzanne, and write what was seen to argv[2].
+
+Her hulls are built as in a window if she were large: by another process.
+"""
 
 import json
 import os
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import bpy
@@ -23,6 +27,26 @@ finished = bpy.ops.wcd.decompose()
 scipy, sklearn = sys.modules["scipy"], sys.modules["sklearn"]
 labels = [item.value for item in suzanne.data.attributes["wcd_part"].data]
 
+apart = import_module(MODULE + ".operators.bridge.work.apart")
+hulls = import_module(MODULE + ".operators.bridge.work.computing_hulls")
+package = import_module(MODULE)
+progress = import_module(MODULE + ".core.steps.progress")
+answered = []
+
+
+class Processes(apart.Processes):
+    """Notes whether a process has answered."""
+
+    def _answer(self, *call):
+        answer = super()._answer(*call)
+        answered.append(answer is not None)
+        return answer
+
+
+apart.Processes, apart._MANY = Processes, 0
+asked = package.Parameters(), package.HullParameters(max_hulls=4)
+found = progress.run(hulls.build_hulls_of(suzanne, *asked, in_window=True))
+
 report = {
     "installed": sorted(installed),
     "enabled": enabled,
@@ -32,6 +56,8 @@ report = {
     "sklearn": [sklearn.__file__, sklearn.__version__],
     "faces": len(suzanne.data.polygons),
     "labels": labels,
+    "answered": answered,
+    "hulls": found.n_hulls,
     "groups": [group.name for group in suzanne.vertex_groups],
 }
 Path(report_path).write_text(json.dumps(report), encoding="utf-8")
