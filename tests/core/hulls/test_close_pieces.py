@@ -63,6 +63,22 @@ def test_pieces_are_cut_again_while_joining_leaves_room(monkeypatch):
     assert found.errors.max() <= 0.05
 
 
+def test_pieces_are_not_cut_again_without_end(monkeypatch):
+    rounds = []
+
+    def as_far_as_before(cells, *_, **__):
+        yield from ()
+        rounds.append(cells)
+        return [replace(one) for one in cells]
+
+    monkeypatch.setattr(close_pieces, "_cut_until_close", as_far_as_before)
+    monkeypatch.setattr(close_pieces, "join_pieces", as_far_as_before)
+    found = build_hulls(shapes.comb(), HullParameters())
+    assert len(rounds) == 2 * close_pieces._MOST_ROUNDS
+    assert found.n_hulls == 1
+    assert "no cuts" in found.notes[-1]
+
+
 def test_a_film_with_one_sample_of_the_surface_is_cut(monkeypatch):
     # Planes beside flat faces leave such films, with little but faces of cuts.
     seen, best_cut = [], close_pieces.best_cut
