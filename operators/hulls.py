@@ -53,8 +53,9 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         self._parameters = hull_parameters_from(self)
         parameters = parameters_from(context.scene.wcd)
         seen = read_as(self.mesh, obj)
-        rest = self._parameters, seen
-        return build_hulls_of(obj, parameters, *rest, in_window=self._in_window)
+        return build_hulls_of(
+            obj, parameters, self._parameters, seen, in_window=self._in_window
+        )
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:
         hulls = write_hulls(obj, value, self._parameters, to_be_edited=True)

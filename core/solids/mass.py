@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.frames import area_vectors, cross
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import run
 from .mass_properties import MassProperties
@@ -43,13 +44,9 @@ def mass_of_surface(
     # Small numbers: a model far from the origin loses no digits.
     middle = (low + high) / 2
     corners = corners - middle
-    weights = np.einsum(
-        "td,td->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])
-    )
+    weights = np.einsum("td,td->t", corners[:, 0], cross(corners[:, 1], corners[:, 2]))
     volume = float(weights.sum()) / 6
-    sides = corners[:, 1:] - corners[:, :1]
-    normals = np.cross(sides[:, 0], sides[:, 1])
-    area = float(np.linalg.norm(normals, axis=1).sum()) / 2
+    area = float(np.linalg.norm(area_vectors(corners), axis=1).sum()) / 2
     if abs(volume) <= _ROUNDING * area * float(np.linalg.norm(high - low)):
         return None
     weights = weights / volume  # positive sums, inside out or not

@@ -113,12 +113,10 @@ class _Container:
 
     def has_on_it(self, pieces: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
         """Return which pieces (M,) have their corners and centers on its surface."""
-        on_it = np.arange(len(pieces))
+        on_it, radii = np.ones(len(pieces), dtype=bool), np.full(len(pieces), _FLUSH)
         for points in (pieces.mean(axis=1), *pieces.swapaxes(0, 1)):
-            radii = np.full(len(on_it), _FLUSH)
-            clear = yield from self.is_clear_of(points[on_it], radii)
-            on_it = on_it[~clear]
-        return np.isin(np.arange(len(pieces)), on_it)
+            on_it[on_it] = ~(yield from self.is_clear_of(points[on_it], radii[on_it]))
+        return on_it
 
 
 def unburied(

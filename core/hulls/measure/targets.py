@@ -137,7 +137,7 @@ class Targets:
 
         Where none is nearer than `most` (M,), it is that: larger ones take longer.
         """
-        found = np.full(len(points), np.inf) if most is None else most
+        found = np.full(len(points), np.inf) if most is None else most.copy()
         left = np.arange(len(points))
         if len(self._corners) > _FIRST:
             left = self._look(self._all, points, left, _FIRST, found)
@@ -180,7 +180,8 @@ class Targets:
             apart, near = group.tree.query(
                 points[some], ranks, distance_upper_bound=farthest
             )
-            radii = np.take(group.radii, near, mode="clip")  # of none, its number
+            # Where there is none, the row is behind the last one, and `apart` infinite.
+            radii = np.take(group.radii, near, mode="clip")
             point, place = np.nonzero(apart - radii < found[some, None])
             corners = self._corners[group.origins[near[point, place]]]
             away = np.full(apart.shape, np.inf)

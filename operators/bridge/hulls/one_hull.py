@@ -74,8 +74,7 @@ def refit(
     assert isinstance(mesh, TriangleMesh)  # clouds have no hulls
 
     def work() -> Steps[HullDecomposition]:  # the core is imported by its first step
-        refit_in_steps = core.refit_in_steps
-        fit = partial(refit_in_steps, mesh, points, parameters, scene_unit=unit)
+        fit = partial(core.refit_in_steps, mesh, points, parameters, scene_unit=unit)
         return (yield from hulls_around(mesh, fit, in_window))
 
     return with_libraries((), work())

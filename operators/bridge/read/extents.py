@@ -11,7 +11,7 @@ from ..mesh.known import vertex_positions
 from ..stored.record import EVALUATED
 from .evaluated import which_mesh
 from .shown_mesh import differs
-from .stretching import sheared_scale
+from .stretching import scaling, sheared_scale
 
 
 def half_side_of(obj: bpy.types.Object, mesh: str) -> float | None:
@@ -33,14 +33,12 @@ def half_side_of(obj: bpy.types.Object, mesh: str) -> float | None:
         which are read and are in no box, and views of ours are made of nodes. Nor
         does a box before shear tell the one after it.
     """
-    matrix = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
-    sheared = sheared_scale(matrix)
+    sheared = sheared_scale(np.array(obj.matrix_world, dtype=np.float64)[:3, :3])
     if sheared is not None:
         if obj.type != "MESH" or which_mesh(mesh, obj) == EVALUATED:
             return None
-        scale, axes = sheared
-        stretch = ((axes * scale) @ axes.T).astype(np.float32)
-        return float(_sides_of(vertex_positions(obj.data) @ stretch).max()) / 2
+        matrix = scaling(*sheared).astype(np.float32)
+        return float(_sides_of(vertex_positions(obj.data) @ matrix).max()) / 2
     sides = _sides(obj, mesh)
     if sides is None:
         return None

@@ -16,7 +16,7 @@ from ..mesh.known import triangles_in_steps, vertex_positions
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
 from .converting import lent_mesh
-from .stretching import is_diagonal, sheared_scale, stretched, unstretched
+from .stretching import scaling, sheared_scale, stretched, unstretched
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
 _SAME_SCALE = 1e-5
@@ -113,9 +113,7 @@ def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
         If the scale is zero, or the object's place is not finite.
     """
     scale, axes = _scale_of(obj)
-    matrix: NDArray[np.float64] = (axes * _factors(scale)) @ axes.T
-    # The matrix of an object is in single precision, too. The rest would be noise.
-    return matrix if is_diagonal(matrix) else matrix.astype(np.float32).astype(float)
+    return scaling(_factors(scale), axes)
 
 
 def _factors(scale: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -42,6 +42,18 @@ def is_diagonal(matrix: NDArray[np.float64]) -> bool:
     return np.count_nonzero(matrix) == np.count_nonzero(np.diagonal(matrix))
 
 
+def scaling(
+    scale: NDArray[np.float64], axes: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the symmetric matrix that scales along axes: columns of a matrix (3, 3).
+
+    If it is not diagonal, it is in single precision, as the matrix of an object is: the
+    rest would be noise.
+    """
+    matrix: NDArray[np.float64] = (axes * scale) @ axes.T
+    return matrix if is_diagonal(matrix) else matrix.astype(np.float32).astype(float)
+
+
 def sheared_scale(
     matrix: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:

@@ -56,9 +56,9 @@ def turned_up(vertices: Float64Array, up: str) -> Float64Array:
 
 
 def digits_of(numbers: Float64Array, n_digits: int = SINGLE) -> str:
-    """Return numbers as text with nine digits: no single-precision digit is lost.
+    """Return numbers as text; no digit of single precision is lost.
 
-    Nine digits from the first one that is not zero, so models of any size keep theirs.
+    Digits count from the first one that is not zero, so models of any size keep theirs.
     """
     # Adding 0 turns -0 into 0.
     return " ".join(f"{number + 0.0:.{n_digits}g}" for number in numbers)

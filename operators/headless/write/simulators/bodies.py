@@ -9,6 +9,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from .....core.geometry.frames import area_vectors
 from .....core.parameters.bodies import BodyParameters
 from .....core.solids.mass_properties import MassProperties
 from ....bridge.hulls.placed import Primitive, primitive_of
@@ -165,8 +166,7 @@ def _visuals(obj: bpy.types.Object, name: str, frame: Float64Array) -> list[Geom
     """
     vertices, triangles, faces = placed(obj, np.linalg.inv(frame) @ matrix_of(obj))
     slots = read_ints(obj.data.polygons, "material_index")[faces]
-    a, b, c = np.moveaxis(vertices[triangles], 1, 0)
-    seen = np.cross(b - a, c - a).any(axis=1)  # the others have no area
+    seen = area_vectors(vertices[triangles]).any(axis=1)  # the others have no area
     materials = list(obj.data.materials) or [None]
     pieces = []
     for slot, material in enumerate(materials):
