@@ -38,57 +38,53 @@ def _classes() -> tuple[Any, ...]:
     )
 
 
-def register() -> None:
-    """Register the operators, the settings, the command and the table's rows."""
-    import bpy
-
+def _modules() -> tuple[Any, ...]:
+    """Return the modules that have something to register besides classes, in order."""
     from . import recut, scene_settings
     from .bridge.parts import rows
     from .bridge.work import session_cache
     from .headless import command_line
-    from .running import ahead, joins, refine
+    from .running import ahead
+
+    return scene_settings, command_line, session_cache, recut, ahead, rows
+
+
+def _watchers() -> tuple[Any, ...]:
+    """Return the modules whose `HANDLERS` Blender calls, until they `stop`."""
+    from .running import joins, refine
     from .viewport import picking, show_sight, shown_figures, shown_parts
+
+    return refine, joins, show_sight, shown_parts, shown_figures, picking
+
+
+def register() -> None:
+    """Register the operators, the settings, the command and the table's rows."""
+    import bpy
+
+    from .bridge.watching import watch
 
     for cls in _classes():
         bpy.utils.register_class(cls)
-    scene_settings.register()
-    command_line.register()
-    session_cache.register()
-    recut.register()
-    ahead.register()
-    refine.register()
-    joins.register()
-    show_sight.register()
-    shown_parts.register()
-    shown_figures.register()
-    picking.register()
-    rows.register()
+    for module in _modules():
+        module.register()
+    for module in _watchers():
+        watch(module.HANDLERS)
 
 
 def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     import bpy
 
-    from . import recut, scene_settings
-    from .bridge.parts import rows
-    from .bridge.work import libraries, session_cache
-    from .headless import command_line
-    from .running import ahead, joins, modal, refine
-    from .viewport import picking, show_sight, shown_figures, shown_parts
+    from .bridge.watching import unwatch
+    from .bridge.work import libraries
+    from .running import modal
 
-    recut.unregister()
     modal.stop()
     libraries.unregister()
-    rows.unregister()
-    picking.unregister()
-    shown_figures.unregister()
-    shown_parts.unregister()
-    show_sight.unregister()
-    joins.unregister()
-    refine.unregister()
-    ahead.unregister()
-    session_cache.unregister()
-    command_line.unregister()
-    scene_settings.unregister()
+    for module in reversed(_watchers()):
+        unwatch(module.HANDLERS)
+        module.stop()
+    for module in reversed(_modules()):
+        module.unregister()
     for cls in reversed(_classes()):
         bpy.utils.unregister_class(cls)

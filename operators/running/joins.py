@@ -11,7 +11,7 @@ import bpy
 
 from ...core.errors import DecompositionError
 from ..bridge.views.node_modifiers import is_view
-from ..bridge.watching import changed_objects, stop_timer, unwatch, watch
+from ..bridge.watching import changed_objects, stop_timer
 from ..bridge.work.in_step import bring_in_step
 
 # How many faces the objects with such modifiers have, by their `session_uid`.
@@ -58,21 +58,15 @@ def _look_again(*_: object) -> None:
     _start()
 
 
-_HANDLERS = {
+def stop() -> None:
+    """Watch for joins no more."""
+    stop_timer(bring_views_in_step)
+    _n_faces.clear()
+
+
+HANDLERS = {
     "depsgraph_update_post": _look,
     "undo_post": _look_again,
     "redo_post": _look_again,
     "load_post": _look_again,
 }
-
-
-def register() -> None:
-    """Watch for joins."""
-    watch(_HANDLERS)
-
-
-def unregister() -> None:
-    """Undo `register`."""
-    unwatch(_HANDLERS)
-    stop_timer(bring_views_in_step)
-    _n_faces.clear()

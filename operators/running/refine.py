@@ -24,7 +24,7 @@ from ..bridge.stored.record import (
     noted_mesh,
     noted_parameters,
 )
-from ..bridge.watching import stop_timer, unwatch, watch
+from ..bridge.watching import stop_timer
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
 from . import modal
@@ -49,8 +49,9 @@ def start() -> None:
         bpy.app.timers.register(go_on, first_interval=_REST)
 
 
-def stop() -> None:
-    """Find nothing any more, until `start`."""
+@bpy.app.handlers.persistent
+def stop(*_: object) -> None:
+    """Find nothing any more, until `start`. Blender passes arguments to handlers."""
     _cancel()
     stop_timer(go_on)
 
@@ -121,27 +122,10 @@ def finish(*_: object) -> None:
         pass
 
 
-@bpy.app.handlers.persistent
-def _stop(*_: object) -> None:
-    """Stop. Blender passes arguments to handlers."""
-    stop()
-
-
-_HANDLERS = {
+HANDLERS = {
     "undo_post": _start_again,
     "redo_post": _start_again,
     "load_post": _start_again,
     "save_pre": finish,
-    "load_pre": _stop,
+    "load_pre": stop,
 }
-
-
-def register() -> None:
-    """Look after undo and files."""
-    watch(_HANDLERS)
-
-
-def unregister() -> None:
-    """Undo `register`, and stop."""
-    unwatch(_HANDLERS)
-    stop()

@@ -11,7 +11,6 @@ import bpy
 
 from ..bridge.read.target import object_with
 from ..bridge.stored.identity import Identity
-from ..bridge.watching import unwatch, watch
 from ..running import modal
 from .shown_parts import n_parts_of, shown_identities
 from .turning import Turning
@@ -121,15 +120,4 @@ def _header(picking: Picking, context: bpy.types.Context) -> str:
     return "  |  ".join(each for each in (doing, part.name if part else "", of) if each)
 
 
-_HANDLERS = {"load_pre": stop}
-
-
-def register() -> None:
-    """End the picking at each file load."""
-    watch(_HANDLERS)
-
-
-def unregister() -> None:
-    """Undo `register`, and end the picking."""
-    unwatch(_HANDLERS)
-    stop()
+HANDLERS = {"load_pre": stop}

@@ -16,7 +16,7 @@ from ..bridge.read.shape import stretch
 from ..bridge.read.stretching import stretched
 from ..bridge.read.target import Target
 from ..bridge.refusals import measure_refusal
-from ..bridge.watching import changed_objects, unwatch, watch
+from ..bridge.watching import changed_objects
 from ..bridge.work.computing import point_viewer_of
 from ..running import modal
 from ..running.computation import Computation
@@ -195,18 +195,7 @@ def _stop_if_stale(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
             return
 
 
-_HANDLERS = {"load_pre": stop, "depsgraph_update_post": _stop_if_stale}
-
-
-def register() -> None:
-    """Hide overlays at each file load, and when the mesh changes."""
-    watch(_HANDLERS)
-
-
-def unregister() -> None:
-    """Undo `register`, and hide."""
-    unwatch(_HANDLERS)
-    stop()
+HANDLERS = {"load_pre": stop, "depsgraph_update_post": _stop_if_stale}
 
 
 def _above_face(obj: bpy.types.Object, face: int) -> tuple[Vector, Vector]:

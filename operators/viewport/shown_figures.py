@@ -22,7 +22,7 @@ from ..bridge.mesh.fingerprint import fits, together
 from ..bridge.parts.figures import PartFigures, figures_of
 from ..bridge.refusals import WORKED_ON
 from ..bridge.stored.names import RESULT
-from ..bridge.watching import changed_objects, stop_timer, unwatch, watch
+from ..bridge.watching import changed_objects, stop_timer
 from .viewports import redraw
 
 # Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
@@ -125,20 +125,14 @@ def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
         _forget()
 
 
-_HANDLERS = {
+def stop() -> None:
+    """Forget all figures."""
+    global _kept
+    stop_timer(_draw_again)
+    _kept = None
+
+
+HANDLERS = {
     "depsgraph_update_post": _forget_changed,
     **dict.fromkeys(("undo_post", "redo_post", "load_post"), _forget),
 }
-
-
-def register() -> None:
-    """Watch for changes."""
-    watch(_HANDLERS)
-
-
-def unregister() -> None:
-    """Undo `register`, and forget all figures."""
-    global _kept
-    unwatch(_HANDLERS)
-    stop_timer(_draw_again)
-    _kept = None

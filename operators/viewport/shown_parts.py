@@ -21,7 +21,7 @@ from ..bridge.mesh.points import is_cloud
 from ..bridge.parts.read import FoundParts, find_parts_on, noted_identities
 from ..bridge.stored.identity import Identity
 from ..bridge.stored.names import OWNER_LAYER, PART_LAYER, RESULT
-from ..bridge.watching import changed_objects, unwatch, watch
+from ..bridge.watching import changed_objects
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +177,7 @@ def _shown_marks(mesh: bpy.types.Mesh) -> list[IntArray]:
 
 
 @bpy.app.handlers.persistent
-def forget(*_: object) -> None:
+def stop(*_: object) -> None:
     """Forget all objects. Blender passes arguments to handlers."""
     _known.clear()
 
@@ -189,20 +189,9 @@ def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
         _known.pop(obj.session_uid, None)
 
 
-_HANDLERS = {
+HANDLERS = {
     "depsgraph_update_post": _forget_changed,
-    "undo_post": forget,
-    "redo_post": forget,
-    "load_pre": forget,
+    "undo_post": stop,
+    "redo_post": stop,
+    "load_pre": stop,
 }
-
-
-def register() -> None:
-    """Watch for changes."""
-    watch(_HANDLERS)
-
-
-def unregister() -> None:
-    """Undo `register`, and forget all."""
-    unwatch(_HANDLERS)
-    forget()
