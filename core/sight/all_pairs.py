@@ -6,11 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ..geometry.sampling import Samples
 from ..steps.progress import Steps, within
 from .lines import RayBudget, cast_lines, faces_inside, see_pairs
 from .pair_visibility import PairVisibility, pair_counts
-from .ray_march import RayMarcher
 from .viewpoints import Viewpoints
 
 # Pairs of the LoS matrix that are tested at a time.
@@ -18,62 +16,52 @@ _PAIRS_PER_STEP = 65536
 
 
 def facing_pairs(
-    marcher: RayMarcher,
-    samples: Samples,
-    views: Viewpoints,
-    rows: NDArray[np.int64],
+    views: Viewpoints, rows: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the pairs of some samples with later ones that face each other.
 
     Parameters
     ----------
-    marcher, samples, views : RayMarcher, Samples, Viewpoints
-        As for `faces_inside`.
+    views : Viewpoints
     rows : (R,) int
-        Consecutive rows of `samples`.
+        Consecutive rows of them.
 
     Returns
     -------
     first, second : (M,) int
-        Rows of `samples`; the first one is in `rows`, and smaller than the second one.
+        Rows of all; the first one is in `rows`, and smaller than the second one.
     """
-    columns = np.arange(rows[0], len(samples))
-    facing = faces_inside(marcher, samples, views, rows[:, None], columns[None])
+    columns = np.arange(rows[0], len(views.samples))
+    facing = faces_inside(views, rows[:, None], columns[None])
     first, second = np.nonzero(np.triu(facing, 1))
     return rows[first], columns[second]
 
 
-def see_all_pairs(
-    marcher: RayMarcher, samples: Samples, views: Viewpoints
-) -> Steps[PairVisibility]:
+def see_all_pairs(views: Viewpoints) -> Steps[PairVisibility]:
     """Compute the LoS matrix of all pairs of samples (eq. 3).
 
     Parameters
     ----------
-    marcher : RayMarcher
-        Rays through the inside of the shape.
-    samples : Samples
-        N points on its surface.
     views : Viewpoints
-        Viewpoints of `samples`.
+        Those of N samples.
 
     Returns
     -------
     Steps of PairVisibility
         A dense matrix (N, N). Every sample sees itself.
     """
-    n_samples, budget = len(samples), RayBudget()
+    n_samples, budget = len(views.samples), RayBudget()
     los = np.eye(n_samples, dtype=bool)
     start = 0
     while start < n_samples - 1:
         # Take a few rows of the upper triangle at a time, to bound the memory.
         stop = start + max(1, _PAIRS_PER_STEP // (n_samples - start))
         stop = min(stop, n_samples - 1)
-        first, second = facing_pairs(marcher, samples, views, np.arange(start, stop))
+        first, second = facing_pairs(views, np.arange(start, stop))
         done, share = (
             1 - ((n_samples - row) / n_samples) ** 2 for row in (start, stop)
         )
-        steps = cast_lines(marcher, views, first, second, budget)
+        steps = cast_lines(views, first, second, budget)
         visible = yield from within(steps, done, share)
         los[first[visible], second[visible]] = True
         start = stop
@@ -81,8 +69,6 @@ def see_all_pairs(
 
 
 def see_uniform_pairs(
-    marcher: RayMarcher,
-    samples: Samples,
     views: Viewpoints,
     rng: np.random.Generator,
     n_pairs: int,
@@ -92,12 +78,8 @@ def see_uniform_pairs(
 
     Parameters
     ----------
-    marcher : RayMarcher
-        Rays through the inside of the shape.
-    samples : Samples
-        N points on its surface.
     views : Viewpoints
-        Viewpoints of `samples`.
+        Those of N samples.
     rng : numpy.random.Generator
         Draws the pairs uniformly, with replacement.
     n_pairs : int
@@ -110,9 +92,9 @@ def see_uniform_pairs(
     Steps of PairVisibility
         Sparse matrices (N, N) with the number of draws of each pair.
     """
-    n_samples, budget = len(samples), budget or RayBudget()
+    n_samples, budget = len(views.samples), budget or RayBudget()
     first, second = rng.integers(n_samples, size=(2, n_pairs))
-    visible = yield from see_pairs(marcher, samples, views, first, second, budget)
+    visible = yield from see_pairs(views, first, second, budget)
     first, second = first[: len(visible)], second[: len(visible)]
 
     def counted(chosen: NDArray[np.bool_]) -> sparse.csr_array:

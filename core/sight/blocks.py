@@ -22,7 +22,6 @@ from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps, within, within_turn
 from .lines import RayBudget, cast_lines, faces_inside
 from .pair_visibility import PairVisibility
-from .ray_march import RayMarcher
 from .viewpoints import Viewpoints
 
 # Pairs of each sample that are cast in the first round, as far as they face each other.
@@ -56,19 +55,13 @@ _ENTRIES_PER_STEP = 2**19
 _STRIDES = np.array([37345, 49472], dtype=np.uint16)
 
 
-def see_blocks(
-    marcher: RayMarcher, samples: Samples, views: Viewpoints, n_rays: int
-) -> Steps[PairVisibility]:
+def see_blocks(views: Viewpoints, n_rays: int) -> Steps[PairVisibility]:
     """Compute the LoS matrix of all pairs of samples (eq. 3) from rays between some.
 
     Parameters
     ----------
-    marcher : RayMarcher
-        Rays through the inside of the shape.
-    samples : Samples
-        N points on its surface.
     views : Viewpoints
-        Viewpoints of `samples`.
+        Those of N samples.
     n_rays : int
         Most rays a sample. 0 casts as many as the blocks need.
 
@@ -77,10 +70,11 @@ def see_blocks(
     Steps of PairVisibility
         A dense matrix (N, N). Every sample sees itself.
     """
-    budget = RayBudget((n_rays or _MOST_RAYS) * len(samples))
-    blocks = _Blocks(marcher, samples, views, budget)
+    n_samples = len(views.samples)
+    budget = RayBudget((n_rays or _MOST_RAYS) * n_samples)
+    blocks = _Blocks(views, budget)
     yield from within(blocks.find_facing(), 0.0, 0.1)
-    first = min(1.0, 2 * _FIRST_PAIRS / len(samples))
+    first = min(1.0, 2 * _FIRST_PAIRS / n_samples)
     # A few lines tell how many rays a line takes.
     yield from within(blocks.cast(first / 8, 0.5), 0.1, 0.15)
     yield from within(blocks.cast(first, 0.5), 0.15, 0.3)
@@ -106,17 +100,11 @@ class _Blocks:
         1 for a visible pair, −1 for a hidden one, 0 if it is not known. Symmetric.
     """
 
-    def __init__(
-        self,
-        marcher: RayMarcher,
-        samples: Samples,
-        views: Viewpoints,
-        budget: RayBudget,
-    ) -> None:
-        self._marcher, self._samples, self._views = marcher, samples, views
-        self._budget = budget
-        self._weights = _weights_of_neighbors(samples, marcher.diagonal)
-        self.facing = np.zeros((len(samples), len(samples)), dtype=bool)
+    def __init__(self, views: Viewpoints, budget: RayBudget) -> None:
+        n_samples = len(views.samples)
+        self._views, self._budget = views, budget
+        self._weights = _weights_of_neighbors(views.samples, views.marcher.diagonal)
+        self.facing = np.zeros((n_samples, n_samples), dtype=bool)
         self.answers = np.zeros(self.facing.shape, dtype=np.int16)
 
     def _slices(self) -> Iterator[tuple[float, slice, slice]]:
@@ -137,7 +125,7 @@ class _Blocks:
         for done, rows, columns in self._slices():
             yield Progress("Lines of sight", done)
             pairs = every[rows, None], every[None, columns]
-            facing = faces_inside(self._marcher, self._samples, self._views, *pairs)
+            facing = faces_inside(self._views, *pairs)
             self.facing[rows, columns] = np.tril(facing, -1)
 
     def cast(
@@ -173,7 +161,7 @@ class _Blocks:
         if len(turns) > n_most:
             chosen = np.sort(np.argsort(turns, kind="stable")[:n_most])
             first, second = first[chosen], second[chosen]
-        steps = cast_lines(self._marcher, self._views, first, second, self._budget)
+        steps = cast_lines(self._views, first, second, self._budget)
         seen = yield from within(steps, 0.3, 1.0)
         first, second = first[: len(seen)], second[: len(seen)]
         found_now = np.where(seen, 1, -1)

@@ -51,11 +51,7 @@ def shared_rays(parameters: Parameters, n_samples: int) -> tuple[int, int]:
 
 
 def see_cones(
-    shape: PreparedShape,
-    samples: Samples,
-    views: Viewpoints,
-    n_rays: int,
-    opening: float,
+    shape: PreparedShape, views: Viewpoints, n_rays: int, opening: float
 ) -> Steps[PairVisibility]:
     """Find visible and hidden pairs of samples with a cone of rays at each sample.
 
@@ -68,8 +64,8 @@ def see_cones(
     ----------
     shape : PreparedShape
         The rays of a flat shape stay in its plane.
-    samples, views : Samples, Viewpoints
-        N points on the surface, and their viewpoints.
+    views : Viewpoints
+        Those of N samples.
     n_rays : int
         Rays r of each sample; 0 casts as many as the paper.
     opening : float
@@ -80,7 +76,8 @@ def see_cones(
     Steps of PairVisibility
         Sparse matrices (N, N). Every sample sees itself.
     """
-    n_samples, marcher, n_rays = len(samples), shape.marcher, n_rays or _USUAL_RAYS
+    samples, marcher, n_rays = views.samples, views.marcher, n_rays or _USUAL_RAYS
+    n_samples = len(samples)
     directions = _directions(shape, samples, n_rays, opening)
     sources = np.repeat(np.arange(n_samples), n_rays)
     # Nearest by position and normal: the two sides of a thin wall are close, but their

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.sampling import Samples
 from ..steps.progress import Progress, Steps
-from .ray_march import MOST_CASTS, RAYS_PER_STEP, RayMarcher
+from .ray_march import MOST_CASTS, RAYS_PER_STEP
 from .viewpoints import Viewpoints
 
 # Lines of the first step of all, which tells how many rays a line takes.
@@ -55,33 +54,25 @@ class RayBudget:
 
 
 def faces_inside(
-    marcher: RayMarcher,
-    samples: Samples,
-    views: Viewpoints,
-    first: NDArray[np.int64],
-    second: NDArray[np.int64],
+    views: Viewpoints, first: NDArray[np.int64], second: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
     """Test which pairs of samples face each other through the inside.
 
     Lines of sight need this, and it costs no ray: each end of a segment lies below the
-    tangent plane of the other end. It may lie above by the error of the normals. Ends
-    that another shell encloses are not tested.
+    tangent plane of the other end. It may lie above by the error of the normals, the
+    `tilt` of the marcher. Ends that another shell encloses are not tested.
 
     Parameters
     ----------
-    marcher : RayMarcher
-        Its `tilt` is the error of the normals.
-    samples : Samples
-        Points on the surface.
     views : Viewpoints
-        Viewpoints of `samples`.
     first, second : (M,) int
-        Rows of `samples` of each pair. Arrays of other shapes are broadcast.
+        Rows of the viewpoints of each pair. Arrays of other shapes are broadcast.
 
     Returns
     -------
     facing : (M,) bool
     """
+    samples, tilt = views.samples, views.marcher.tilt
     # Coordinate by coordinate: NumPy is slow with axes of length 3.
     axes = list(zip(views.positions.T.copy(), samples.normals.T.copy(), strict=True))
     planes = np.einsum("nd,nd->n", samples.normals, samples.positions)
@@ -89,9 +80,9 @@ def faces_inside(
     def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
         heights = sum(place[others] * normal[ends] for place, normal in axes)
         allowed = planes[ends]
-        if marcher.tilt:
+        if tilt:
             towards = views.positions[others] - samples.positions[ends]
-            allowed = allowed + marcher.tilt * np.linalg.norm(towards, axis=-1)
+            allowed = allowed + tilt * np.linalg.norm(towards, axis=-1)
         under: NDArray[np.bool_] = (heights < allowed) | views.enclosed[ends]
         return under
 
@@ -99,8 +90,6 @@ def faces_inside(
 
 
 def see_pairs(
-    marcher: RayMarcher,
-    samples: Samples,
     views: Viewpoints,
     first: NDArray[np.int64],
     second: NDArray[np.int64],
@@ -110,14 +99,9 @@ def see_pairs(
 
     Parameters
     ----------
-    marcher : RayMarcher
-        Rays through the inside of the shape.
-    samples : Samples
-        Points on its surface.
     views : Viewpoints
-        Viewpoints of `samples`.
     first, second : (M,) int
-        Rows of `samples` of each pair.
+        Rows of the viewpoints of each pair.
     budget : RayBudget, optional
         Unlimited by default.
 
@@ -127,16 +111,15 @@ def see_pairs(
         For the first L pairs: all M if the budget suffices.
     """
     visible = first == second
-    facing = faces_inside(marcher, samples, views, first, second)
+    facing = faces_inside(views, first, second)
     candidates = np.flatnonzero(~visible & facing)
     lines = first[candidates], second[candidates]
-    seen = yield from cast_lines(marcher, views, *lines, budget or RayBudget())
+    seen = yield from cast_lines(views, *lines, budget or RayBudget())
     visible[candidates[: len(seen)]] = seen
     return visible[: candidates[len(seen)]] if len(seen) < len(candidates) else visible
 
 
 def cast_lines(
-    marcher: RayMarcher,
     views: Viewpoints,
     first: NDArray[np.int64],
     second: NDArray[np.int64],
@@ -146,12 +129,9 @@ def cast_lines(
 
     Parameters
     ----------
-    marcher : RayMarcher
-        Rays through the inside of the shape.
     views : Viewpoints
-        Viewpoints of the samples.
     first, second : (M,) int
-        Rows of samples of each pair.
+        Rows of the viewpoints of each pair.
     budget : RayBudget
         Where it ends, the pairs that follow are left out. What is cast is noted in it.
 
@@ -165,24 +145,21 @@ def cast_lines(
         yield Progress("Lines of sight", done / len(first))
         most = min(budget.lines_per_step, len(first) - done)
         stop = done + int(min(budget.lines_left, most))
-        before = marcher.n_cast
-        visible[done:stop] = _sees(marcher, views, first[done:stop], second[done:stop])
-        budget.spend(stop - done, marcher.n_cast - before)
+        before = views.marcher.n_cast
+        visible[done:stop] = _sees(views, first[done:stop], second[done:stop])
+        budget.spend(stop - done, views.marcher.n_cast - before)
         done = stop
     return visible[:done]
 
 
 def _sees(
-    marcher: RayMarcher,
-    views: Viewpoints,
-    first: NDArray[np.int64],
-    second: NDArray[np.int64],
+    views: Viewpoints, first: NDArray[np.int64], second: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
     """Return whether the segment between each pair stays inside, (M,) bool."""
     segments = views.positions[second] - views.positions[first]
     lengths = np.linalg.norm(segments, axis=1)
     lengths = np.maximum(lengths, np.finfo(float).tiny)
-    exits, _, _ = marcher.march(
+    exits, _, _ = views.marcher.march(
         views.positions[first],
         segments / lengths[:, None],
         lengths,

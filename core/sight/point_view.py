@@ -13,7 +13,7 @@ from ..results.views import View
 from ..steps.progress import Progress, Steps, run, within
 from .lines import see_pairs
 from .prepared import PreparedShape
-from .viewpoints import Viewpoints, joined, viewpoints
+from .viewpoints import Viewpoints, viewpoints
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,16 +24,13 @@ class PointViewer:
     ----------
     shape : PreparedShape
         The shape, normalized.
-    samples : Samples
-        N points on its surface.
     views : Viewpoints
-        Viewpoints of the samples.
+        Those of N samples.
     notes : tuple of str
         Sentences to the user.
     """
 
     shape: PreparedShape
-    samples: Samples
     views: Viewpoints
     notes: tuple[str, ...]
 
@@ -60,20 +57,15 @@ class PointViewer:
         )
         if spot is None:
             return None
-        n_samples, marcher = len(self.samples), self.shape.marcher
-        visible = run(
-            see_pairs(
-                marcher,
-                joined(self.samples, spot),
-                joined(self.views, run(viewpoints(marcher, spot))),
-                np.full(n_samples, n_samples),
-                np.arange(n_samples),
-            )
-        )
+        samples, marcher = self.views.samples, self.views.marcher
+        n_samples = len(samples)
+        views = self.views.with_others(run(viewpoints(marcher, spot)))
+        pairs = np.full(n_samples, n_samples), np.arange(n_samples)
+        visible = run(see_pairs(views, *pairs))
         return View(
             self._in_units(spot.positions[0]),
-            self._in_units(self.samples.positions),
-            self.samples.normals,
+            self._in_units(samples.positions),
+            samples.normals,
             visible,
         )
 
@@ -81,7 +73,7 @@ class PointViewer:
         self, origin: NDArray[np.float64], direction: NDArray[np.float64]
     ) -> Samples | None:
         """Return the first surface point along a ray, as one sample, or None."""
-        marcher = self.shape.marcher
+        marcher = self.views.marcher
         # Ray casters work in single precision: start shortly before the shape.
         origin = origin + direction * max(-float(origin @ direction) - 1.0, 0.0)
         reach = np.linalg.norm(origin) + 1.0
@@ -95,10 +87,10 @@ class PointViewer:
             return None
         # Samples of a flat shape lie on its outline, which rays miss: take the sample
         # nearest to the ray.
-        offsets = self.samples.positions - origin
+        offsets = self.views.samples.positions - origin
         across = offsets - np.outer(offsets @ direction, direction)
         nearest = np.linalg.norm(across, axis=1).argmin(keepdims=True)
-        return self.samples.at(nearest)
+        return self.views.samples.at(nearest)
 
     def _in_units(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         return positions * self.shape.diagonal + self.shape.center
@@ -125,4 +117,4 @@ def point_viewer_in_steps(
     samples = sample_surface(shape.targets, parameters.samples, rng)
     yield from within(shape.marcher.caster_in_steps(), 0.2, 0.8)
     views = yield from within(viewpoints(shape.marcher, samples), 0.8, 1.0)
-    return PointViewer(shape, samples, views, shape.notes)
+    return PointViewer(shape, views, shape.notes)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import TypeVar
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,15 +21,16 @@ _OFFSET_OF_SPLAT = 0.5
 _OFFSET_OF_THICKNESS = 0.1
 
 
-Rows = TypeVar("Rows", Samples, "Viewpoints")
-
-
 @dataclass(frozen=True, eq=False)
 class Viewpoints:
     """Points just below the surface that the rays of the samples start at.
 
     Attributes
     ----------
+    marcher : RayMarcher
+        Rays through the inside of the shape.
+    samples : Samples
+        N points on its surface.
     positions : (N, 3) float
         Samples moved inwards along their normals.
     depths : (N,) int
@@ -38,9 +39,25 @@ class Viewpoints:
         Whether another closed shell is around the sample.
     """
 
+    marcher: RayMarcher
+    samples: Samples
     positions: NDArray[np.float64]
     depths: NDArray[np.int64]
     enclosed: NDArray[np.bool_]
+
+    def with_others(self, other: Viewpoints) -> Viewpoints:
+        """Return these viewpoints, followed by others of the same shape."""
+        own, others = self.samples, other.samples
+        pairs = [
+            (own.positions, others.positions),
+            (own.normals, others.normals),
+            (own.triangles, others.triangles),
+            (self.positions, other.positions),
+            (self.depths, other.depths),
+            (self.enclosed, other.enclosed),
+        ]
+        columns: list[Any] = [np.concatenate(pair) for pair in pairs]
+        return Viewpoints(self.marcher, Samples(*columns[:3]), *columns[3:])
 
 
 def viewpoints(marcher: RayMarcher, samples: Samples) -> Steps[Viewpoints]:
@@ -62,20 +79,14 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Steps[Viewpoints]:
     for rows in marcher.in_turns(len(samples)):
         yield Progress("Lines of sight", rows.start / len(samples))
         found.append(_of_some(marcher, samples.at(rows)))
-    return joined(*found)
+    columns: list[Any] = [np.concatenate(each) for each in zip(*found, strict=True)]
+    return Viewpoints(marcher, samples, *columns)
 
 
-def joined(*parts: Rows) -> Rows:
-    """Return samples or viewpoints, followed by more of the same kind."""
-    columns = (
-        np.concatenate([getattr(part, field.name) for part in parts])
-        for field in fields(parts[0])
-    )
-    return type(parts[0])(*columns)
-
-
-def _of_some(marcher: RayMarcher, samples: Samples) -> Viewpoints:
-    """Return the viewpoints of some samples at once."""
+def _of_some(
+    marcher: RayMarcher, samples: Samples
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
+    """Return the positions, depths and enclosed ones of some viewpoints at once."""
     outwards = _tripod_directions(samples.normals)
     nudge = PASS * marcher.diagonal
     inwards = -samples.normals
@@ -86,7 +97,7 @@ def _of_some(marcher: RayMarcher, samples: Samples) -> Viewpoints:
     offsets = np.maximum(offsets, nudge)
     positions = samples.positions + offsets[:, None] * inwards
     outside = samples.positions + nudge * samples.normals
-    return Viewpoints(
+    return (
         positions,
         np.maximum(marcher.shells_around(positions, outwards), own),
         marcher.shells_around(outside, outwards) > 0,

@@ -126,23 +126,22 @@ def find_lines_of_sight(
     yield from within(shape.marcher.caster_in_steps(), 0.0, 0.01)
     yield Progress("Ray tree", 0.01)
     views = yield from within(viewpoints(shape.marcher, samples), 0.01, 0.02)
-    looking = shape.marcher, samples, views
     n_rays = parameters.rays
     if parameters.sight == "CONE":
         (n_pairs, n_rays), drawn = shared_rays(parameters, len(samples)), None
         if n_pairs:
-            steps = see_uniform_pairs(*looking, rng, n_pairs)
+            steps = see_uniform_pairs(views, rng, n_pairs)
             drawn = yield from within(steps, 0.02, 0.2)
-        steps = see_cones(shape, samples, views, n_rays, parameters.cone_angle)
+        steps = see_cones(shape, views, n_rays, parameters.cone_angle)
         in_cones = yield from within(steps, 0.2, 1.0)
         return LinesOfSight(samples, in_cones, drawn or in_cones)
     if parameters.sight == "BLOCKS":
-        steps = see_blocks(*looking, n_rays)
+        steps = see_blocks(views, n_rays)
     elif 0 < 2 * n_rays < len(samples):
         n_pairs = n_rays * len(samples)
-        steps = see_uniform_pairs(*looking, rng, n_pairs, RayBudget(n_pairs))
+        steps = see_uniform_pairs(views, rng, n_pairs, RayBudget(n_pairs))
     else:
-        steps = see_all_pairs(*looking)
+        steps = see_all_pairs(views)
     pairs = yield from within(steps, 0.02, 1.0)
     return LinesOfSight(samples, _all_seeing_themselves(pairs), pairs)
 

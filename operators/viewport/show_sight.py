@@ -96,7 +96,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         sight_overlay.show(self._overlay)
         if ray is not None:
             self._show(*ray)
-        return f"{len(value.samples):,} samples"
+        return f"{len(value.views.samples):,} samples"
 
     def _wait(self) -> set[str]:
         """Wait for clicks."""

@@ -16,14 +16,13 @@ BOXES_AS_L = shapes.joined(
 def look_at(mesh, n_samples=60, seed=0):
     mesh = normalized(mesh)
     samples = sample_surface(mesh, n_samples, np.random.default_rng(seed))
-    scene = marcher_of(mesh)
-    return scene, samples, run(viewpoints(scene, samples))
+    return run(viewpoints(marcher_of(mesh), samples))
 
 
 def see(mesh, n_samples=60, seed=0):
     """Return the samples of a mesh and which of them see each other."""
-    scene, samples, views = look_at(mesh, n_samples, seed)
-    return samples, run(see_all_pairs(scene, samples, views)).visible > 0
+    views = look_at(mesh, n_samples, seed)
+    return views.samples, run(see_all_pairs(views)).visible > 0
 
 
 def winding_numbers(points, corners):
@@ -79,9 +78,10 @@ def oracle(mesh, positions):
     ids=["box", "L", "crossing", "hollow", "apart", "nested"],
 )
 def test_lines_of_sight_agree_with_a_naive_oracle(mesh):
-    scene, samples, views = look_at(mesh, 30)
-    los = run(see_all_pairs(scene, samples, views)).visible > 0
+    views = look_at(mesh, 30)
+    los = run(see_all_pairs(views)).visible > 0
     expected = oracle(normalized(mesh), views.positions)
+    samples = views.samples
     towards = samples.positions[None] - samples.positions[:, None]
     heights = (towards * samples.normals[:, None]).sum(axis=2)
     # Viewpoints under the surface look around an edge that their samples do not.
@@ -144,7 +144,8 @@ def test_rays_out_of_a_hole_end_nowhere():
 
 def test_viewpoints_lie_under_the_surface_even_of_a_thin_wall():
     thin = shapes.box((0, 0, 0), (1, 1, 1e-4))
-    _, samples, views = look_at(thin)
+    views = look_at(thin)
+    samples = views.samples
     depths = ((samples.positions - views.positions) * samples.normals).sum(axis=1)
     assert depths.min() > 0
     top = samples.normals[:, 2] ** 2 > 0.9
@@ -154,8 +155,8 @@ def test_viewpoints_lie_under_the_surface_even_of_a_thin_wall():
 
 def test_depths_count_the_shells_around_a_viewpoint():
     mesh = shapes.joined(shapes.box(), shapes.box((0.3,) * 3, (0.7,) * 3))
-    _, samples, views = look_at(mesh)
-    inner = np.abs(samples.positions).max(axis=1) < 0.2
+    views = look_at(mesh)
+    inner = np.abs(views.samples.positions).max(axis=1) < 0.2
     assert inner.any()
     assert (views.depths[inner] == 2).all()
     assert (views.depths[~inner] == 1).all()
@@ -179,29 +180,30 @@ def test_the_order_of_touching_solids_does_not_matter():
 
 
 def test_pairs_of_one_sample_see_themselves_and_repeated_pairs_agree():
-    scene, samples, views = look_at(shapes.l_prism())
-    los = run(see_all_pairs(scene, samples, views)).visible > 0
+    views = look_at(shapes.l_prism())
+    los = run(see_all_pairs(views)).visible > 0
     first, second = np.random.default_rng(0).integers(60, size=(2, 300))
-    visible = run(see_pairs(scene, samples, views, first, second))
+    visible = run(see_pairs(views, first, second))
     assert (visible == los[first, second]).all()
-    assert run(see_pairs(scene, samples, views, first, first)).all()
+    assert run(see_pairs(views, first, first)).all()
 
 
 def test_ends_of_a_segment_are_alike():
-    scene, samples, views = look_at(shapes.l_prism(), 200)
+    views = look_at(shapes.l_prism(), 200)
     first, second = np.random.default_rng(0).integers(200, size=(2, 2000))
-    there = faces_inside(scene, samples, views, first, second)
-    assert (there == faces_inside(scene, samples, views, second, first)).all()
+    there = faces_inside(views, first, second)
+    assert (there == faces_inside(views, second, first)).all()
     assert 0.1 < there.mean() < 0.9
 
 
 def test_normals_that_may_be_off_face_more_of_the_others():
-    scene, samples, views = look_at(shapes.sphere(2), 100)
+    views = look_at(shapes.sphere(2), 100)
     first, second = np.triu_indices(100, 1)
-    exact = faces_inside(scene, samples, views, first, second)
-    scene.tilt = 0.2
-    tolerant = faces_inside(scene, samples, views, first, second)
+    exact = faces_inside(views, first, second)
+    views.marcher.tilt = 0.2
+    tolerant = faces_inside(views, first, second)
     assert tolerant[exact].all()
+    samples = views.samples
     segments = samples.positions[second] - samples.positions[first]
     segments /= np.linalg.norm(segments, axis=1, keepdims=True)
     rises = (segments * samples.normals[first]).sum(axis=1)
@@ -211,8 +213,8 @@ def test_normals_that_may_be_off_face_more_of_the_others():
 
 
 def test_sight_reports_its_progress():
-    scene, samples, views = look_at(shapes.box(), 200)
-    fractions = [p.fraction for p in see_all_pairs(scene, samples, views)]
+    views = look_at(shapes.box(), 200)
+    fractions = [p.fraction for p in see_all_pairs(views)]
     assert len(fractions) >= 4
     assert fractions == sorted(fractions)
     assert 0 <= fractions[0] <= fractions[-1] <= 1

@@ -53,7 +53,7 @@ def test_what_is_seen_agrees_with_the_matrix():
     mesh = l_prism()
     sight = lines_of_sight(mesh, PARAMETERS)
     viewer = viewer_of(mesh)
-    assert (viewer.samples.positions == sight.samples.positions).all()
+    assert (viewer.views.samples.positions == sight.samples.positions).all()
     places = sight.samples.positions * mesh.diagonal + mesh.center
     shares = []
     for row in range(0, len(places), 10):
