@@ -74,7 +74,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
             firsts = self._chosen(context)
             for obj in super()._chosen(context):
                 if obj not in firsts and self._gets_own_parts(obj):
-                    works.append(self._begun(context, obj))
+                    works.append(self._begun(obj))
         return works
 
     def _gets_own_parts(self, obj: bpy.types.Object) -> bool:
@@ -93,9 +93,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
         self.layout.separator()
         draw(self.layout, self, ADVANCED)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         parameters, seen = parameters_from(self), read_as(self.mesh, obj)
         target = carrier_for(obj, seen)
         self._written.add(target.data)
@@ -139,7 +137,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         """Return the refusal, which looks for hulls once for all objects."""
         return partial(clear_refusal, has_hulls=hulls_to_clear())
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         in_object_mode = obj.mode == "OBJECT"
         if was_converted(obj):
             clear_converted(obj)

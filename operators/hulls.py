@@ -47,11 +47,9 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         """Draw the settings."""
         draw(self.layout, self, HULL_RUN)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[HullDecomposition]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[HullDecomposition]:
         self._parameters = hull_parameters_from(self)
-        parameters = parameters_from(context.scene.wcd)
+        parameters = parameters_from(bpy.context.scene.wcd)
         seen = read_as(self.mesh, obj)
         return build_hulls_of(
             obj, parameters, self._parameters, seen, in_window=self._in_window
@@ -88,7 +86,7 @@ class WCD_OT_make_rigid(_OnHulls, bpy.types.Operator):
         " simulation. Clear removes it"
     )
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         make_rigid(obj, hulls_of(obj), self.kind)
 
 
@@ -116,7 +114,7 @@ class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):
         """Return the refusal, which looks for hulls once for all objects."""
         return partial(remove_hulls_refusal, owners=owners_of_hulls())
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         erase_hulls(obj)
         forget_hulls(obj)
 
@@ -128,7 +126,7 @@ class WCD_OT_show_hulls(_OnHulls, bpy.types.Operator):
     bl_label = "Look of Collision Hulls"
     bl_description = "Show hulls as transparent or opaque solids, or as wires"
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         look_like(hulls_of(obj), self.look)
 
 
@@ -144,7 +142,7 @@ class WCD_OT_remove_hull(OnActive, _OnHulls, bpy.types.Operator):
     bl_label = "Remove This Hull"
     bl_description = "Remove this hull; the others stay"
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         remove_hull(obj, self.hull)
 
 
@@ -160,9 +158,7 @@ class WCD_OT_refit_hull(OnActive, Computation, bpy.types.Operator):
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(no_hulls_refusal)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[HullDecomposition]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[HullDecomposition]:
         return refit(obj, self.hull, self.shape, self._in_window)
 
     def _commit(self, obj: bpy.types.Object, value: HullDecomposition) -> str:

@@ -34,9 +34,7 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
         """Draw the settings."""
         draw(self.layout, self, MEASURE)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Measurement]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:
         self._parameters = parameters_from(self, MEASURE)
         return measure_object(obj, self._parameters)
 
@@ -61,9 +59,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(selection_refusal)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Measurement]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:
         self._parameters = parameters_from(self, SELECTION)
         steps = measure_selection_of(obj, self._parameters)
         self._n_faces[obj.session_uid] = int(selected_faces(obj).sum())

@@ -60,9 +60,8 @@ class _Recut(Replacement):
         """Return the parameters of the new parts."""
         return parameters_from(context.scene.wcd)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
+        context = bpy.context
         begun = _taken(self._key(context, obj))
         if begun is not None:
             return begun
@@ -155,11 +154,11 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         if (noted_parameters(obj), noted_mesh(obj)) == (parameters, mesh):
             return True
         if bpy.app.background:
-            self._commit(obj, run(self._begin(context, obj)))
+            self._commit(obj, run(self._begin(obj)))
             return True
         began = time.perf_counter()
         self._rough = obj.mode == "OBJECT"
-        key, job = self._key(context, obj), Job(self._begin(context, obj))
+        key, job = self._key(context, obj), Job(self._begin(obj))
         if job.advance(began + _moment(obj, parameters) - time.perf_counter()):
             self._commit(obj, job.result())
         else:

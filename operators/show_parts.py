@@ -51,7 +51,7 @@ class WCD_OT_select_parts(_Show, bpy.types.Operator):
         " highlighted one. The selection shows in Edit Mode"
     )
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         select_faces(obj, _members(obj), self.extend)
 
 
@@ -75,7 +75,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
         """Return the tooltip of the button Isolate, or of Show All."""
         return cls.bl_description if properties.hide else "Show all hidden faces again"
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         if obj.mode == "EDIT" and self.hide:
             isolate_parts(obj, present_parts(obj).labels, chosen_parts(obj))
         elif obj.mode == "EDIT":
@@ -117,9 +117,9 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
             return "There is no 3D viewport here"
         return super()._obstacle(context)
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         points = points_of_parts(obj, _members(obj))
-        frame_points(context.space_data, points)
+        frame_points(bpy.context.space_data, points)
 
 
 class WCD_OT_select_boundary(_Show, bpy.types.Operator):
@@ -129,7 +129,7 @@ class WCD_OT_select_boundary(_Show, bpy.types.Operator):
     bl_label = "Select Boundary of Convex Parts"
     bl_description = "Select the edges where parts meet"
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
         select_edges(obj, boundary_edges(obj.data, labels, chosen), self.extend)
 
@@ -147,7 +147,7 @@ class WCD_OT_mark_seams(_Show, bpy.types.Operator):
         " that were marked so before. Your own seams stay"
     )
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
         mark_seams(obj.data, boundary_edges(obj.data, labels, chosen))
 
@@ -166,7 +166,7 @@ class WCD_OT_unmark_seams(_Show, bpy.types.Operator):
 
     _refusal = staticmethod(seams_refusal)
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         unmark_seams(obj.data)
 
 

@@ -36,9 +36,7 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
         """Return the tooltip of a picture's entry in the menu."""
         return _chosen_picture(properties).help
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Picture]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Picture]:
         return picture_of(obj, self.picture)
 
     def _commit(self, obj: bpy.types.Object, value: Picture) -> str:

@@ -14,7 +14,7 @@ from .bridge.views.colors import CHOICES, show_colors_as
 from .bridge.views.exploding import DISTANCE_HELP, FARTHEST, explode, exploding, implode
 from .bridge.views.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.work.in_step import bring_in_step
-from .running.on_objects import OnEach
+from .running.on_objects import OnEach, active_object
 from .settings import properties_for
 
 
@@ -35,15 +35,15 @@ class WCD_OT_separate(_OnParts, bpy.types.Operator):
         " attributes and materials are kept"
     )
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-        was_active = self._active(context) == obj
+    def _work(self, obj: bpy.types.Object) -> None:
+        was_active = active_object(bpy.context) == obj
         stays = self.original == "HIDE"
         pieces = separate(obj, stays)
         if stays:
             obj.select_set(False)
             obj.hide_set(True)
             obj.hide_render = True
-        layer = context.view_layer
+        layer = bpy.context.view_layer
         layer.update()
         shown = objects_in(layer)
         there = [piece for piece in pieces if piece in shown]
@@ -80,7 +80,7 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
         " change"
     )
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         bring_in_step(obj)
         present_parts(obj)  # or an error
         explode(obj, self.distance)
@@ -109,13 +109,13 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
         """Return why there is no exploded view to end."""
         reason = super()._obstacle(context)
-        there = {*cls._candidates(context), cls._active(context)} - {None}
+        there = {*cls._candidates(context), active_object(context)} - {None}
         exploded = {obj for obj in there if reason is None and exploding(obj)}
         if exploded and not exploded.isdisjoint(cls._chosen(context)):
             return None
         return reason or "There is no exploded view; press Exploded View first"
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         implode(obj)
 
 
@@ -131,7 +131,7 @@ class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
 
     _refusal = staticmethod(parts_refusal)
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         write_face_sets(obj)
 
 
@@ -147,7 +147,7 @@ class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
 
     _refusal = staticmethod(parts_refusal)
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         write_colors(obj)
 
 
@@ -182,7 +182,7 @@ class WCD_OT_show_colors(_OnParts, bpy.types.Operator):
             context.scene.wcd.colors = self.colors
         return super().execute(context)
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         bring_in_step(obj)
         show_colors_as(obj, self.colors)
 

@@ -72,9 +72,7 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return merge_refusal(obj, len(chosen_numbers(obj)) if obj else 0)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         chosen, into = chosen_parts(obj), active_part(obj)
         reason = merge_refusal(obj, len(chosen))  # other ticked parts have no faces
         if reason:
@@ -93,9 +91,7 @@ class WCD_OT_split_parts(_Edit, bpy.types.Operator):
         " so that small details come apart, such as the fingers of a hand"
     )
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         if self.parts == 1:
             raise DecompositionError(
                 "One part is no split; choose 2 or more, or 0 to find the number."
@@ -124,9 +120,7 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
 
     _refusal = staticmethod(assign_refusal)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         change = edits.giving(selected_faces(obj), active_part(obj))
         return edit_object(obj, change)
 
@@ -141,9 +135,7 @@ class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
         " and follow creases"
     )
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         chosen = in_scope(obj, self.scope)
         return edit_object(obj, edits.smoothing(chosen, self.smoothness))
 
@@ -164,9 +156,7 @@ class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):
         " the part of its mirror image. Parts that lie on one side are named .L and .R"
     )
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         change = edits.mirroring(self.direction == "TO_NEGATIVE")
         return edit_object(obj, change)
 
@@ -195,9 +185,7 @@ class WCD_OT_refresh_parts(_Edit, bpy.types.Operator):
 
     _refusal = staticmethod(decomposed_refusal)
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Edited]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         return edit_object(obj, edits.refreshing)
 
 

@@ -96,7 +96,7 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
         typed = {each.name: each.new for each in self.names}
         return [typed.get(row.base, row.base) for row in rows]
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         rows, identities = self._rows(obj), part_identities(obj)
         names = with_bases(rows, self._bases(rows))
         by_number = {identities[place].number: name for place, name in names.items()}

@@ -24,9 +24,9 @@ class Computation(OnObjects):
     """Half an operator that computes.
 
     The other half has three methods. `_refusal(obj)` returns why an object cannot be
-    worked on. `_begin(context, obj)` checks and reads an object, and returns the
-    `Steps` to be done. `_commit(obj, value)` writes the value of the steps to the
-    object, and returns the figures in a line.
+    worked on. `_begin(obj)` checks and reads an object, and returns the `Steps` to be
+    done. `_commit(obj, value)` writes the value of the steps to the object, and returns
+    the figures in a line.
 
     Buttons invoke the operator; scripts and Adjust Last Operation execute it. All
     results are written at the end. If an object fails, it is reported and left out.
@@ -94,17 +94,15 @@ class Computation(OnObjects):
         self._started = time.perf_counter()
         self._names: list[str] = []
         self._targets: list[Target | None] = []
-        return [self._begun(context, obj) for obj in self._chosen(context)]
+        return [self._begun(obj) for obj in self._chosen(context)]
 
-    def _begun(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[Any] | DecompositionError:
+    def _begun(self, obj: bpy.types.Object) -> Steps[Any] | DecompositionError:
         """Return the work to be done on an object, or why there is none."""
         self._names.append(obj.name)
         self._targets.append(None)
         try:
             self._targets[-1] = Target.of(obj)
-            steps: Steps[Any] = self._begin(context, obj)
+            steps: Steps[Any] = self._begin(obj)
         except DecompositionError as error:
             return error
         return steps

@@ -40,7 +40,7 @@ class OnObjects(Operator):
         """
         refusal, there = cls._refusals(), cls._candidates(context)
         if all(map(refusal, there)):
-            there = [cls._active(context)]
+            there = [active_object(context)]
             reason = refusal(there[0])
             if reason:
                 return reason
@@ -59,7 +59,7 @@ class OnObjects(Operator):
         """
         refusal = cls._refusals()
         fit = [obj for obj in cls._candidates(context) if refusal(obj) is None]
-        return fit or [cls._active(context)]
+        return fit or [active_object(context)]
 
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
@@ -69,13 +69,20 @@ class OnObjects(Operator):
 
     @classmethod
     def _candidates(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
-        """Return the objects that are worked on as far as that is possible."""
-        return candidates(context)
+        """Return the selected objects, or those in Edit Mode, the active one first.
 
-    @classmethod
-    def _active(cls, context: bpy.types.Context) -> Any:
-        """Return the active object, None if there is none."""
-        return active_object(context)
+        In other modes it is the only one: no other object is in them. So it is where a
+        script set the window to None: the context has no selection then. Hulls that are
+        selected with their object go with it.
+        """
+        active, selects = active_object(context), hasattr(context, "selected_objects")
+        if not selects or (active and active.mode not in {"OBJECT", "EDIT"}):
+            return [active]
+        in_edit_mode = active and active.mode == "EDIT"
+        there = context.objects_in_mode if in_edit_mode else context.selected_objects
+        owners = set(there)  # panels ask often, and thousands may be selected
+        chosen = [obj for obj in there if not (is_hull(obj) and obj.parent in owners)]
+        return sorted(chosen, key=lambda obj: bool(obj != active))
 
     def _conclude(
         self, failures: Sequence[str], n_objects: int, late: bool = False
@@ -98,11 +105,11 @@ class OnActive(Operator):
     @classmethod
     def _candidates(cls, context: bpy.types.Context) -> list[bpy.types.Object]:
         """Return the active object."""
-        return [cls._active(context)]
+        return [active_object(context)]
 
 
 class OnEach(OnObjects):
-    """Half an operator that does `_work(context, obj)` on each object at once.
+    """Half an operator that does `_work(obj)` on each object at once.
 
     If one object fails, the others are still done.
     """
@@ -112,7 +119,7 @@ class OnEach(OnObjects):
         objects, failures = self._chosen(context), []
         for obj in objects:
             try:
-                self._work(context, obj)
+                self._work(obj)
             except DecompositionError as error:
                 title = f"{obj.name}: " if objects[1:] else ""
                 failures.append(f"{title}{error}")
@@ -131,20 +138,3 @@ def active_object(context: bpy.types.Context) -> Any:
     if hasattr(context, "active_object"):
         return context.active_object
     return context.view_layer.objects.active
-
-
-def candidates(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """Return the selected objects, or those in Edit Mode; the active one comes first.
-
-    In other modes it is the only one: no other object is in them. So it is where a
-    script set the window to None: the context has no selection then. Hulls that are
-    selected with their object go with it.
-    """
-    active, no_window = active_object(context), not hasattr(context, "selected_objects")
-    if no_window or (active and active.mode not in {"OBJECT", "EDIT"}):
-        return [active]
-    in_edit_mode = active and active.mode == "EDIT"
-    there = context.objects_in_mode if in_edit_mode else context.selected_objects
-    owners = set(there)  # panels ask often, and thousands may be selected
-    chosen = [obj for obj in there if not (is_hull(obj) and obj.parent in owners)]
-    return sorted(chosen, key=lambda obj: bool(obj != active))

@@ -110,7 +110,7 @@ class WCD_OT_lock_parts(_OnRows, bpy.types.Operator):
         " them if all are locked. A new decomposition keeps locked parts"
     )
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         chosen = chosen_numbers(obj)
         rows = [row for row in obj.wcd_parts if row.number in chosen]
         lock = not all(row.locked for row in rows)
@@ -136,7 +136,7 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
         self.layout.activate_init = True
         self.layout.prop(self, "name", text="")
 
-    def _work(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    def _work(self, obj: bpy.types.Object) -> None:
         active_row(obj).name = self.name
         reason = noted_refusal(obj)
         if reason:

@@ -77,9 +77,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         super().cancel(context)
         stop()
 
-    def _begin(
-        self, context: bpy.types.Context, obj: bpy.types.Object
-    ) -> Steps[core.PointViewer]:
+    def _begin(self, obj: bpy.types.Object) -> Steps[core.PointViewer]:
         parameters = parameters_from(self, SELECTION)
         return point_viewer_of(obj, parameters)
 
