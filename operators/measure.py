@@ -15,7 +15,7 @@ from .bridge.mesh.layers import let_undo_see_all
 from .bridge.mesh.selection import selected_faces
 from .bridge.refusals import measure_refusal, selection_refusal
 from .bridge.stored.record import record_if_ours, write_measurement
-from .bridge.work.computing import measure_object, measure_selection_of
+from .bridge.work.computing import measure_object
 from .running.computation import Computation
 from .running.on_objects import is_free
 from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
@@ -61,7 +61,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
 
     def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:
         self._parameters = parameters_from(self, SELECTION)
-        steps = measure_selection_of(obj, self._parameters)
+        steps = measure_object(obj, self._parameters, of_selection=True)
         self._n_faces[obj.session_uid] = int(selected_faces(obj).sum())
         return steps
 

@@ -76,28 +76,12 @@ def _read_own(obj: bpy.types.Object) -> tuple[Notes, Steps[Shape]]:
     return reading_notes(obj, for_parts=False), shape_in_steps(obj)
 
 
-def measure_object(obj: bpy.types.Object, parameters: Parameters) -> Steps[Measurement]:
+def measure_object(
+    obj: bpy.types.Object, parameters: Parameters, of_selection: bool = False
+) -> Steps[Measurement]:
     """Return the steps that measure the convexity rank of an object.
 
-    Raises
-    ------
-    DecompositionError
-        At once, if the object cannot be read.
-    """
-    check_records(obj)
-    notes, reading = _read_own(obj)
-
-    def work() -> Steps[Measurement]:
-        shape = yield from reading
-        return (yield from core.measure_in_steps(shape, parameters, session_cache()))
-
-    return with_libraries(notes, work())
-
-
-def measure_selection_of(
-    obj: bpy.types.Object, parameters: Parameters
-) -> Steps[Measurement]:
-    """Return the steps that measure the rank of an object's selected faces.
+    Or that of its selected faces.
 
     Raises
     ------
@@ -106,8 +90,8 @@ def measure_selection_of(
     """
     check_records(obj)
     notes, reading = _read_own(obj)
-    faces = selected_faces(obj)
-    if not faces.any():
+    faces = selected_faces(obj) if of_selection else None
+    if faces is not None and not faces.any():
         raise DecompositionError(
             "No faces are selected; select the faces to measure in Edit Mode."
         )
