@@ -121,7 +121,6 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         "Remove the parts, the hulls and everything else that was added to the selected"
         " objects"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _needs_seams = False
 
     @classmethod

@@ -68,8 +68,6 @@ WCD_OT_build_hulls.__annotations__ = properties_for(HULL_RUN)
 class _OnHulls(OnEach):
     """Half an operator on objects with hulls."""
 
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
         """Return the refusal, which looks for hulls once for all objects."""
@@ -155,7 +153,6 @@ class WCD_OT_refit_hull(OnActive, Computation, bpy.types.Operator):
     bl_idname = "wcd.refit_hull"
     bl_label = "Shape of This Hull"
     bl_description = "Fit another shape to what this hull is around; the others stay"
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(no_hulls_refusal)
 
     def _begin(self, obj: bpy.types.Object) -> Steps[HullDecomposition]:

@@ -216,7 +216,6 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
         "Cut the object into this number of parts. The bar is their gain in psi as a"
         " share of the largest; the star marks the best number"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         return replace(super()._wanted(context), parts=self.parts)

@@ -32,7 +32,6 @@ _EXTEND = bpy.props.BoolProperty(
 class _Show(OnActive, OnEach):
     """Half an operator on the faces of parts."""
 
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(faces_refusal)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import ClassVar
 
 import bpy
 
@@ -26,7 +25,6 @@ class WCD_OT_show_picture(Computation, bpy.types.Operator):
         "Draw how the parts were found. The image is kept in the file, and shown in"
         " the open Image Editors, or in a new one beside the viewport"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(picture_refusal)
 
     @classmethod

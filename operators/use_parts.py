@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import bpy
 
 from .bridge.homes import objects_in
@@ -21,7 +19,6 @@ from .settings import properties_for
 class _OnParts(OnEach):
     """Half an operator on objects with parts, usually in Object Mode."""
 
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(object_mode_refusal)
 
 

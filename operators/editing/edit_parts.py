@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 
@@ -54,7 +54,6 @@ def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
 class _Edit(Replacement):
     """Half an operator that edits parts."""
 
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(edit_refusal)
 
 

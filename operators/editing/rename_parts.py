@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 
@@ -43,7 +43,6 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
         "Rename all parts in one dialog: type the names, number them, or find and"
         " replace. The two parts of a pair, .L and .R, keep one name"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(edit_refusal)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
@@ -24,6 +24,7 @@ class OnObjects(Operator):
     It waits for the seams of parts, unless it replaces or removes the parts.
     """
 
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _needs_seams = True
 
     @classmethod

@@ -54,7 +54,6 @@ def make_active(context: bpy.types.Context, obj: bpy.types.Object) -> None:
 class _OnRows(OnActive, OnEach):
     """Half an operator on rows of the table."""
 
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _refusal = staticmethod(edit_refusal)
 
 
