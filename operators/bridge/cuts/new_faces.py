@@ -74,16 +74,6 @@ class NewFaces:
     areas: NDArray[np.float64]
     pieces: Pieces | None
 
-    @classmethod
-    def of(cls, mesh: bpy.types.Mesh, pieces: Pieces | None) -> NewFaces:
-        """Return the faces that a mesh with whole faces gets."""
-        n_wholes = len(mesh.polygons)
-        if pieces is None:
-            areas = read_floats(mesh.polygons, "area").astype(np.float64)
-            return cls(n_wholes, np.arange(n_wholes), areas, None)
-        with pieces.of(mesh) as made:
-            return cls(n_wholes, made.wholes(), made.areas(), pieces)
-
     def former_labels(
         self, obj: bpy.types.Object, labels: NDArray[np.int64]
     ) -> NDArray[np.int64]:
