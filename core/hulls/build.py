@@ -179,7 +179,7 @@ def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_F
         yield Progress("Measuring", 0.95 + 0.05 * turn / len(pieces))
         has_own = fit.parameters.pieces == "PARTS" or piece.fit == fit
         final = piece if has_own else replace(piece, fit=fit)
-        errors.append(final.stated_error)
+        errors.append(final.bound.value)
         is_part = piece.part >= 0
         rows.append(piece.part if is_part else solid.main_part(parts, piece.hull))
         shapes.append(final.shape)

@@ -165,7 +165,7 @@ def _next_joint(
             next_cost = queue[0][0] if queue else np.inf
             limit = error_of_joint(joint, next_cost, solid_volume) * _BEYOND
             limit = max(limit, joint.fit.max_error if close else 0.0)
-            error = joint.bound_up_to(limit)
+            error = joint.bound.up_to(limit)
             sure = error <= limit
         cost = cost_of_joint(joint, error, solid_volume)
         heapq.heappush(queue, (cost, one, other, joint, sure))

@@ -108,7 +108,7 @@ class Piece:
         return estimated_error(self.solid, self.rough_shape, self.hull, *rest)
 
     @cached_property
-    def _bound(self) -> ErrorBound:
+    def bound(self) -> ErrorBound:
         """An upper bound of the error, found when it is asked for."""
         rest = self.hull, self.fit.max_error, self.padding
         return ErrorBound(self.solid, self.shape, *rest)
@@ -134,28 +134,19 @@ class Piece:
     @cached_property
     def is_close(self) -> bool:
         """Whether the error of the shape is surely within the largest one allowed."""
-        return self.may_be_close and self._bound.is_allowed
+        return self.may_be_close and self.bound.is_allowed
 
     @property
     def known_error(self) -> float:
         """The largest error that is known of the shape, without measuring it anew."""
-        bound = self.__dict__.get("_bound")
+        bound = self.__dict__.get("bound")
         return max(self.error, bound.known) if bound else self.error
 
     @property
     def all_witnesses(self) -> NDArray[np.float64]:
         """Witnesses, with the far point that was found when the piece was measured."""
-        bound = self.__dict__.get("_bound")
+        bound = self.__dict__.get("bound")
         return np.concatenate([self.witnesses, *([bound.place] if bound else [])])
-
-    def bound_up_to(self, limit: float) -> float:
-        """Return what `ErrorBound.up_to` does."""
-        return self._bound.up_to(limit)
-
-    @property
-    def stated_error(self) -> float:
-        """An upper bound of the shape's error, see `ErrorBound`."""
-        return self._bound.value
 
 
 def piece_of_part(solid: Solid, fit: Fit, parts: NDArray[np.int64], row: int) -> Piece:

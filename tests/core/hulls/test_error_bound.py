@@ -135,10 +135,10 @@ def test_a_bound_is_looked_for_up_to_a_limit(limit):
     # The gap is 4 wide and 4 deep; half of the longest side is 4.
     mesh = changes.moved(shapes.u_shape(), scale=1 / 4)
     piece = whole(run(solid_of(mesh, 0)), fit_for(mesh, HullParameters(), 1.0)[0])
-    error = piece.bound_up_to(limit)
+    error = piece.bound.up_to(limit)
     assert error > limit if limit < 0.5 else 0.5 <= error <= 0.55
     # It goes on from there.
-    assert 0.5 <= piece.stated_error <= 0.5 * 1.05
+    assert 0.5 <= piece.bound.value <= 0.5 * 1.05
 
 
 def dense_error(shape, mesh, is_inside=None):
