@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from string import Formatter
 
 from ..errors import DecompositionError
+from .parameter import Choice
 
 # Prefixes by which Unreal recognizes collision shapes. It has none for cylinders.
 UNREAL_PREFIXES = {"HULL": "UCX", "BOX": "UBX", "SPHERE": "USP", "CAPSULE": "UCP"}
@@ -19,20 +20,15 @@ _MOST_NUMBERS = 10_000
 
 
 @dataclass(frozen=True)
-class Naming:
+class Naming(Choice):
     """A way to name hulls.
 
     Attributes
     ----------
-    identifier, label, help : str
-        As for a `Choice`.
     template : str
         Pattern of the names in the syntax of `str.format`; empty if the user gives it.
     """
 
-    identifier: str
-    label: str
-    help: str
     template: str
 
 

@@ -142,10 +142,7 @@ class HullParameters:
         ParameterInfo(
             "Naming",
             "How the objects of hulls are named",
-            choices=tuple(
-                Choice(naming.identifier, naming.label, naming.help)
-                for naming in NAMINGS
-            ),
+            choices=NAMINGS,
         ),
     )
     template: str = parameter(
