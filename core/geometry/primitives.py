@@ -24,15 +24,15 @@ class Hull:
         Outward unit normal n and offset d of each triangle: n · x + d ≤ 0 inside.
     volume : float
         In cubed units of `vertices`.
-    padding : float
-        What of it is there because flat points were given a thickness.
+    is_thickened : bool
+        Whether it is around flat points, which were given a thickness.
     """
 
     vertices: NDArray[np.float64]
     facets: NDArray[np.int64]
     planes: NDArray[np.float64]
     volume: float
-    padding: float = 0.0
+    is_thickened: bool = False
 
     @cached_property
     def triangles(self) -> NDArray[np.int64]:
@@ -202,7 +202,6 @@ class CollisionShape:
             vertices=self.hull.vertices * scale + center,
             planes=np.column_stack([normals, offsets * scale - normals @ center]),
             volume=self.hull.volume * scale**3,
-            padding=self.hull.padding * scale**3,
         )
         return replace(
             self,

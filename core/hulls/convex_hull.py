@@ -46,8 +46,7 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
     except (QhullError, ValueError):  # ValueError: fewer points than Qhull takes
         hull = None
     if hull is None or _is_flat(hull, _ROUNDING * thin):
-        hull = _hull(thickened(points, thin))
-        hull = replace(hull, padding=hull.volume)
+        return replace(_hull(thickened(points, thin)), is_thickened=True)
     return hull
 
 

@@ -69,7 +69,7 @@ def _reason(n_shapes: int, fit: Fit, worst: CollisionShape, hull: Hull) -> str:
             f"because Margin = {parameters.margin:g} alone uses up Largest Error;"
             " choose a margin nearer to 0."
         )
-    if hull.padding:
+    if hull.is_thickened:
         return (
             "because hulls around flat faces have a thickness; give the faces one"
             " (Solidify modifier)."

@@ -77,23 +77,21 @@ class Piece:
 
         Without the thickness of sheets: cuts would not make up for it.
         """
-        shape = self.rough_shape
+        shape, padding = self.rough_shape, self.hull.volume if self.is_sheet else 0.0
         inside = self.volume if shape.kind == "HULL" else self.solid.volume_in(shape)
-        return shape.volume - self.padding - inside
+        return shape.volume - padding - inside
 
     @cached_property
-    def padding(self) -> float:
-        """Volume of the thickness that the hull of a sheet was given.
-
-        Films that cuts leave of a solid are no sheets.
-        """
+    def is_sheet(self) -> bool:
+        """Whether it is flat. Films that cuts leave of a solid are no sheets."""
         may_be_sheet = not self.solid.closed or self.solid.volume == 0
-        return self.hull.padding if may_be_sheet and self.on_surface.all() else 0.0
+        flat = may_be_sheet and self.hull.is_thickened
+        return flat and bool(self.on_surface.all())
 
     @property
     def extremes(self) -> NDArray[np.float64]:
-        """Few points with the same convex hull, without that thickness, (M, 3)."""
-        return self.points if self.padding else self.hull.vertices
+        """Few points with the same convex hull, not thickened, (M, 3)."""
+        return self.points if self.is_sheet else self.hull.vertices
 
     @cached_property
     def least_error(self) -> float:
@@ -110,7 +108,7 @@ class Piece:
     @cached_property
     def bound(self) -> ErrorBound:
         """An upper bound of the error, found when it is asked for."""
-        rest = self.hull, self.fit.max_error, self.padding
+        rest = self.hull, self.fit.max_error, self.is_sheet
         return ErrorBound(self.solid, self.shape, *rest)
 
     @property

@@ -177,7 +177,7 @@ def _sketch_of(cell: Cell) -> _Sketch:
 
 def _with_thickness(cell: Cell, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return points of a piece, those of a sheet as thick as its hull."""
-    return thickened(points, THIN) if cell.padding else points
+    return thickened(points, THIN) if cell.is_sheet else points
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:

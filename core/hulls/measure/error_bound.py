@@ -50,9 +50,8 @@ class ErrorBound:
         Convex hull of the piece that the shape stands for.
     largest : float
         Largest error allowed.
-    padding : float, optional
-        Volume of the thickness that the hull of a sheet was given. It counts in `value`
-        alone.
+    is_sheet : bool, optional
+        Whether the hull is only as thick as it was made. This counts in `value` alone.
 
     Attributes
     ----------
@@ -66,12 +65,12 @@ class ErrorBound:
         shape: CollisionShape,
         hull: Hull,
         largest: float,
-        padding: float = 0.0,
+        is_sheet: bool = False,
     ) -> None:
         self._solid, self._shape, self._hull = solid, shape, hull
         # Sheets stray by their thickness: cuts would not make up for it.
-        self._largest = largest + (THIN if padding else 0.0)
-        self._padding = padding
+        self._largest = largest + (THIN if is_sheet else 0.0)
+        self._padding = hull.volume if is_sheet else 0.0
         self._inner: PatchSearch | None = None
         self._outer: PatchSearch | None = None
         self.known = 0.0

@@ -51,8 +51,9 @@ def test_flat_points_have_a_thin_hull(points):
     assert hull.heights(points).max() < 1e-9
     assert np.linalg.norm(hull.vertices.max(axis=0) - points.max(axis=0)) <= 0.01
     assert hull_volume(points) == 0
-    assert hull.padding == hull.volume > 0
-    assert convex_hull(shapes.box().vertices, 0.01).padding == 0
+    assert hull.is_thickened
+    assert hull.volume > 0
+    assert not convex_hull(shapes.box().vertices, 0.01).is_thickened
 
 
 @pytest.mark.parametrize("most", [4, 5, 20, 64])
