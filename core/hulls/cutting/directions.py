@@ -22,9 +22,10 @@ _NORMAL_DIGITS = 3
 def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
     """Return the normals of planes to try, and whether the piece is a block.
 
-    Blocks are cut along their faces however they are turned, others along the
-    coordinate axes. Planes along the seams of weakly convex parts measured worse as
-    first cuts, and so did planes along the flat faces of shapes that are no blocks.
+    Blocks are cut along their faces alone, however they are turned; others along the
+    coordinate axes and their own. Planes along the seams of weakly convex parts
+    measured worse as first cuts, and so did planes along the flat faces of shapes that
+    are no blocks.
 
     Parameters
     ----------
@@ -37,13 +38,14 @@ def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
     is_block : bool
     """
     flat, share = _flat_normals(cell)
-    is_block = len(flat) >= _SIDES and share >= _BLOCK
+    if len(flat) >= _SIDES and share >= _BLOCK:
+        return flat, True
     own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
     found: list[NDArray[np.float64]] = []
-    for direction in (*(flat if is_block else np.eye(3)), *own):
+    for direction in (*np.eye(3), *own):
         if all(abs(direction @ other) < _SAME for other in found):
             found.append(direction)
-    return np.array(found), is_block
+    return np.array(found), False
 
 
 def _flat_normals(cell: Cell) -> tuple[NDArray[np.float64], float]:

@@ -30,6 +30,9 @@ _MOST_LEVELS = 6
 # both hulls added less by a share of the solid's volume: estimates are no sharper, and
 # such planes may divide blocks exactly.
 _FLAT_FACE, _BONUS = 0.01, 3e-3
+# Noise would decide between a plane next to a flat face and one that is nearer to the
+# face than this; the longest side is 2.
+_CROWDED = 0.05
 # Planes lie below and above a level, so that its faces are all on one side. What
 # is between counts as added: 1e-5 would make errors of about 0.003, this makes 0.0007.
 _BESIDE = np.array([-1e-7, 1e-7])
@@ -77,11 +80,12 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         flat = _flat_levels(levels if is_block else near, heights)
         beside = np.concatenate([near, flat]) + _BESIDE
         others = np.union1d(best + _BETWEEN * step, beside)
-        offsets = np.concatenate([offsets, others])
-        planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
         second = ordered.added_volumes(heights, chords, others)
-        flush = np.isin(others, flat + _BESIDE)
-        added += [first, second - _BONUS * cell.solid.volume * flush]
+        offsets = np.concatenate([offsets, others])
+        volumes, flush = np.concatenate([first, second]), flat + _BESIDE
+        volumes -= _BONUS * cell.solid.volume * np.isin(offsets, flush)
+        added.append(np.where(is_block & _crowded(offsets, flush), np.inf, volumes))
+        planes.append(np.c_[np.tile(direction, (len(offsets), 1)), -offsets])
         # By how much planes shorten the longer side, as a square: ties end so.
         gains.append((high - low) ** 2 - np.maximum(offsets - low, high - offsets) ** 2)
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
@@ -205,3 +209,11 @@ def _flat_levels(
     counts = np.diff(ends, axis=1)[:, 0]
     largest = np.argsort(-counts, kind="stable")[:_MOST_LEVELS]
     return levels[largest[counts[largest] >= _FLAT_FACE * len(heights)]]
+
+
+def _crowded(
+    offsets: NDArray[np.float64], flush: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which planes at offsets (K,) are near flush ones (L, 2), none of them."""
+    away = np.abs(offsets[:, None] - flush.ravel())
+    return (away < _CROWDED).any(axis=1) & (away > 0).all(axis=1)

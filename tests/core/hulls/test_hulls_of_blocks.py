@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import shapes
 from computed import build_hulls
@@ -50,6 +51,18 @@ def test_how_blocks_are_turned_does_not_matter(make, fewest, kind, turn):
     found = build_hulls(replace(mesh, vertices=turned), HullParameters(shape=kind))
     assert found.n_hulls == fewest
     assert found.volume_ratio == pytest.approx(1, abs=0.005)
+
+
+@pytest.mark.parametrize("turn", [1, 4, 5])
+def test_rounding_of_turned_blocks_does_not_matter(turn):
+    outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
+    vertices = np.array([(x, y, z) for z in (0, 1) for x, y in outline])
+    turned = Rotation.random(random_state=turn).apply(vertices).astype(np.float32)
+    sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+    mesh = shapes.mesh_of(
+        turned.astype(float), [(0, 5, 4, 3, 2, 1), range(6, 12), *sides]
+    )
+    assert build_hulls(mesh, HullParameters(max_error=0.002)).n_hulls == 2
 
 
 def test_faces_halfway_are_cut_along():
