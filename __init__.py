@@ -88,16 +88,42 @@ def __dir__() -> list[str]:
 
 
 def register() -> None:
-    """Register the operators, the settings and the command, then the panels."""
+    """Register the operators, the settings and the command, then the panels.
+
+    What is registered stays as it is.
+
+    Raises
+    ------
+    DecompositionError
+        If Python has no module bpy.
+    """
+    _check_blender()
     from . import operators, ui
 
-    operators.register()
-    ui.register()
+    if not ui.is_registered():
+        operators.register()
+        ui.register()
 
 
 def unregister() -> None:
-    """Undo `register`, in reverse order."""
+    """Undo `register`, if it was called, in reverse order; raise as it does."""
+    _check_blender()
     from . import operators, ui
 
-    ui.unregister()
-    operators.unregister()
+    if ui.is_registered():
+        ui.unregister()
+        operators.unregister()
+
+
+def _check_blender() -> None:
+    """Raise a DecompositionError if Python has no module bpy."""
+    try:
+        import_module("bpy")
+    except ModuleNotFoundError as error:
+        from .core.errors import DecompositionError
+
+        raise DecompositionError(
+            "Blender is not installed; install its module with `pip install bpy`, or"
+            " call `decompose`, `measure` and `build_hulls`, which do without"
+            " `register`."
+        ) from error

@@ -197,8 +197,8 @@ def _kinds(
     settings: HullParameters,
 ) -> dict[int, str]:
     """Return the shapes of single parts, after checking them."""
-    check_types(part_shapes=(part_shapes or {}, Mapping))
-    kinds = dict(part_shapes or {})
+    kinds = {} if part_shapes is None else part_shapes
+    check_types(part_shapes=(kinds, Mapping))
     for kind in kinds.values():
         replace(settings, shape=kind)  # raises if it is none
     known = set(() if labels is None else labels.tolist())
@@ -209,7 +209,7 @@ def _kinds(
             if unknown
             else 'Shapes of single parts need Pieces = PARTS; pass pieces="PARTS".'
         )
-    return kinds
+    return dict(kinds)
 
 
 def _settings(

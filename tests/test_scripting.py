@@ -181,8 +181,8 @@ def test_a_progress_that_raises_ends_the_work():
             lambda: wcd.build_hulls(VERTICES, FACES, labels=[0.5] * 8),
             "`labels` must be whole numbers",
         ),
-        (lambda: shaped("ab"), "`part_shapes` must be a Mapping, .* type str"),
-        (lambda: shaped([(0, "BOX")]), "`part_shapes` must be a Mapping"),
+        (lambda: shaped("ab"), "`part_shapes` must be a dict, .* type str"),
+        (lambda: shaped([(0, "BOX")]), "`part_shapes` must be a dict, not a list"),
         (
             lambda: wcd.measure(VERTICES, FACES, caster=np.array([1, 2])),
             "`caster` must be one of BLENDER, EMBREE, not an array",

@@ -37,6 +37,12 @@ CLASSES = (
 )
 
 
+def is_registered() -> bool:
+    """Return whether Blender knows the classes; the operators come before them."""
+    last: bool = CLASSES[-1].is_registered
+    return last
+
+
 def register() -> None:
     """Register the classes, the submenu and the drawing; operators come before."""
     for cls in CLASSES:

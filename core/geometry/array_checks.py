@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 import numpy as np
@@ -14,6 +14,10 @@ from ..errors import DecompositionError
 # Least and largest diagonal of a shape. Single precision lies between them, and their
 # cubes are far from the ends of double precision.
 _SHORTEST, _LONGEST = 1e-50, 1e50
+# Numbers in arrays of dtype object.
+_PLAIN = (int, float, np.integer, np.floating)
+# Types that people know by another name.
+_KNOWN_AS = {Mapping: "dict"}
 
 
 def real_numbers(values: object) -> NDArray[Any] | None:
@@ -27,6 +31,11 @@ def real_numbers(values: object) -> NDArray[Any] | None:
     Returns
     -------
     ndarray of integers or floats, or None
+
+    Raises
+    ------
+    DecompositionError
+        If a whole number has more than 64 bits.
     """
     if values is None or isinstance(values, str | bytes):
         return None
@@ -34,7 +43,24 @@ def real_numbers(values: object) -> NDArray[Any] | None:
         array = np.asarray(values)
     except (TypeError, ValueError):  # ragged, or an object that cannot be an array
         return None
+    if array.dtype.kind == "O":  # as of pandas, or with whole numbers of any size
+        return _plain_numbers(array)
     return array if array.dtype.kind in "iuf" else None
+
+
+def _plain_numbers(array: NDArray[np.object_]) -> NDArray[Any] | None:
+    """Return an array of objects as numbers; None if one of them is no plain number."""
+    kinds = set(map(type, array.flat))
+    if not all(issubclass(kind, _PLAIN) and kind is not bool for kind in kinds):
+        return None
+    whole = all(issubclass(kind, int | np.integer) for kind in kinds)
+    try:
+        return array.astype(np.int64 if whole else np.float64)
+    except OverflowError as error:
+        raise DecompositionError(
+            "A whole number is too large: numbers of vertices, polygons and parts are"
+            " below 2**63; pass coordinates of that size as floats."
+        ) from error
 
 
 def described(values: object) -> str:
@@ -55,7 +81,12 @@ def described(values: object) -> str:
         array = np.asarray(values)
     except (TypeError, ValueError):
         return f"a {type(values).__name__} of rows of unequal lengths"
-    return f"an array of dtype {array.dtype} and shape {array.shape}"
+    if array.dtype.kind == "U" and not isinstance(values, np.ndarray):
+        return f"a {type(values).__name__} that holds strings"
+    hint = ""
+    if isinstance(values, np.ndarray) and array.dtype.kind == "O" and array.ndim > 1:
+        hint = "; turn it into numbers with `.astype(float)`, or `int` for faces"
+    return f"an array of dtype {array.dtype} and shape {array.shape}{hint}"
 
 
 def check_types(**arguments: tuple[object, Any]) -> None:
@@ -72,7 +103,8 @@ def check_types(**arguments: tuple[object, Any]) -> None:
     """
     for name, (value, kind) in arguments.items():
         if not isinstance(value, kind):
-            names = " or ".join(each.__name__ for each in get_args(kind) or (kind,))
+            kinds = get_args(kind) or (kind,)
+            names = " or ".join(_KNOWN_AS.get(each, each.__name__) for each in kinds)
             raise TypeError(f"`{name}` must be a {names}, not {described(value)}.")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from typing import Any
 
 import bpy
@@ -19,9 +20,10 @@ def watch(handlers: Mapping[str, Callable[..., Any]]) -> None:
 
 
 def unwatch(handlers: Mapping[str, Callable[..., Any]]) -> None:
-    """Undo `watch`."""
+    """Undo `watch`, also if another script has emptied Blender's lists."""
     for name, handler in handlers.items():
-        getattr(bpy.app.handlers, name).remove(handler)
+        with suppress(ValueError):
+            getattr(bpy.app.handlers, name).remove(handler)
 
 
 def call_at_end(stop: Callable[..., None]) -> None:

@@ -1,5 +1,10 @@
+import subprocess
+import sys
+
 import bpy
+import pytest
 import weak_convex_decomposition as package
+from conftest import ROOT
 
 
 def ours():
@@ -41,3 +46,46 @@ def test_the_menus_have_the_submenu_as_long_as_we_are_registered():
         assert additions() == []
         package.register()
     assert len(additions()) == 2
+
+
+def test_a_script_may_register_once_more():
+    there = ours()
+    package.register()
+    assert ours() == there
+    package.unregister()
+    package.unregister()
+    assert ours() == (set(), [], False)
+    package.register()
+
+
+@pytest.mark.parametrize("name", ["depsgraph_update_post", "load_pre", "undo_post"])
+def test_lists_of_handlers_may_have_been_emptied(name):
+    handlers, there = getattr(bpy.app.handlers, name), ours()
+    watching = [each for each in handlers if "weak_convex" in each.__module__]
+    others = [each for each in handlers if each not in watching]
+    handlers.clear()
+    package.unregister()
+    assert ours() == (set(), [], False)
+    package.register()
+    assert ours() == there
+    assert set(handlers) == set(watching) != set()
+    handlers.extend(others)
+
+
+@pytest.mark.parametrize("name", ["register", "unregister"])
+def test_without_blender_a_sentence_tells_what_to_install(name):
+    code = f"""
+import sys
+sys.modules["bpy"] = None
+sys.path.insert(0, {str(ROOT / "tests" / "support")!r})
+import checkout
+import weak_convex_decomposition as package
+try:
+    package.{name}()
+except package.DecompositionError as error:
+    print(error)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.startswith("Blender is not installed; install its module with")

@@ -57,9 +57,10 @@ def shape_of(shape: object, faces: object) -> TriangleMesh | PointCloud:
     if isinstance(shape, _OWN):
         return shape
     if is_object:
+        from .place import place_now
         from .shape import read_shape
 
-        return read_shape(shape)
+        return read_shape(shape, place_now(shape))
     if named:
         faces = getattr(shape, "faces", getattr(shape, "triangles", None))
         shape = shape.vertices  # type: ignore[attr-defined]
@@ -123,9 +124,10 @@ def stretch(shape: object) -> NDArray[np.float64]:
     """
     if not _is_blender_object(shape):
         return np.eye(3)
+    from .place import place_now
     from .shape import stretch as stretch_of_object
 
-    return stretch_of_object(shape)
+    return stretch_of_object(shape, place_now(shape))
 
 
 def scene_unit_of(shape: object) -> float:
@@ -143,9 +145,10 @@ def scene_unit_of(shape: object) -> float:
     """
     if not _is_blender_object(shape):
         return 1.0
+    from .place import place_now
     from .shape import scene_unit
 
-    return scene_unit(shape)
+    return scene_unit(shape, place_now(shape))
 
 
 def _is_blender_object(shape: object) -> bool:
@@ -225,5 +228,7 @@ def _polygon(face: object, row: int) -> NDArray[np.int64]:
 def _indices(array: NDArray[Any]) -> NDArray[np.int64]:
     """Return vertex numbers as integers; raise if they are not whole."""
     if array.dtype.kind == "f" and array.size:
-        raise TypeError("`faces` must be whole numbers: rows of the vertices.")
+        raise TypeError(
+            "`faces` must be whole numbers below 2**63: rows of the vertices."
+        )
     return array.astype(np.int64)  # numbers beyond the type become negative

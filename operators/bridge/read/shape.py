@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
@@ -24,12 +25,12 @@ _SAME_SCALE = 1e-5
 _CLAMPED = np.finfo(np.float32).max
 
 
-def read_shape(obj: bpy.types.Object) -> Shape:
+def read_shape(obj: bpy.types.Object, place: Matrix | None = None) -> Shape:
     """Return at once what `shape_in_steps` returns."""
-    return run(shape_in_steps(obj))
+    return run(shape_in_steps(obj, place))
 
 
-def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
+def shape_in_steps(obj: bpy.types.Object, place: Matrix | None = None) -> Steps[Shape]:
     """Return the triangles of an object's mesh, without modifiers, or its points.
 
     Coordinates are in object space, in Blender units. If the object's scale differs by
@@ -38,6 +39,12 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     line of sight, and would turn the triangles inside out.
 
     All is read at once, so that the object may change before the steps are done.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    place : (4, 4) Matrix, default that of Blender's last update
+        Where the object is.
 
     Returns
     -------
@@ -48,7 +55,7 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     DecompositionError
         At once, if an object has no usable faces or points, or no proper place.
     """
-    matrix = stretch(obj)
+    matrix = stretch(obj, place)
     if is_cloud(obj):
         return as_steps(_cloud(obj, matrix))
     flush_edits(obj)
@@ -100,19 +107,20 @@ def _mesh_in_steps(
     return work()
 
 
-def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
+def stretch(obj: bpy.types.Object, place: Matrix | None = None) -> NDArray[np.float64]:
     """Return the matrix, (3, 3), that gives a mesh its proportions.
 
     It is symmetric: it turns nothing. Its determinant is 1: it keeps volumes, and
     lengths of 1 are about as long as in object space. It is diagonal if no parent
-    shears the object, and the identity if the scale is uniform.
+    shears the object, and the identity if the scale is uniform. `place` is as in
+    `shape_in_steps`.
 
     Raises
     ------
     DecompositionError
         If the scale is zero, or the object's place is not finite.
     """
-    scale, axes = _scale_of(obj)
+    scale, axes = _scale_of(obj, place)
     return scaling(_factors(scale), axes)
 
 
@@ -124,37 +132,45 @@ def _factors(scale: NDArray[np.float64]) -> NDArray[np.float64]:
     return factors
 
 
-def scene_unit(obj: bpy.types.Object) -> float:
+def scene_unit(obj: bpy.types.Object, place: Matrix | None = None) -> float:
     """Return the length in the scene of 1 in the coordinates of `read_shape`.
+
+    `place` is as there.
 
     Raises
     ------
     DecompositionError
         As `stretch` does.
     """
-    scale, _ = _scale_of(obj)
+    scale, _ = _scale_of(obj, place)
     return float((scale / _factors(scale)).max())
 
 
 def has_place(obj: bpy.types.Object) -> bool:
     """Return whether an object's location, rotation and scale are finite numbers."""
-    return bool(np.isfinite(np.array(obj.matrix_world)).all())
+    return _is_finite(obj.matrix_world)
+
+
+def _is_finite(place: Matrix) -> bool:
+    """Return whether all numbers of a place are finite."""
+    return bool(np.isfinite(np.array(place)).all())
 
 
 def _scale_of(
-    obj: bpy.types.Object,
+    obj: bpy.types.Object, place: Matrix | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the scale of an object, (3,), without signs, and its axes.
 
     These are the columns of a matrix, (3, 3). Raise as `stretch` does.
     """
-    if not has_place(obj):
+    place = obj.matrix_world if place is None else place
+    if not _is_finite(place):
         raise DecompositionError(
             "The object's location, rotation or scale, or its parent's, is not a"
             " number; type one in Sidebar > Item."
         )
-    scale, axes = np.abs(np.array(obj.matrix_world.to_scale(), dtype=float)), np.eye(3)
-    matrix = np.array(obj.matrix_world, dtype=np.float64)[:3, :3]
+    scale, axes = np.abs(np.array(place.to_scale(), dtype=float)), np.eye(3)
+    matrix = np.array(place, dtype=np.float64)[:3, :3]
     scale, axes = sheared_scale(matrix) or (scale, axes)
     if not scale.all():
         raise DecompositionError(

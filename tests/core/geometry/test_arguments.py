@@ -69,7 +69,7 @@ def test_members_that_do_not_fit_are_refused(function, shape):
         ({"parameters": PARTS}, DecompositionError, "needs the part .* pass `labels`"),
         ({"seed": -1}, DecompositionError, "Seed is -1; choose a value from 0"),
         ({"seed": "one"}, DecompositionError, "Seed must be a whole number"),
-        ({"kinds": "BOX"}, TypeError, "`kinds` must be a Mapping, not .* type str"),
+        ({"kinds": "BOX"}, TypeError, "`kinds` must be a dict, not .* type str"),
         ({"shape": CLOUD}, DecompositionError, "A cloud has no faces"),
     ],
 )
