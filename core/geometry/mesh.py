@@ -26,7 +26,7 @@ from .welding import welded
 LEAST_AREA = 1e-9
 # Cell size, in diagonals, of the grid that welds vertices. It allows for the rounding
 # of equal positions to single precision.
-_SAME_PLACE = 1e-6
+SAME_PLACE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +187,7 @@ class TriangleMesh:
         """
         if "welded_triangles" not in self.__dict__:
             yield from within(self.bounds_in_steps(), 0.0, 0.2)
-            step = _SAME_PLACE * self.diagonal or 1.0
+            step = SAME_PLACE * self.diagonal or 1.0
             steps = welded(self.vertices, self.triangles, step)
             places = yield from within(steps, 0.2, 1.0)
             self.__dict__["welded_triangles"] = places

@@ -13,6 +13,7 @@ from ..steps.beside import beside
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .inner_walls import inner_walls
+from .slivers import solid_edges
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,16 +85,18 @@ def bare_mesh(whole: TriangleMesh, edges: Edges) -> Steps[BareMesh]:
     Steps of BareMesh
     """
     rows = np.arange(len(whole.triangles))
-    if not edges.crowded:
+    solid, _ = yield from within(solid_edges(whole, edges), 0.0, 0.1)
+    if not solid.crowded:
         return BareMesh(whole, whole, edges, rows)
-    found = yield from within(_same_triangles(whole), 0.0, 0.3)
+    found = yield from within(_same_triangles(whole), 0.1, 0.3)
     kept = found == rows
     mesh = whole
     if not kept.all():
         mesh = _some(whole, kept)
         edges = yield from within(sort_edges(mesh), 0.3, 0.5)
+        solid, _ = yield from within(solid_edges(mesh, edges), 0.5, 0.5)
         rows = (np.cumsum(kept) - 1)[found]
-    walls = yield from within(inner_walls(mesh, edges), 0.5, 0.8)
+    walls = yield from within(inner_walls(mesh, solid), 0.5, 0.8)
     if walls.any():
         mesh = _some(mesh, ~walls)
         edges = yield from within(sort_edges(mesh), 0.8, 1.0)

@@ -13,6 +13,7 @@ from ..steps.beside import beside
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks, used_rows
 from .shells import Shells
+from .slivers import solid_edges
 from .volume import signed_volume
 
 # Heights that count as rounding, in diagonals: vertices are in single precision. Rays
@@ -44,8 +45,10 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     -------
     Steps of bool
     """
-    one_closed = len(shells.closed) == 1 and bool(shells.closed[0])
-    if not one_closed or edges.crowded:
+    if len(shells.closed) > 1 or not shells.closed[0]:
+        return False
+    edges, _ = yield from within(solid_edges(mesh, edges), 0.0, 0.0)
+    if edges.crowded:
         return False
     if (yield from _has_concave_edge(mesh, edges)):
         return False

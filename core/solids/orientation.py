@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.mesh import TriangleMesh
-from ..steps.progress import Progress, Steps
+from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .shells import Shells
+from .slivers import are_thin
 from .winding import winding_number
 
 # Greatest missing area of a solid open shell, as a share of its area. A cube without
@@ -45,7 +46,7 @@ def oriented(
     mesh : TriangleMesh
         The same object if no triangle had to be turned.
     notes : tuple of str
-        A sentence to the user if triangles were turned.
+        A sentence to the user if triangles with an area were turned.
     """
     areas, missing, volumes = yield from _measured(mesh, shells)
     # The area vectors of a closed surface sum to zero. The length of the sum is thus a
@@ -65,8 +66,12 @@ def oriented(
     if not flips.any():
         return mesh, ()
     triangles = np.where(flips[:, None], mesh.triangles[:, ::-1], mesh.triangles)
-    kind = "inside out" if flips.all() else "wound inconsistently"
-    return replace(mesh, triangles=triangles), (
+    outward = replace(mesh, triangles=triangles)
+    if (yield from within(are_thin(mesh, np.flatnonzero(flips)), 0.9, 1.0)):
+        return outward, ()  # nobody sees how those are wound
+    all_flipped = yield from within(are_thin(mesh, np.flatnonzero(~flips)), 1.0, 1.0)
+    kind = "inside out" if all_flipped else "wound inconsistently"
+    return outward, (
         f"The faces are {kind}; they were flipped for this computation only"
         " (Mesh > Normals > Recalculate Outside flips them permanently).",
     )

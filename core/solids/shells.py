@@ -15,6 +15,7 @@ from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks, used_rows
 from .neighbors import find_neighbors
+from .slivers import hosts, solid_edges
 
 # Shells are moved inwards by multiples of this depth, in diagonals.
 _LAYER = 1e-5
@@ -92,7 +93,12 @@ def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
     -------
     Steps of Shells
     """
-    neighbors, opposed = yield from within(find_neighbors(mesh, edges), 0.0, 0.2)
+    edges, left_out = yield from within(solid_edges(mesh, edges), 0.0, 0.1)
+    neighbors, opposed = yield from within(find_neighbors(mesh, edges), 0.1, 0.2)
+    if left_out.any():
+        ties = yield from within(hosts(mesh, left_out), 0.2, 0.2)
+        neighbors = np.concatenate([neighbors, ties])
+        opposed = np.concatenate([opposed, np.ones(len(ties), dtype=bool)])
     shells, side, windable = yield from _wind(neighbors, opposed, len(mesh.areas))
     yield Progress("Surface", 0.8)
     minority = np.bincount(shells, side) * 2 > np.bincount(shells)

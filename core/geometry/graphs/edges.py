@@ -36,7 +36,7 @@ class Edges(NamedTuple):
     def uses(self) -> NDArray[np.int64]:
         """Number of sides of each edge, (E,)."""
         uses = np.empty_like(self.first)  # np.diff would copy the places
-        uses[:-1], uses[-1] = self.first[1:], len(self.sides)
+        uses[:-1], uses[-1:] = self.first[1:], len(self.sides)
         uses -= self.first
         return uses
 
