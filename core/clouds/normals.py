@@ -30,6 +30,18 @@ _TILT_OF_NOISE = 0.15
 _CLEARLY_INWARDS = 0.05
 # Added to that share, times the missing share of the surface.
 _FOR_MISSING = 0.25
+# Points that given normals are compared with the surface at, at most, and the nearest
+# points that show the surface there, with the point itself.
+_PROBES, _NEAREST = 1000, 10
+# Such points show a surface if they are at most this thick, in their width.
+_FLAT = 0.25
+# Normals are wrong if the median cosine between them and those of the surface is less,
+# whichever side they face: 1/2 if they have nothing to do with it.
+_LEAST_COSINE = 0.7
+# And if more neighbors, as a share, face the opposite way, with a cosine below this,
+# but lie above, by a height in diagonals: 1/4 if sides were chosen at random. The other
+# side of a wall, however thin, lies below.
+_MOST_OPPOSITE, _OPPOSITE, _ABOVE = 0.15, -0.5, 1e-6
 
 
 @on_one_thread
@@ -97,3 +109,33 @@ def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> b
     # The area vectors of a closed surface sum to zero.
     missing = np.linalg.norm(areas @ normals) / areas.sum()
     return bool(areas @ fluxes < -(_CLEARLY_INWARDS + _FOR_MISSING * missing) * size)
+
+
+def seem_wrong(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
+    """Return whether normals clearly disagree with the points, or with each other.
+
+    Where neighbors do not show a surface, as in much noise, nothing is clear.
+
+    Parameters
+    ----------
+    points, normals : (N, 3) float
+        Where the diagonal of the bounding box is 1. Normals are unit vectors.
+
+    Returns
+    -------
+    bool
+    """
+    rows = slice(None, None, -(-len(points) // _PROBES))
+    _, nearest = cKDTree(points).query(points[rows], min(_NEAREST, len(points)))
+    near = points[nearest]
+    spread = near - near.mean(axis=1, keepdims=True)
+    variances, axes = np.linalg.eigh(np.einsum("nki,nkj->nij", spread, spread))
+    flat = variances[:, 0] <= _FLAT**2 * variances[:, 1]
+    if 2 * flat.sum() < len(flat):
+        return False
+    cosines = np.einsum("nd,nd->n", axes[flat, :, 0], normals[rows][flat])
+    unrelated = np.median(np.abs(cosines)) < _LEAST_COSINE
+    own = normals[rows][:, :, None]
+    opposite = (normals[nearest] @ own)[:, 1:] < _OPPOSITE
+    above = ((near - points[rows][:, None]) @ own)[:, 1:] > _ABOVE
+    return bool(unrelated or (opposite & above).mean() > _MOST_OPPOSITE)

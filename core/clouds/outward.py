@@ -25,6 +25,9 @@ from ..steps.progress import Progress, Steps, within
 _DRAWN = 4000
 # Neighbors that the distance of points is measured with.
 _NEIGHBORS = 7
+# Shorter distances of points, in diagonals, are scaled up to this. Their powers would
+# overflow in single precision; a stray point far away makes them short.
+_SHORT = 1e-3
 # Iterations at each blur: one step towards 1/2, then a turn along the negative
 # gradient.
 _ROUNDS = 12
@@ -103,10 +106,11 @@ def outward_directions(
     Lin, Shi and Liu, winding number normal consistency, 2024.
     """
     places = points.astype(np.float32)
-    few = places[np.random.default_rng(0).permutation(len(points))[:_DRAWN]]
-    n_nearest = min(_NEIGHBORS, len(few) - 1) + 1
-    distances, _ = cKDTree(few).query(few, n_nearest)
-    spacing = float(np.median(distances[:, 1:].mean(axis=1)))
+    drawn = np.random.default_rng(0).permutation(len(points))[:_DRAWN]
+    spacing = _spacing(places[drawn])
+    if 0 < spacing < _SHORT:
+        places, spacing = places * np.float32(_SHORT / spacing), _SHORT
+    few = places[drawn]
     vectors = np.zeros_like(few)
     # With little detail first, vectors that are far apart agree sooner.
     vectors = yield from within(_nearer(few, _COARSE * spacing, vectors), 0.0, 0.45)
@@ -116,6 +120,13 @@ def outward_directions(
         yield Progress("Normals", 0.9 + 0.1 * done)
         found.append(some.falls(vectors))
     return unit(np.concatenate(found).astype(np.float64))
+
+
+def _spacing(points: Single) -> float:
+    """Return the usual distance of points (N, 3) from their neighbors."""
+    n_nearest = min(_NEIGHBORS, len(points) - 1) + 1
+    distances, _ = cKDTree(points).query(points, n_nearest)
+    return float(np.median(distances[:, 1:].mean(axis=1)))
 
 
 def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.point_cloud import PointCloud
 from ..steps.progress import Progress, Steps, within
-from .normals import estimate_normals, face_inwards
+from .normals import estimate_normals, face_inwards, seem_wrong
 from .splats import nearest_points, smoothed, thinned_splats
 
 
@@ -93,6 +93,12 @@ def _surface_of(cloud: PointCloud) -> Steps[SplatSurface]:
     yield Progress("Splats", 0.6)
     points = smoothed(points, normals)
     kept, areas, mesh = thinned_splats(points, normals)
+    if cloud.normals is not None and seem_wrong(cloud.points[kept], normals[kept]):
+        notes += (
+            "The normals of the points seem wrong, as many lean far from the surface or"
+            " face away from those beside them; recompute them, or remove them to have"
+            " them estimated.",
+        )
     yield Progress("Splats", 0.8)
     nodes, everything = np.arange(len(points)), (points, normals)
     if len(kept) < len(points):

@@ -15,6 +15,9 @@ _FEWEST = 16
 # Points lie in a line if they spread less than this across it: a root mean square
 # distance, in diagonals.
 _LEAST_WIDTH = 1e-4
+# Least diagonal of half of the points, those in the middle, in diagonals of all. Sight
+# starts as far below the surface.
+_LEAST_MIDDLE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +37,9 @@ class PointCloud:
         If points or normals are no numbers.
     DecompositionError
         If an array has a wrong shape, if there are too few points, if all lie at one
-        place or in a line, or too far apart or too near to compute with, if there is
-        not one normal per point, or if values are not finite or normals zero.
+        place or in a line, or too far apart or too near to compute with, also half of
+        them beside far stray points, if there is not one normal per point, or if values
+        are not finite or normals zero.
 
     Examples
     --------
@@ -144,12 +148,36 @@ def _check_points(points: NDArray[np.float64]) -> None:
         raise DecompositionError(
             "All points of the cloud are at one place; choose an object with a surface."
         )
-    scaled = (points - points.mean(axis=0)) / diagonal
-    _, widths, _ = np.linalg.svd(scaled.T @ scaled / len(points))
-    if np.sqrt(widths[1]) < _LEAST_WIDTH:
+    middle = _middle_half(points)
+    share = np.linalg.norm(np.ptp(middle, axis=0)) / diagonal
+    if 0 < share < _LEAST_MIDDLE:  # 0 for copies, which are left out later
+        raise DecompositionError(
+            f"Half of the points lie within {share:.1g} of the diagonal of all, too"
+            " near to see their shape; delete stray points that are far from it, or"
+            " make an object of each far piece."
+        )
+    if _is_line(points) and _is_line(middle):
         raise DecompositionError(
             "All points of the cloud lie in a line; choose an object with a surface."
         )
+
+
+def _middle_half(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the half of the points that is nearest to one in their middle."""
+    center = np.median(points, axis=0)
+    for _ in range(2):  # a median may lie between pieces, so start at a point
+        squares = ((points - center) ** 2).sum(axis=1)
+        center = points[squares.argmin()]
+    return points[np.argpartition(squares, len(points) // 2)[: len(points) // 2]]
+
+
+def _is_line(points: NDArray[np.float64]) -> bool:
+    """Return whether points spread next to nothing across their longest direction."""
+    spread = points - points.mean(axis=0)
+    diagonal = np.linalg.norm(np.ptp(points, axis=0))
+    scaled = spread / diagonal if diagonal > 0 else spread
+    _, widths, _ = np.linalg.svd(scaled.T @ scaled / len(points))
+    return bool(np.sqrt(widths[1]) < _LEAST_WIDTH)
 
 
 def _unit_normals(normals: NDArray[np.float64], n_points: int) -> NDArray[np.float64]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,15 @@ from numpy.typing import NDArray
 from .frames import HEIGHTS_AT_ONCE, area_vectors
 
 
+def _protect(*arrays: NDArray[Any]) -> None:
+    """Make arrays read-only: results share them."""
+    for array in arrays:
+        array.flags.writeable = False
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Hull:
-    """A convex polyhedron.
+    """A convex polyhedron. Its arrays are read-only.
 
     Attributes
     ----------
@@ -34,6 +41,10 @@ class Hull:
     volume: float
     is_thickened: bool = False
 
+    def __post_init__(self) -> None:
+        """Protect the arrays."""
+        _protect(self.vertices, self.facets, self.planes)
+
     @cached_property
     def triangles(self) -> NDArray[np.int64]:
         """(F, 3) corners of each triangle, counter-clockwise seen from outside."""
@@ -41,6 +52,7 @@ class Hull:
         inwards = np.einsum("fd,fd->f", normals, self.planes[:, :3]) < 0
         triangles = self.facets.astype(np.int64)
         triangles[inwards] = triangles[inwards, ::-1]
+        _protect(triangles)
         return triangles
 
     def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -84,12 +96,15 @@ class Hull:
     @cached_property
     def bounds(self) -> NDArray[np.float64]:
         """(2, 3) lowest and highest coordinates."""
-        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+        bounds = np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+        _protect(bounds)
+        return bounds
 
     @cached_property
     def corners(self) -> NDArray[np.float64]:
         """(F, 3, 3) corners of the triangles."""
         corners: NDArray[np.float64] = self.vertices[self.triangles]
+        _protect(corners)
         return corners
 
     def __repr__(self) -> str:
@@ -100,6 +115,8 @@ class Hull:
 @dataclass(frozen=True, eq=False, repr=False)
 class CollisionShape:
     """A convex shape around a piece: a hull, or one of four primitives.
+
+    Its arrays are read-only.
 
     Attributes
     ----------
@@ -122,6 +139,10 @@ class CollisionShape:
     center: NDArray[np.float64]
     axes: NDArray[np.float64]
     sizes: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        """Protect the arrays."""
+        _protect(self.center, self.axes, self.sizes)
 
     @property
     def volume(self) -> float:

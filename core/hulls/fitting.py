@@ -12,6 +12,7 @@ from ..geometry.primitives import CollisionShape, Hull
 from ..parameters.hulls import HullParameters
 from .convex_hull import THIN, offset, simplified
 from .enclosing.shapes import around, roughly_around
+from .measure.uncovered import uncovered
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,26 @@ class Fit:
         """Return whether `rough_shape` is `shape`, but for what simplifying removes."""
         most = self.parameters.max_vertices
         return rough.kind == "HULL" and len(rough.hull.vertices) <= most
+
+    def left_out(self, shape: CollisionShape, hull: Hull) -> float:
+        """Return how far what `max_vertices` leaves out of a hull is from its shape.
+
+        Parameters
+        ----------
+        shape : CollisionShape
+            That was fitted around the hull.
+        hull : Hull
+
+        Returns
+        -------
+        float
+            0 if it is within the largest error.
+        """
+        rough = self.rough_shape(hull)
+        if rough.kind != "HULL" or self.is_sharp(rough):
+            return 0.0
+        distance = uncovered(shape, rough.hull)
+        return distance if distance > self.max_error else 0.0
 
 
 def fit_for(

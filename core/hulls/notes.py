@@ -69,6 +69,11 @@ def _reason(n_shapes: int, fit: Fit, worst: CollisionShape, hull: Hull) -> str:
             f"because Margin = {parameters.margin:g} alone uses up Largest Error;"
             " choose a margin nearer to 0."
         )
+    if fit.left_out(worst, hull):
+        return (
+            f"because Most Vertices = {parameters.max_vertices} leaves out corners of"
+            " hulls; raise Most Vertices."
+        )
     if hull.is_thickened:
         return (
             "because hulls around flat faces have a thickness; give the faces one"

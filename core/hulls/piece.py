@@ -106,6 +106,11 @@ class Piece:
         return estimated_error(self.solid, self.rough_shape, self.hull, *rest)
 
     @cached_property
+    def left_out(self) -> float:
+        """How far the shape is from what `max_vertices` leaves out, see `Fit`."""
+        return self.fit.left_out(self.shape, self.hull)
+
+    @cached_property
     def bound(self) -> ErrorBound:
         """An upper bound of the error, found when it is asked for."""
         rest = self.hull, self.fit.max_error, self.is_sheet

@@ -131,10 +131,10 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
 
     Planes are ranked by the volume that the hulls of both sides add. Only the first few
     different ones are cut with, and compared by `cost_of_sides`: the errors of both
-    hulls and the volume that they add. Where this tells little about shapes other than
-    hulls, the piece is cut across its longest side: round shapes around convex pieces,
-    and where both sides would be no better than the piece, such as a film and the rest.
-    A sphere may have to be cut more than once before that gains anything.
+    hulls and the volume that they add. Where this tells little, the piece is cut across
+    its longest side: convex pieces that round shapes or hulls of few vertices are far
+    from, and where two shapes other than hulls would be no better than one, such as a
+    film and the rest. A sphere may have to be cut more than once to gain anything.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
         on both sides, or of a film some points.
     """
     kind = cell.fit.parameters.shape
-    if kind in _ROUND and _is_convex(cell):
+    if _is_convex(cell) and (kind in _ROUND or cell.left_out):
         return (yield from _cheapest(cell, _middle(cell)))
     planes = yield from ranked_planes(cell)
     best = yield from _cheapest(cell, planes)

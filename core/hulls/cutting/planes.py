@@ -216,4 +216,5 @@ def _crowded(
 ) -> NDArray[np.bool_]:
     """Return which planes at offsets (K,) are near flush ones (L, 2), none of them."""
     away = np.abs(offsets[:, None] - flush.ravel())
-    return (away < _CROWDED).any(axis=1) & (away > 0).all(axis=1)
+    crowded: NDArray[np.bool_] = (away < _CROWDED).any(axis=1) & (away > 0).all(axis=1)
+    return crowded

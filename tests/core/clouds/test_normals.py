@@ -4,7 +4,11 @@ import pytest
 import shapes
 from weak_convex_decomposition.core.clouds import normals as normals_module
 from weak_convex_decomposition.core.clouds import splats as splats_module
-from weak_convex_decomposition.core.clouds.normals import estimate_normals, face_inwards
+from weak_convex_decomposition.core.clouds.normals import (
+    estimate_normals,
+    face_inwards,
+    seem_wrong,
+)
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -82,3 +86,26 @@ def test_a_scan_of_one_side_that_faces_inwards_is_noticed():
     seen = normals[:, 1] > 0.2
     assert not face_inwards(points[seen], normals[seen])
     assert face_inwards(points[seen], -normals[seen])
+
+
+def test_wrong_normals_are_noticed():
+    points, normals = normalized(shapes.sphere(3), 2000)
+    rng = np.random.default_rng(0)
+    signs = np.where(rng.random(2000) < 0.5, -1, 1)[:, None]
+    noise = rng.normal(size=(2000, 3))
+    assert not seem_wrong(points, normals)
+    assert not seem_wrong(points, -normals)
+    assert seem_wrong(points, normals * signs)
+    assert seem_wrong(points, noise / np.linalg.norm(noise, axis=1, keepdims=True))
+    assert seem_wrong(points, np.tile([0.0, 0.0, 1.0], (2000, 1)))
+
+
+@pytest.mark.parametrize("thickness", [0.02, 0.001, 1e-9])
+def test_the_two_sides_of_a_board_are_not_wrong(thickness):
+    assert not seem_wrong(*normalized(shapes.box(high=(1, 1, thickness)), 2000))
+
+
+@pytest.mark.parametrize("noise", [0.003, 0.01, 0.03])
+@pytest.mark.parametrize("make", [shapes.cup, shapes.comb, shapes.plus])
+def test_noise_makes_no_normals_wrong(make, noise):
+    assert not seem_wrong(*normalized(make(), 1000, noise))

@@ -49,6 +49,16 @@ def test_size_does_not_matter_but_for_rounding():
     assert (one * other).sum(axis=1).min() > 0.999
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("away", [30, 1000, 2300])
+def test_a_stray_point_far_away_changes_no_direction(away):
+    points, normals = clouds.drawn(shapes.sphere(3), 600)
+    stray = np.concatenate([points, [[away, 0, 0]]])
+    diagonal = np.linalg.norm(np.ptp(stray, axis=0))
+    found = run(outward_directions((stray - [away / 2, 0, 0]) / diagonal, 0.5))
+    assert (found[:-1] * normals).sum(axis=1).min() > 0.95
+
+
 def test_it_reports_its_progress():
     points, _ = clouds.drawn(shapes.sphere(2), 1200)
     fractions = [each.fraction for each in outward_directions(points, 0.5)]

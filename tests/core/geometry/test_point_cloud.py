@@ -56,6 +56,26 @@ def test_a_slanted_line_is_one_wherever_it_lies():
         PointCloud(line)
 
 
+@pytest.mark.parametrize("away", [3e3, 1e4, 1e6, 1e12])
+@pytest.mark.parametrize("n_strays", [1, 5])
+def test_a_shape_that_strays_make_too_small_to_see_is_no_line(away, n_strays):
+    strays = POINTS[:n_strays] * away
+    with pytest.raises(DecompositionError, match="Half of the points lie within") as e:
+        PointCloud(np.concatenate([POINTS, strays]))
+    assert "delete stray points" in str(e.value)
+
+
+def test_a_few_stray_points_or_many_copies_are_no_reason_to_refuse():
+    strays = POINTS[:5] * 300
+    assert len(PointCloud(np.concatenate([POINTS, strays]))) == 55
+    assert len(PointCloud(np.concatenate([POINTS, np.full((70, 3), 5.0)]))) == 120
+
+
+def test_two_pieces_far_from_each_other_are_no_line():
+    with pytest.raises(DecompositionError, match="an object of each far piece"):
+        PointCloud(np.concatenate([POINTS, POINTS + 1e5]))
+
+
 def test_the_arrays_are_copies_that_cannot_be_written():
     points, normals = POINTS.copy(), 3 * NORMALS
     cloud = PointCloud(points, normals)

@@ -90,3 +90,24 @@ def test_a_film_with_one_sample_of_the_surface_is_cut(monkeypatch):
 
     monkeypatch.setattr(close_pieces, "best_cut", one_sample)
     assert build_hulls(shapes.comb(), HullParameters()).n_hulls > 1
+
+
+@pytest.mark.parametrize("max_vertices", [4, 6])
+def test_more_hulls_make_up_for_few_vertices(max_vertices):
+    errors = []
+    for most in (1, 2, 8):
+        parameters = HullParameters(max_vertices=max_vertices, max_hulls=most)
+        found = build_hulls(shapes.box(), parameters)
+        errors.append(found.errors.max())
+        (note,) = found.notes
+        assert note.endswith(
+            f"because Most Vertices = {max_vertices} leaves out corners of hulls; raise"
+            " Most Vertices."
+        )
+    assert errors == sorted(errors, reverse=True)
+    assert errors[-1] < 0.7 * errors[0]
+
+
+def test_a_solid_cut_for_lack_of_vertices_is_told_of_no_flat_faces():
+    found = build_hulls(shapes.l_shape(), HullParameters(max_vertices=4, max_hulls=8))
+    assert "because Most Vertices = 4 leaves out corners" in found.notes[-1]

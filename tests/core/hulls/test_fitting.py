@@ -99,6 +99,16 @@ def test_shapes_move_with_their_part(kind):
     assert moved.volume == pytest.approx(8 * shape.volume)
 
 
+@pytest.mark.parametrize("kind", [*KINDS, "HULL"])
+def test_arrays_of_shapes_cannot_be_written(kind):
+    shape = around(BAR, kind).moved(2.0, np.ones(3))
+    hull = shape.hull
+    arrays = [shape.center, shape.axes, shape.sizes, hull.vertices, hull.facets]
+    for array in (*arrays, hull.planes, hull.triangles, hull.corners, hull.bounds):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+
+
 def test_margins_move_faces_outwards():
     assert around(BAR, "HULL", margin=0.5).volume == pytest.approx(7 * 3 * 2)
     assert around(BAR, "BOX", margin=0.5).volume == pytest.approx(7 * 3 * 2)

@@ -69,6 +69,20 @@ def test_missing_normals_are_estimated_and_said_so():
     assert "estimated" in found.notes[0]
 
 
+def test_wrong_normals_are_told():
+    points, normals = clouds.drawn(shapes.sphere(3), 700)
+    wrong = np.random.default_rng(0).permutation(normals)
+    notes = split_up(PointCloud(points, wrong), parts=2).notes
+    assert any("normals of the points seem wrong" in note for note in notes)
+
+
+def test_a_far_stray_point_is_no_reason_for_other_parts():
+    points, _ = clouds.drawn(shapes.dumbbell(), 800)
+    points = np.concatenate([points, [[5000, 0, 0]]])
+    found = split_up(PointCloud(points))
+    check_halves(found, points, found.n_parts)
+
+
 def test_points_beyond_the_splats_have_parts_too(monkeypatch):
     monkeypatch.setattr(splats_module, "_MOST_SPLATS", 700)
     points, normals = clouds.drawn(shapes.dumbbell(), 2000)
