@@ -215,6 +215,6 @@ def _crowded(
     offsets: NDArray[np.float64], flush: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
     """Return which planes at offsets (K,) are near flush ones (L, 2), none of them."""
-    away = np.abs(offsets[:, None] - flush.ravel())
-    crowded: NDArray[np.bool_] = (away < _CROWDED).any(axis=1) & (away > 0).all(axis=1)
+    away = np.abs(offsets[:, None] - flush.ravel()).min(axis=1, initial=np.inf)
+    crowded: NDArray[np.bool_] = (away > 0) & (away < _CROWDED)
     return crowded
