@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from ..mesh.attributes import IntArray, read_labels
-from ..parts.read import part_labels
+from ..parts.read import find_parts_on
 from ..stored.names import FACE_SET_LAYER, FACE_SETS, WHOLE_LAYER
 
 # The types of modifiers that keep something by the numbers of vertices or faces. How
@@ -122,7 +122,7 @@ def _users_face_sets(obj: bpy.types.Object) -> IntArray:
     now = read_labels(mesh, FACE_SETS, "FACE", n_faces, missing=0)
     if FACE_SET_LAYER not in mesh.attributes:
         return now
-    labels = part_labels(obj)
-    if labels is None or not np.array_equal(now, labels + 1):
+    found = find_parts_on(obj)
+    if found is None or not np.array_equal(now, found.face_sets):
         return now
     return read_labels(mesh, FACE_SET_LAYER, "FACE", n_faces, missing=0)

@@ -76,13 +76,19 @@ def note_whole(obj: bpy.types.Object, faces: NDArray[np.int64]) -> None:
 
 
 def forget_whole(mesh: bpy.types.Mesh) -> None:
-    """Let the faces of a mesh be the user's: there is no way back."""
+    """Let the faces of a mesh be the user's: there is no way back.
+
+    The mesh with the whole faces goes if nothing else needs it.
+    """
+    whole = mesh.get(WHOLE_MESH)
     for key in (WHOLE_MESH, CUT_STATE):
         if key in mesh:
             del mesh[key]
     layer = mesh.attributes.get(WHOLE_LAYER)
     if layer is not None:
         mesh.attributes.remove(layer)
+    if isinstance(whole, bpy.types.Mesh) and whole.users == 0:
+        bpy.data.meshes.remove(whole)
 
 
 def bring_back(obj: bpy.types.Object) -> bool:

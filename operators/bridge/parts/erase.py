@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.seams import unmark_seams
 from ..stored.names import (
+    COLOR_LAYER,
     FACE_SET_LAYER,
     FACE_SETS,
     LAYERS,
@@ -27,7 +27,7 @@ from ..stored.restore import Restore, read_restore, sharers, write_restore
 from ..stored.users_groups import users_groups
 from .kept_materials import drop_kept, marked_groups
 from .materials import discard_unused, is_of_part, name_of, our_materials
-from .read import part_labels
+from .read import FoundParts, find_parts_on
 from .rows import erase_rows
 from .slots import take_out_of_slots
 
@@ -45,8 +45,25 @@ def clear(obj: bpy.types.Object) -> None:
         unmark_seams(obj.data)
         _forget_joined_cuts(obj)
     erase_parts(obj)
+    if obj.type == "MESH":
+        _forget_color_names(obj.data)
     discard_unused(our_materials())  # also where the user removed their slots
     forget_result(obj)
+
+
+def _forget_color_names(mesh: bpy.types.Mesh) -> None:
+    """Let no color attribute of ours that is gone be the active or the default one.
+
+    Another one is then, as if the user had removed it. Blender 5.2 leaves the names.
+    """
+    colors = mesh.color_attributes
+    if COLOR_LAYER in colors:  # the user's: ours is gone
+        return
+    other = colors[0].name if len(colors) else ""
+    active, default = colors.active_color_name, colors.default_color_name
+    # Blender 5.0 needs to be told also that there is none.
+    colors.active_color_name = other if active == COLOR_LAYER else active
+    colors.default_color_name = other if default == COLOR_LAYER else default
 
 
 def _forget_joined_cuts(obj: bpy.types.Object) -> None:
@@ -69,11 +86,11 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
         return _erase_remains(obj)
     # On large meshes it takes long to read the parts, and few have face sets of them.
     has_face_sets = FACE_SET_LAYER in mesh.attributes
-    labels = part_labels(obj) if has_face_sets else None
+    found = find_parts_on(obj) if has_face_sets else None
     _erase_groups(obj, restore)
     layers = layers_of(obj)
     materials = [*take_out_of_slots(obj, restore), *drop_kept(mesh)]
-    _restore_face_sets(layers, labels)
+    _restore_face_sets(layers, found)
     for name in LAYERS:
         layers.remove(name)
     layers.finish()
@@ -134,14 +151,13 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
 
 
 def _restore_face_sets(
-    layers: ObjectModeLayers | EditModeLayers, labels: NDArray[np.int64] | None
+    layers: ObjectModeLayers | EditModeLayers, found: FoundParts | None
 ) -> None:
-    """Restore the former face sets, unless the user changed ours since.
-
-    `labels` are the places of the faces' parts, as `write_face_sets` numbers them.
-    """
+    """Restore the former face sets, unless the user changed ours since."""
     before, now = layers.faces(FACE_SET_LAYER), layers.faces(FACE_SETS)
-    if before is None or now is None or labels is None or (now != labels + 1).any():
+    if before is None or now is None or found is None:
+        return
+    if (now != found.face_sets).any():
         return
     if before.any():
         layers.set_faces(FACE_SETS, before)

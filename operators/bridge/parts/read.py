@@ -55,6 +55,14 @@ class FoundParts:
         return own[self.labels]
 
     @property
+    def face_sets(self) -> IntArray:
+        """The face set that shows the part of each face, (P,).
+
+        It follows from the number, so that it stays when another part vanishes.
+        """
+        return self.numbers + 1
+
+    @property
     def in_step(self) -> bool:
         """Whether each part has a number of its own on its faces."""
         return all(

@@ -18,7 +18,7 @@ from ..hulls.hull_objects import erase_hulls
 from ..hulls.rigid_bodies import soften
 from ..mesh.corner_normals import give_back_normals, keep_normals
 from ..mesh.known import face_areas
-from ..views.node_modifiers import remove_views
+from ..views.node_modifiers import discard_views, remove_views
 from .erase import clear
 from .materials import discard, discard_unused, none_missing
 from .read import find_parts_on, part_materials
@@ -90,7 +90,10 @@ def _replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
     """Remove an object whose parts were separated; `piece` gets its children."""
     for child in obj.children:
         hand_over(child, piece, Matrix())
+    if obj.data.users == 1:
+        forget_whole(obj.data)
     discard([obj])
+    discard_views()
 
 
 def area_of(obj: bpy.types.Object) -> float:

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from ..mesh.attributes import IntArray
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
-from ..stored.names import KEPT_MATERIALS, MATERIAL_LAYER
+from ..mesh.points import is_cloud
+from ..stored.names import FORMER_SLOTS, KEPT_MATERIALS, MATERIAL_LAYER
+from ..stored.notes import read_note, write_note
 from ..stored.restore import Restore, sharers
 from .materials import is_ours
 
@@ -41,8 +43,12 @@ def put_in_slots(
     slots = [material.name if material else "" for material in mesh.materials]
     tagged = [material.name for material in mesh.materials if is_ours(material)]
     active_slot = obj.active_material_index
+    index = int(before[0]) if uniform and before is not None else None
     for material in materials:
         mesh.materials.append(material)
+        if not is_cloud(obj):  # clouds share theirs
+            noted = {"slots": slots, "index": (index or 0) if uniform else None}
+            write_note(material, FORMER_SLOTS, noted)
     obj.active_material_index = active_slot
     if before is not None and not uniform:
         layers.set_faces(MATERIAL_LAYER, before)
@@ -50,7 +56,7 @@ def put_in_slots(
     return {
         "slots": slots,
         "active_slot": active_slot,
-        "material_index": int(before[0]) if uniform and before is not None else None,
+        "material_index": index,
         "had_material_index": before is not None,
         "tagged": tagged,
     }
@@ -66,8 +72,8 @@ def bare_materials(
     mesh, layers = obj.data, layers_of(obj)
     if restore is None:
         return layers.material_indices(), _names_without(mesh, [])
-    indices = _indices_without_ours(mesh, restore, layers)
-    return indices, _names_without(mesh, _our_slots(mesh, restore))
+    indices, ours, emptied = _bare_slots(mesh, restore, layers)
+    return indices, _names_without(mesh, ours, emptied)
 
 
 def take_out_of_slots(
@@ -78,33 +84,63 @@ def take_out_of_slots(
     Faces get the materials again that they had. Those with another material keep it.
     """
     layers = layers_of(obj)
-    indices = _indices_without_ours(obj.data, restore, layers)
-    materials = _erase_slots(obj, restore)
+    indices, ours, emptied = _bare_slots(obj.data, restore, layers)
+    materials = _erase_slots(obj, restore, ours, emptied)
     layers.set_material_indices(indices)
     return materials
 
 
-def _indices_without_ours(
+def _bare_slots(
     mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
-) -> IntArray | None:
-    """Return the material index of each face after our slots are removed."""
+) -> tuple[IntArray | None, list[int], int | None]:
+    """Return what is left of the slots of a mesh without our materials.
+
+    These are the material index of each face, the slots to remove, and one that stays,
+    empty, if other faces have materials and some had none.
+    """
+    ours, emptied = _our_slots(mesh, restore), None
     if not getattr(mesh, "polygons", None):  # points
-        return None
+        return None, ours, None
     now = layers.material_indices()
     if now is None:
         now = np.zeros(len(mesh.polygons), dtype=np.int32)
-    ours = _our_slots(mesh, restore)
-    before = layers.faces(MATERIAL_LAYER)
-    if before is None:
-        before = np.full_like(now, restore.material_index or 0)
-    indices = np.where(
-        np.isin(now, ours),
-        _moved(before, restore.slots, _names_without(mesh, ours)),
-        now - np.searchsorted(ours, now),
-    ).astype(np.int32)
-    if not restore.had_material_index and not indices.any():
-        return None
-    return indices
+    former = _former_slots(mesh, restore, ours)
+    lacking = [slot for (slots, _), its in former.items() if not slots for slot in its]
+    without = np.isin(now, lacking)
+    mixed = without.any() and not without.all()  # as after a join
+    if mixed and "" not in _names_without(mesh, ours):
+        emptied = min(lacking)
+        ours.remove(emptied)
+    remaining = _names_without(mesh, ours, emptied)
+    indices = (now - np.searchsorted(ours, now)).astype(np.int32)
+    layer = layers.faces(MATERIAL_LAYER)
+    for (slots, index), its in former.items():
+        before = np.full_like(now, index or 0)
+        if index is None and layer is not None:
+            before = layer
+        own, rows = list(slots) == restore.slots, np.isin(now, its)
+        indices[rows] = _moved(before[rows], slots, remaining, own)
+    if mixed:
+        indices[without] = remaining.index("")
+    no_need = not restore.had_material_index and not indices.any()
+    return None if no_need else indices, ours, emptied
+
+
+def _former_slots(
+    mesh: bpy.types.Mesh, restore: Restore, ours: list[int]
+) -> dict[tuple[tuple[str, ...], int | None], list[int]]:
+    """Return which of our slots are of objects that had the same slots before.
+
+    An object that was joined to this one had others. The keys are the names of the
+    materials, and the material index of all faces, None if they differ.
+    """
+    found: dict[tuple[tuple[str, ...], int | None], list[int]] = {}
+    own: dict[str, Any] = {"slots": restore.slots, "index": restore.material_index}
+    for index in ours:
+        material = mesh.materials[index]
+        noted = (material and read_note(material, FORMER_SLOTS)) or own
+        found.setdefault((tuple(noted["slots"]), noted["index"]), []).append(index)
+    return found
 
 
 def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
@@ -124,25 +160,30 @@ def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
     return sorted(ours + empty[:n_missing])
 
 
-def _names_without(mesh: bpy.types.Mesh, ours: list[int]) -> list[str]:
+def _names_without(
+    mesh: bpy.types.Mesh, ours: list[int], emptied: int | None = None
+) -> list[str]:
     """Return the names of the materials in the user's slots, '' for none."""
     return [
-        material.name if material else ""
+        material.name if material and index != emptied else ""
         for index, material in enumerate(mesh.materials)
         if index not in ours
     ]
 
 
-def _moved(indices: IntArray, slots: list[str], remaining: list[str]) -> IntArray:
+def _moved(
+    indices: IntArray, slots: Sequence[str], remaining: list[str], own: bool
+) -> IntArray:
     """Return indices of former slots as indices of the slots that will remain.
 
-    The user may have moved, removed or renamed materials since.
+    The user may have moved, removed or renamed materials since. Only slots that are the
+    object's `own` tell where renamed ones are.
     """
     moved = indices.copy()
     place = 0  # Blender gives the faces of a removed slot to the slot before
     for former, name in enumerate(slots):
         there = remaining[former] if former < len(remaining) else None
-        renamed = name not in remaining and there is not None and there not in slots
+        renamed = own and name not in remaining and there not in (None, *slots)
         if there == name or renamed:
             place = former
         elif name in remaining:
@@ -151,19 +192,22 @@ def _moved(indices: IntArray, slots: list[str], remaining: list[str]) -> IntArra
     return moved
 
 
-def _erase_slots(obj: bpy.types.Object, restore: Restore) -> list[bpy.types.Material]:
-    """Remove the slots that hold our materials; return the materials."""
-    mesh = obj.data
-    ours = _our_slots(mesh, restore)
+def _erase_slots(
+    obj: bpy.types.Object, restore: Restore, ours: list[int], emptied: int | None
+) -> list[bpy.types.Material]:
+    """Remove the slots `ours`, and empty one; return the materials in them."""
+    mesh, taken = obj.data, [*ours] if emptied is None else [emptied, *ours]
+    materials = [mesh.materials[i] for i in taken if mesh.materials[i] is not None]
+    if emptied is not None:
+        mesh.materials[emptied] = None
     if not ours:
-        return []
+        return materials
     active = obj.active_material_index
     # Removing a slot of the mesh does not move the objects' own materials.
     linked = [
         (sharer, [_object_link(slot) for slot in sharer.material_slots])
         for sharer in sharers(obj)
     ]
-    materials = [mesh.materials[i] for i in ours if mesh.materials[i] is not None]
     if len(ours) == len(mesh.materials):
         mesh.materials.clear()  # `pop` would leave the objects an empty slot
     else:

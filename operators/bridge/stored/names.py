@@ -54,6 +54,8 @@ OWNER = "wcd_owner"
 # other things have numbers below 0.
 MATERIAL_TAG = "wcd_part"
 MATERIAL_NAME = "wcd_name"
+# Custom property of such a material: what its faces had in its place, JSON.
+FORMER_SLOTS = "wcd_slots"
 # Custom property of hulls: the figures of a hull. Of the collections made for them: the
 # name of their object.
 HULL_TAG = "wcd_hull"

@@ -5,15 +5,18 @@ The user may remove the group of a part and make another of that name.
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.attributes import IntArray
 from ..mesh.known import corner_faces, corner_vertices
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import is_cloud
 from .names import PART_LAYER, RESTORE
-from .noted_parts import identities_of, n_faces_of
+from .noted_parts import identities_of
 from .record import record_of
 from .restore import Restore
 
@@ -36,7 +39,7 @@ def users_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
     if RESTORE not in mesh:  # it is guessed, and the order of the groups is not known
         return set()
     n_rows = len(mesh.vertices if is_cloud(obj) else mesh.polygons)
-    if not n_faces_of(record) == len(values) == n_rows:
+    if len(values) != n_rows or not _has_faces_of(record, values):
         return set()
     if is_cloud(obj):
         vertices, of_part = np.arange(n_rows), values
@@ -50,6 +53,13 @@ def users_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
         if group is not None and not _is_group_of(obj, group.index, inside):
             found.add(name)
     return found
+
+
+def _has_faces_of(record: dict[str, Any], values: IntArray) -> bool:
+    """Return whether each part has as many faces, or points, as a record says."""
+    noted = {part["number"]: part["faces"] for part in record["parts"]}
+    numbers, counts = np.unique(values, return_counts=True)
+    return dict(zip(numbers.tolist(), counts.tolist(), strict=True)) == noted
 
 
 def _is_group_of(obj: bpy.types.Object, group: int, inside: NDArray[np.bool_]) -> bool:

@@ -20,13 +20,13 @@ from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
 
 def write_face_sets(obj: bpy.types.Object) -> None:
     """Make a face set of each part; Clear restores the former face sets."""
-    layers, labels = layers_of(obj), _found(obj).labels.astype(np.int32)
+    layers, ours = layers_of(obj), _found(obj).face_sets
     if layers.faces(FACE_SET_LAYER) is None:
         before = layers.faces(FACE_SETS)
         layers.set_faces(
-            FACE_SET_LAYER, np.zeros_like(labels) if before is None else before
+            FACE_SET_LAYER, np.zeros_like(ours) if before is None else before
         )
-    layers.set_faces(FACE_SETS, labels + 1)
+    layers.set_faces(FACE_SETS, ours)
     layers.finish()
 
 

@@ -47,7 +47,11 @@ def remove_views(obj: bpy.types.Object) -> None:
     """Remove all modifiers of ours from an object, and node groups without any."""
     for tag in _TAGS:
         remove_modifier(obj, tag)
-    # Their object may have been joined to another.
+    discard_views()
+
+
+def discard_views() -> None:
+    """Remove node groups of ours whose object is gone, deleted or joined."""
     for group in bpy.data.node_groups[:]:
         if any(tag in group for tag in _TAGS) and _is_unused(group):
             bpy.data.node_groups.remove(group)

@@ -69,7 +69,10 @@ def test_renamed_groups_and_materials_are_the_users(suzanne):
     bpy.data.materials["Part 03"].name = "Hair"
     erase.clear(suzanne)
     assert [group.name for group in suzanne.vertex_groups] == ["head"]
-    assert [slot.name for slot in suzanne.material_slots] == ["Hair"]
+    # The other faces had no material.
+    assert [slot.name for slot in suzanne.material_slots] == ["", "Hair"]
+    n_hairy = sum(polygon.material_index for polygon in suzanne.data.polygons)
+    assert n_hairy == 166
     assert [material.name for material in bpy.data.materials] == ["Hair"]
 
 
