@@ -22,7 +22,7 @@ _NEAR = 0.015
 _ENOUGH = 0.95
 # Distance, in diagonals, that normals one unit apart add: the two sides of a thin wall
 # are not each other's mirror image.
-_NORMAL_WEIGHT = 0.01
+NORMAL_WEIGHT = 0.01
 # Times that each candidate plane is tested, and fitted to its matches.
 _ROUNDS = 3
 # Share of the matches, nearest first, that a fit uses.
@@ -139,7 +139,7 @@ def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, fl
     if len(sources) == 0 or len(images) == 0:
         return Side(images[:0], sources[:0]), 0.0
     tree = cKDTree(
-        with_normals(graph.centers[sources], graph.normals[sources], _NORMAL_WEIGHT)
+        with_normals(graph.centers[sources], graph.normals[sources], NORMAL_WEIGHT)
     )
     nearest = []
     for start in range(0, len(images), _BLOCK):
@@ -163,7 +163,7 @@ def find_plane(graph: FaceGraph) -> Steps[Plane | None]:
     )
     rows = np.unique(everywhere)
     tree = cKDTree(
-        with_normals(graph.centers[rows], graph.normals[rows], _NORMAL_WEIGHT)
+        with_normals(graph.centers[rows], graph.normals[rows], NORMAL_WEIGHT)
     )
     best, most = None, _ENOUGH
     center = graph.centers[everywhere].mean(axis=0)
@@ -239,6 +239,6 @@ def nearest_images(
     """
     upright = Plane(plane.normal, 0.0)
     turned = upright.mirrored(normals)
-    images = with_normals(plane.mirrored(points), turned, _NORMAL_WEIGHT)
+    images = with_normals(plane.mirrored(points), turned, NORMAL_WEIGHT)
     rows: NDArray[np.int64] = tree.query(images)[1]
     return rows

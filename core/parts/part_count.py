@@ -90,7 +90,8 @@ class PartCountSearch:
            prefer the first with symmetric parts, up to 1.5k. Its psi may be a little
            lower.
         3. Cut along closed loops of creases, too, or only there, if what that saves in
-           seams outweighs what is lost in psi.
+           seams outweighs what is lost in psi. Or leave the shape whole, if that is
+           better than any of these and Fewest Parts does not ask for more.
 
         Returns
         -------
@@ -100,7 +101,8 @@ class PartCountSearch:
         tried = yield from within(self.tried(), 0.0, 0.9)
         psi_by_k, best_k = self.rated(tried)
         seams = yield from within(self.seams.cut(tried[best_k].parts), 0.9, 1.0)
-        parts = self.creases.better(seams.parts, self.low, self.high)
+        low = self.low if self.low > Parameters.min_parts else 1
+        parts = self.creases.better(seams.parts, low, self.high)
         if parts is not seams.parts:
             seams, best_k = Seams(parts), count_parts(parts)
             psi_by_k |= {best_k: self.partitioner.psi_seen(parts)}

@@ -14,6 +14,7 @@ import sys
 from dataclasses import dataclass
 from itertools import groupby
 
+import bpy  # noqa: F401  # first: it brings mathutils
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 from computed import decompose

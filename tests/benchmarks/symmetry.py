@@ -10,13 +10,14 @@ import numpy as np
 from princeton import overlaps
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
+from weak_convex_decomposition.core.geometry.frames import with_normals
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.sampling import Samples, sample_surface
 from weak_convex_decomposition.core.geometry.symmetry import (
+    NORMAL_WEIGHT,
     Plane,
     likely_normals,
     nearest_images,
-    places,
     plane_between,
 )
 from weak_convex_decomposition.core.steps.progress import run
@@ -83,7 +84,9 @@ class _Reflector:
         self.samples = samples
         self.points = samples.positions[::STEP]
         self.normals = samples.normals[::STEP]
-        self.tree = cKDTree(places(samples.positions, samples.normals))
+        self.tree = cKDTree(
+            with_normals(samples.positions, samples.normals, NORMAL_WEIGHT)
+        )
 
     def improved(self, normal: np.ndarray) -> list[tuple[np.ndarray, float]]:
         """Return rows of the samples at the mirror images, and how well they fit.

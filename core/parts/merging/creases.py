@@ -97,14 +97,14 @@ class CreaseParts:
         high: int,
         *others: NDArray[np.int64],
     ) -> NDArray[np.int64]:
-        """Return the best of other parts, the pieces, and both seams together.
+        """Return the best of other parts, the pieces, both seams, and one part.
 
         Parameters
         ----------
         rivals : (P,) int
             Other parts of each node, `low` to `high`.
         low, high : int
-            Least and largest number of parts.
+            Least and largest number of parts. One part competes only if `low` is 1.
         *others : (P,) int
             More such parts.
 
@@ -119,6 +119,7 @@ class CreaseParts:
             steps = self._partitioner.resized_in_steps(self.parts, n_parts)
             found.append(run(steps))
             found.append(self._with_loops(rivals, high))
+            found.append(np.zeros_like(rivals))
         found = [each for each in found if low <= count_parts(each) <= high]
         return max([rivals, *found], key=self._worth) if found else rivals
 

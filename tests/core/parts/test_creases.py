@@ -63,6 +63,25 @@ def test_the_floor_of_a_pocket_is_no_part():
     assert decompose(mesh, Parameters()).n_parts == 1
 
 
+# Radii and heights of lines around the z axis, up on the outside and down within.
+VESSELS = [
+    ([0, 0.5, 1, 1.2, 1.1, 0.92, 0.45, 0], [0, 0, 0.5, 1, 1, 0.55, 0.12, 0.12]),
+    (
+        [0, 0.5, 0.9, 0.5, 0.6, 0.5, 0.42, 0.8, 0.45, 0],
+        [0, 0, 0.8, 1.8, 2.2, 2.2, 1.8, 0.8, 0.1, 0.1],
+    ),
+]
+
+
+@pytest.mark.parametrize(("radii", "heights"), VESSELS)
+def test_a_shape_stays_whole_if_pieces_are_worse(radii, heights):
+    """Creases run around the inside of a thick bowl and of a vase."""
+    vessel = shapes.turned(radii, heights)
+    assert decompose(vessel, Parameters()).n_parts == 1
+    assert decompose(vessel, Parameters(min_parts=3)).n_parts >= 3
+    assert decompose(vessel, Parameters(parts=2)).n_parts == 2
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 def test_parts_follow_loops_that_cost_little_psi(seed):
     """Psi alone would cut a slice off a pin."""
