@@ -51,20 +51,21 @@ def _modules() -> tuple[Any, ...]:
 
 def _watchers() -> tuple[Any, ...]:
     """Return the modules whose `HANDLERS` Blender calls, until they `stop`."""
+    from .bridge.parts import renaming
     from .running import joins, refine
     from .viewport import picking, show_sight, shown_figures, shown_parts
 
-    return refine, joins, show_sight, shown_parts, shown_figures, picking
+    shown = show_sight, shown_parts, shown_figures, picking
+    return refine, joins, renaming, *shown
 
 
 def register() -> None:
     """Register the operators, the settings, the command and the table's rows."""
-    import bpy
-
+    from .bridge.untranslated import register_class
     from .bridge.watching import watch
 
     for cls in _classes():
-        bpy.utils.register_class(cls)
+        register_class(cls)
     for module in _modules():
         module.register()
     for module in _watchers():

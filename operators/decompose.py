@@ -50,6 +50,7 @@ class WCD_OT_decompose(Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
     _needs_seams = False
+    _settings = RUN
     _refusal = staticmethod(decompose_refusal)
 
     @classmethod

@@ -41,6 +41,7 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
         " one for each part. For the latter, a mesh without parts is decomposed first"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
+    _settings = HULL_RUN
     _refusal = staticmethod(hull_refusal)
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -121,8 +122,9 @@ class WCD_OT_show_hulls(_OnHulls, bpy.types.Operator):
     """Show hulls as transparent or opaque solids, or as wires."""
 
     bl_idname = "wcd.show_hulls"
-    bl_label = "Look of Collision Hulls"
+    bl_label = "Display of Collision Hulls"
     bl_description = "Show hulls as transparent or opaque solids, or as wires"
+    _waits = False
 
     def _work(self, obj: bpy.types.Object) -> None:
         look_like(hulls_of(obj), self.look)

@@ -27,6 +27,7 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
     bl_idname = "wcd.measure"
     bl_label = "Measure Convexity"
     bl_description = "Measure the share of pairs of surface points that see each other"
+    _settings = MEASURE
     _refusal = staticmethod(measure_refusal)
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -55,6 +56,7 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
         "Measure the share of pairs of points on the selected faces that see each"
         " other, as if the faces were a part"
     )
+    _settings = SELECTION
     _refusal = staticmethod(selection_refusal)
 
     def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:

@@ -1,4 +1,4 @@
-"""The settings of a scene: what the sidebar shows and hands to operators; presets."""
+"""The settings of a scene: what the sidebar shows and operators take; presets."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ WCD_OT_use_preset.__annotations__ = {
 
 
 class WCD_PG_settings(bpy.types.PropertyGroup):
-    """The settings of a scene; the sidebar hands them to the operators."""
+    """The settings of a scene; the sidebar shows them, and operators take them."""
 
 
 WCD_PG_settings.__annotations__ = {

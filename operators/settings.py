@@ -149,7 +149,8 @@ def _value(owner: Any, field: Field[Any]) -> Any:
     return float(f"{value:.7g}")
 
 
-def hand_over(settings: Any, button: Any, names: Iterable[str]) -> None:
-    """Copy settings of a scene to the operator of a button."""
+def take_over(settings: Any, operator: Any, names: Iterable[str]) -> None:
+    """Give an operator those settings of a scene that its caller has not set."""
     for name in names:
-        setattr(button, name, getattr(settings, name))
+        if not operator.properties.is_property_set(name):
+            setattr(operator, name, getattr(settings, name))

@@ -49,6 +49,7 @@ class WCD_OT_select_parts(_Show, bpy.types.Operator):
         "Select the faces of the parts that are ticked in the list, or of the"
         " highlighted one. The selection shows in Edit Mode"
     )
+    _waits = False
 
     def _work(self, obj: bpy.types.Object) -> None:
         select_faces(obj, _members(obj), self.extend)
@@ -66,6 +67,7 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
         "Hide the faces of all other parts. Parts that are ticked in the list stay, or"
         " the highlighted one. In Object Mode a modifier hides them, in viewports only"
     )
+    _waits = False
 
     @classmethod
     def description(
@@ -106,6 +108,7 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
         " one"
     )
     bl_options: ClassVar[set[str]] = set()
+    _waits = False
     _refusal = staticmethod(edit_refusal)
 
     @classmethod
@@ -127,6 +130,7 @@ class WCD_OT_select_boundary(_Show, bpy.types.Operator):
     bl_idname = "wcd.select_boundary"
     bl_label = "Select Boundary of Convex Parts"
     bl_description = "Select the edges where parts meet"
+    _waits = False
 
     def _work(self, obj: bpy.types.Object) -> None:
         labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)

@@ -76,6 +76,7 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
         "Move the parts away from the center with a modifier. The mesh itself does not"
         " change"
     )
+    _waits = False
 
     def _work(self, obj: bpy.types.Object) -> None:
         bring_in_step(obj)
@@ -101,6 +102,7 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
     bl_idname = "wcd.implode"
     bl_label = "End Exploded View"
     bl_description = "Remove the modifier of the exploded view"
+    _waits = False
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:

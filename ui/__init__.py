@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..operators.bridge.untranslated import register_class
 from . import menus, part_drawing, sight_drawing
 from .chart import WCD_PT_chart
 from .edit_panel import WCD_PT_edit
@@ -46,7 +47,7 @@ def is_registered() -> bool:
 def register() -> None:
     """Register the classes, the submenu and the drawing; operators come before."""
     for cls in CLASSES:
-        bpy.utils.register_class(cls)
+        register_class(cls)
     menus.register()
     sight_drawing.register()
     part_drawing.register()

@@ -51,7 +51,7 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
             split = column.split(factor=_NUMBER, align=True)
             icon = "SOLO_ON" if k == best else "SOLO_OFF" if k in good else "NONE"
             _draw_number(split, k, result, icon)
-            split.progress(factor=gain, text=f"{gain:.0%}")
+            split.progress(factor=gain, text=f"{gain:.0%}", translate=False)
 
 
 def _draw_number(

@@ -69,9 +69,9 @@ class WCD_PT_edit(Sidebar, bpy.types.Panel):
         row = _labelled(column, "All Seams")
         row.operator("wcd.mark_seams", text="Mark")
         row.operator("wcd.unmark_seams", text="Unmark")
-        row = _labelled(column, "Mirror All")
-        row.operator("wcd.mirror_parts", text="To -X").direction = "TO_NEGATIVE"
-        row.operator("wcd.mirror_parts", text="To +X").direction = "TO_POSITIVE"
+        row = _labelled(column, "Mirror to")
+        row.operator("wcd.mirror_parts", text="-X").direction = "TO_NEGATIVE"
+        row.operator("wcd.mirror_parts", text="+X").direction = "TO_POSITIVE"
 
 
 def acted_on(obj: bpy.types.Object) -> list[str]:
@@ -102,5 +102,5 @@ def fitting(verb: str, names: Sequence[str], room: float) -> str:
 def _labelled(layout: bpy.types.UILayout, text: str) -> bpy.types.UILayout:
     """Draw a text, and return a row for the buttons behind it."""
     split = layout.split(factor=_BEFORE, align=True)
-    split.label(text=text)
+    split.label(text=text, translate=False)
     return split.row(align=True)

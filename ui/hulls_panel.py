@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..operators.settings import HULL_RUN, HULLS, draw, hand_over, other_error
+from ..operators.settings import HULLS, draw, other_error
 from ..operators.viewport.shown_figures import shown_figures
 from .sidebar import (
     OUT_OF_DATE,
@@ -45,10 +45,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         other = other_error(settings, obj) if obj else None
         if other:
             line(layout, *other)
-        button = layout.operator(
-            "wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE"
-        )
-        hand_over(settings, button, HULL_RUN)
+        layout.operator("wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE")
         result = result_of(context.active_object).get("hulls", {})
         hulls = hull_rows_of(context.active_object) if result else []
         if not hulls:
@@ -140,4 +137,4 @@ def _columns(
     for text in (vertices, error):
         cell = numbers.row()
         cell.alignment = "RIGHT"
-        cell.label(text=text)
+        cell.label(text=text, translate=False)

@@ -7,12 +7,11 @@ from typing import Any, TypeAlias
 import bpy
 
 from ..operators.bridge.views.isolating import isolating
-from ..operators.settings import HULL_RUN, MEASURE, RUN, SELECTION, hand_over
 from .sidebar import draw_choices
 
-# How an operator is drawn: with the settings that it takes from the scene, with the
-# property that its submenu offers, or with a text and the values of properties.
-_How: TypeAlias = tuple[str, ...] | str | dict[str, Any]
+# How an operator is drawn: with the property that its submenu offers, or with a text
+# and the values of properties.
+_How: TypeAlias = str | dict[str, Any]
 # What a menu holds, in its order: operators; names of submenus; and None for a line
 # between groups.
 _Entries: TypeAlias = tuple[tuple[str, _How] | str | None, ...]
@@ -37,7 +36,7 @@ class _Entered:
             elif isinstance(entry, str):
                 layout.menu(entry)
             else:
-                _draw_entry(layout, context.scene.wcd, *entry)
+                _draw_entry(layout, *entry)
 
 
 class WCD_MT_parts(_Entered, bpy.types.Menu):
@@ -45,20 +44,20 @@ class WCD_MT_parts(_Entered, bpy.types.Menu):
 
     bl_label = "Convex Parts"
     _entries = (
-        ("wcd.decompose", RUN),
-        ("wcd.measure", MEASURE),
-        ("wcd.measure_selection", SELECTION),
+        ("wcd.decompose", {}),
+        ("wcd.measure", {}),
+        ("wcd.measure_selection", {}),
         None,
         "WCD_MT_edit",
         "WCD_MT_view",
         "WCD_MT_use",
         "WCD_MT_hulls",
         None,
-        ("wcd.show_sight", SELECTION),
-        ("wcd.hide_sight", ()),
+        ("wcd.show_sight", {}),
+        ("wcd.hide_sight", {}),
         ("wcd.show_picture", "picture"),
         None,
-        ("wcd.clear", ()),
+        ("wcd.clear", {}),
     )
 
 
@@ -67,18 +66,18 @@ class WCD_MT_edit(_Entered, bpy.types.Menu):
 
     bl_label = "Edit Parts"
     _entries = (
-        ("wcd.merge_parts", ()),
+        ("wcd.merge_parts", {}),
         ("wcd.split_parts", {"text": "Split Convex Parts in Two", "parts": 2}),
         ("wcd.split_parts", {"text": "Split Convex Parts by ψ", "parts": 0}),
-        ("wcd.assign_faces", ()),
-        ("wcd.smooth_seams", ()),
+        ("wcd.assign_faces", {}),
+        ("wcd.smooth_seams", {}),
         ("wcd.mirror_parts", "direction"),
         None,
-        ("wcd.rename_part", ()),
+        ("wcd.rename_part", {}),
         ("wcd.rename_parts", {"text": "Rename All Convex Parts"}),
-        ("wcd.lock_parts", ()),
+        ("wcd.lock_parts", {}),
         None,
-        ("wcd.refresh_parts", ()),
+        ("wcd.refresh_parts", {}),
     )
 
 
@@ -87,16 +86,16 @@ class WCD_MT_view(_Entered, bpy.types.Menu):
 
     bl_label = "Pick, Select and View"
     _entries = (
-        ("wcd.pick_parts", ()),
-        ("wcd.select_parts", ()),
-        ("wcd.select_boundary", ()),
-        ("wcd.frame_parts", ()),
+        ("wcd.pick_parts", {}),
+        ("wcd.select_parts", {}),
+        ("wcd.select_boundary", {}),
+        ("wcd.frame_parts", {}),
         None,
         ("wcd.isolate_parts", {"hide": True}),
         ("wcd.isolate_parts", {"text": "Show All Convex Parts", "hide": False}),
         None,
-        ("wcd.mark_seams", ()),
-        ("wcd.unmark_seams", ()),
+        ("wcd.mark_seams", {}),
+        ("wcd.unmark_seams", {}),
     )
 
 
@@ -106,12 +105,12 @@ class WCD_MT_use(_Entered, bpy.types.Menu):
     bl_label = "Use the Parts"
     _entries = (
         ("wcd.separate", "original"),
-        ("wcd.explode", ()),
-        ("wcd.implode", ()),
+        ("wcd.explode", {}),
+        ("wcd.implode", {}),
         None,
         ("wcd.show_colors", "colors"),
-        ("wcd.face_sets", ()),
-        ("wcd.color_attribute", ()),
+        ("wcd.face_sets", {}),
+        ("wcd.color_attribute", {}),
     )
 
 
@@ -120,11 +119,11 @@ class WCD_MT_hulls(_Entered, bpy.types.Menu):
 
     bl_label = "Collision Hulls"
     _entries = (
-        ("wcd.build_hulls", HULL_RUN),
+        ("wcd.build_hulls", {}),
         ("wcd.make_rigid", "kind"),
         ("wcd.show_hulls", "look"),
         None,
-        ("wcd.remove_hulls", ()),
+        ("wcd.remove_hulls", {}),
     )
 
 
@@ -157,19 +156,15 @@ class WCD_MT_pick(bpy.types.Menu):
         )
 
 
-def _draw_entry(
-    layout: bpy.types.UILayout, settings: bpy.types.AnyType, name: str, how: _How
-) -> None:
+def _draw_entry(layout: bpy.types.UILayout, name: str, how: _How) -> None:
     """Draw the button of an operator, or the submenu of its choices."""
     if isinstance(how, str):
         draw_choices(layout, name, how)
-    elif isinstance(how, dict):
-        text = {key: value for key, value in how.items() if key == "text"}
-        button = layout.operator(name, **text)
-        for key in how.keys() - {"text"}:
-            setattr(button, key, how[key])
-    else:
-        hand_over(settings, layout.operator(name), how)
+        return
+    text = {key: value for key, value in how.items() if key == "text"}
+    button = layout.operator(name, **text)
+    for key in how.keys() - {"text"}:
+        setattr(button, key, how[key])
 
 
 def _draw_submenu(menu: bpy.types.Menu, context: bpy.types.Context) -> None:

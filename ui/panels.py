@@ -12,7 +12,7 @@ from ..operators.bridge.read.shown_mesh import differs
 from ..operators.bridge.work.libraries import load_while_idle
 from ..operators.running import modal as running
 from ..operators.running.modal import Running
-from ..operators.settings import ADVANCED, FRONT, MEASURE, RUN, draw, hand_over
+from ..operators.settings import ADVANCED, FRONT, draw
 from ..operators.viewport.shown_figures import is_of_now, shown_figures
 from .parts_table import draw_table
 from .sidebar import (
@@ -74,13 +74,12 @@ class WCD_PT_main(Sidebar, bpy.types.Panel):
             _progress(row, running.current)
         else:
             row = row.split(factor=0.7, align=True)
-            button = row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
-            hand_over(settings, button, RUN)
+            row.operator("wcd.decompose", text="Decompose", icon="MOD_EXPLODE")
             live = row.row(align=True)
             live.active = bpy.ops.wcd.decompose.poll()
             live.prop(settings, "live", toggle=True)
         row = layout.row(align=True)
-        hand_over(settings, row.operator("wcd.measure", text="Measure"), MEASURE)
+        row.operator("wcd.measure", text="Measure")
         row.operator("wcd.clear", text="Clear")
 
 
@@ -139,7 +138,7 @@ def _progress(row: bpy.types.UILayout, run: Running) -> None:
     """Draw the progress of a computation, and the button that stops it."""
     progress = run.job.progress
     split = row.split(factor=0.7)
-    split.progress(factor=progress.fraction, text=progress.stage)
+    split.progress(factor=progress.fraction, text=progress.stage, translate=False)
     split.operator("wcd.cancel", text="Cancel")
 
 
@@ -148,7 +147,7 @@ def _draw_parts(layout: bpy.types.UILayout, settings: bpy.types.AnyType) -> None
     split = layout.split(factor=LABELS)
     label = split.row()
     label.alignment = "RIGHT"
-    label.label(text="Parts")
+    label.label(text="Parts", translate=False)
     row = split.row(align=True)
     if not settings.auto_parts:
         row.prop(settings, "parts", text="")
@@ -160,7 +159,7 @@ def _draw_quality(layout: bpy.types.UILayout, result: dict[str, Any]) -> None:
     alpha = result["parameters"]["alpha"]
     word = quality_word(result["psi"], result["psi_before"], alpha)
     split = layout.split(factor=LABELS)
-    split.label(text="Quality")
+    split.label(text="Quality", translate=False)
     row = split.row()
     row.alignment = "LEFT"
     row.operator("wcd.tell_quality", text=word, emboss=False)

@@ -10,6 +10,7 @@ import bpy
 
 from ..operators.bridge.parts.figures import PartFigures
 from ..operators.bridge.views.isolating import isolating
+from ..operators.running import modal
 from ..operators.viewport import picking
 from ..operators.viewport.shown_figures import shown_figures
 from .sidebar import hull_rows_of, hull_rows_of_now, width_of
@@ -28,7 +29,7 @@ _REST = 122
 # A unit of width in Blender's layouts.
 _UNIT = 20
 # The columns that are left out where there is no room, in this order.
-_GO_FIRST = ("Area", "Faces", "Hull")
+_GO_FIRST = ("Area", "Faces", "Hull", "Rank")
 
 
 class WCD_UL_parts(bpy.types.UIList):
@@ -62,7 +63,9 @@ class WCD_UL_parts(bpy.types.UIList):
         for name in headings(hull_rows_of(obj), width_of(context), len(obj.wcd_parts)):
             _cell(line, name, texts[name])
         lock = "LOCKED" if row.locked else "UNLOCKED"
-        line.prop(row, "locked", text="", icon=lock, emboss=False)
+        cell = line.row()
+        cell.enabled = modal.busy() is None  # what runs does not look at it any more
+        cell.prop(row, "locked", text="", icon=lock, emboss=False)
 
     def filter_items(
         self, context: bpy.types.Context, obj: bpy.types.Object, name: str
@@ -132,7 +135,7 @@ def _cell(line: bpy.types.UILayout, name: str, text: str) -> None:
     cell = line.row()
     cell.ui_units_x = _WIDTHS[name] / _UNIT
     cell.alignment = "RIGHT"
-    cell.label(text=text)
+    cell.label(text=text, translate=False)
 
 
 def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) -> None:
@@ -149,7 +152,7 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
         button.hide = False
     heading = layout.row(align=True)
     heading.label(text="", icon="BLANK1")
-    heading.label(text="Part")
+    heading.label(text="Part", translate=False)
     n_rows = len(obj.wcd_parts)
     for name in headings(hull_rows_of(obj), width, n_rows):
         _cell(heading, name, name)

@@ -86,14 +86,14 @@ def paragraph(
     column = layout.column(align=True)
     column.scale_y = 0.8
     for number, words in enumerate(textwrap.wrap(text, max(width, 10))):
-        column.label(text=words, icon="BLANK1" if number else icon)
+        column.label(text=words, icon="BLANK1" if number else icon, translate=False)
 
 
 def line(layout: bpy.types.UILayout, name: str, value: str) -> None:
     """Draw a name and a value."""
     split = layout.split(factor=LABELS)
-    split.label(text=name)
-    split.label(text=value)
+    split.label(text=name, translate=False)
+    split.label(text=value, translate=False)
 
 
 def draw_choices(

@@ -9,7 +9,6 @@ import bpy
 from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.views.colors import CHOICES, MATERIALS, OVERLAY
 from ..operators.bridge.views.exploding import exploding, slider
-from ..operators.settings import SELECTION, hand_over
 from ..operators.viewport import sight_overlay
 from .sidebar import Sidebar, draw_choices, line, rank_text, result_of
 
@@ -53,11 +52,9 @@ class WCD_PT_why(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the panel."""
         layout = self.layout
-        settings = context.scene.wcd
-        _lines_of_sight(layout, settings)
+        _lines_of_sight(layout)
         if context.mode == "EDIT_MESH":
-            button = layout.operator("wcd.measure_selection", text="Measure Selection")
-            hand_over(settings, button, SELECTION)
+            layout.operator("wcd.measure_selection", text="Measure Selection")
         obj = context.active_object
         measured = result_of(obj).get("selection")
         if measured:
@@ -88,23 +85,22 @@ def _exploded_view(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         row.operator("wcd.explode", text="Exploded View", icon="MOD_EXPLODE")
         return
     owner, path = slider(modifier)
-    row.prop(owner, path, text="Exploded View", slider=True)
+    row.prop(owner, path, text="Exploded View", slider=True, translate=False)
     row.operator("wcd.implode", text="", icon="X")
 
 
-def _lines_of_sight(layout: bpy.types.UILayout, settings: bpy.types.AnyType) -> None:
+def _lines_of_sight(layout: bpy.types.UILayout) -> None:
     """Draw the button that shows lines of sight, or hides them."""
     overlay = sight_overlay.current
     if overlay is None:
-        button = layout.operator(
-            "wcd.show_sight", text="Lines of Sight", icon="HIDE_OFF"
-        )
-        hand_over(settings, button, SELECTION)
+        layout.operator("wcd.show_sight", text="Lines of Sight", icon="HIDE_OFF")
         return
     layout.operator(
         "wcd.hide_sight", text="Lines of Sight", icon="HIDE_OFF", depress=True
     )
     if overlay.share is None:
-        layout.label(text="Click the surface", icon="RESTRICT_SELECT_OFF")
+        layout.label(
+            text="Click the surface", icon="RESTRICT_SELECT_OFF", translate=False
+        )
     else:
         line(layout, "Sees", f"{overlay.share:.0%} of the surface")

@@ -182,8 +182,9 @@ def check_surface(vertices: NDArray[Any], n_triangles: int) -> None:
         )
     if not np.isfinite(vertices).all():
         raise DecompositionError(
-            "The mesh has coordinates that are not finite numbers; delete or"
-            " repair those vertices (Mesh > Clean Up)."
+            "The mesh has coordinates that are not finite numbers; replace them. In"
+            " Blender, `bpy.context.object.data.validate()` in the Python Console sets"
+            " them to 0."
         )
 
 

@@ -57,13 +57,16 @@ def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
 def library_refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
     """Return why an object, or its mesh, cannot be changed."""
     changed = (obj, obj.data) if writes_mesh else (obj,)
+    what = obj.name
     if not all(each.is_editable for each in changed):
         reason = "is linked from a library and cannot be changed"
+        if obj.is_editable:
+            what = f"The {'point cloud' if is_cloud(obj) else 'mesh'} of {what}"
     elif writes_mesh and any(each.override_library for each in changed):
         reason = "is an override of a library, which cannot keep parts"
     else:
         return None
-    return f"{obj.name} {reason}; make it local first (Object > Relations > Make Local)"
+    return f"{what} {reason}; make it local first (Object > Relations > Make Local)"
 
 
 def measure_refusal(obj: Candidate) -> str | None:

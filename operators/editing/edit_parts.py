@@ -25,11 +25,15 @@ from ..running.computation import Replacement
 from ..settings import properties_for
 
 
-def scope(default: str) -> Any:
-    """Return the property that says whose seams are meant, "CHOSEN" or "ALL" parts'."""
+def scope(
+    default: str,
+    name: str = "Seams Of",
+    description: str = "The parts whose seams are meant",
+) -> Any:
+    """Return the property that says which parts are meant, "CHOSEN" or "ALL"."""
     return bpy.props.EnumProperty(
-        name="Seams Of",
-        description="The parts whose seams are meant",
+        name=name,
+        description=description,
         items=(
             (
                 "CHOSEN",

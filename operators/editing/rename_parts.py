@@ -44,6 +44,7 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
         " replace. The two parts of a pair, .L and .R, keep one name"
     )
     _refusal = staticmethod(edit_refusal)
+    _waits = False  # runs take names as they are at their end
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the names."""
@@ -68,7 +69,7 @@ class WCD_OT_rename_parts(OnActive, OnEach, bpy.types.Operator):
         try:
             bases = self._bases(rows)
         except DecompositionError as error:
-            layout.label(text=str(error), icon="ERROR")
+            layout.label(text=str(error), icon="ERROR", translate=False)
             return
         flow = layout.column_flow(columns=math.ceil(len(rows) / _ROWS))
         for place, (row, base) in enumerate(zip(rows, bases, strict=True)):
@@ -115,7 +116,7 @@ WCD_OT_rename_parts.__annotations__ = {
         name="Replace", description="Text that takes its place"
     ),
     "names": bpy.props.CollectionProperty(type=WCD_PG_new_name, options={"SKIP_SAVE"}),
-    "scope": scope("ALL"),
+    "scope": scope("ALL", "Names Of", "The parts that are renamed"),
 }
 
 CLASSES: tuple[Any, ...] = (WCD_PG_new_name, WCD_OT_rename_parts)

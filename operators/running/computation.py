@@ -14,6 +14,7 @@ from ..bridge.read.carrier import discard_waiting
 from ..bridge.read.target import Target
 from ..bridge.work.computing import summary
 from ..bridge.work.run_edit import Edited
+from ..settings import take_over
 from . import modal
 from .on_objects import OnActive, OnObjects
 
@@ -28,13 +29,17 @@ class Computation(OnObjects):
     done. `_commit(obj, value)` writes the value of the steps to the object, and returns
     the figures in a line.
 
-    Buttons invoke the operator; scripts and Adjust Last Operation execute it. All
-    results are written at the end. If an object fails, it is reported and left out.
+    Buttons, menus and shortcuts invoke the operator; it takes the settings of the scene
+    then, but for those that a shortcut sets. Scripts and Adjust Last Operation execute
+    it. All results are written at the end. If an object fails, it is reported and left
+    out.
     """
 
     # Whether `invoke` reports at once that nothing can be done: what a timer invokes
     # has no window to report to until it runs.
     _reports_at_once = True
+    # The names of the settings that it takes from the scene.
+    _settings: tuple[str, ...] = ()
     # Whether it runs in a window, which stays alive.
     _in_window = False
 
@@ -50,6 +55,7 @@ class Computation(OnObjects):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to compute while the window stays alive."""
         self._in_window = True
+        take_over(context.scene.wcd, self, self._settings)
         works = self._read(context)
         errors = [work for work in works if isinstance(work, DecompositionError)]
         if self._reports_at_once and len(errors) == len(works):
@@ -70,11 +76,6 @@ class Computation(OnObjects):
     def cancel(self, context: bpy.types.Context) -> None:
         """Stop: Blender closes the window or loads another file."""
         modal.stop()
-
-    @classmethod
-    def _obstacle(cls, context: bpy.types.Context) -> str | None:
-        """Return what else is running, or why nothing can be done."""
-        return modal.busy() or super()._obstacle(context)
 
     def _go_on(self, event: bpy.types.Event) -> set[str]:
         """Take an event; write the results once all is computed."""
@@ -121,7 +122,7 @@ class Computation(OnObjects):
                     raise outcome
                 figures = self._commit(find(target), outcome)
             except DecompositionError as error:
-                failures.append(f"{self._title}{error}")
+                failures.append((name, str(error)))
                 continue
             self._warn(outcome.notes)
             seconds = time.perf_counter() - self._started

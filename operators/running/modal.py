@@ -15,7 +15,6 @@ import bpy
 
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
-from .on_objects import is_free
 
 # Seconds of work in a slice; the window takes the user's input after it. Steps end some
 # 20 ms late, 75 on a mesh of a million faces.
@@ -171,7 +170,9 @@ class WCD_OT_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether anything is running."""
-        return is_free(cls, None if current else "Nothing is running that could stop")
+        if current is None:
+            cls.poll_message_set("Nothing is running that could stop")
+        return current is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Stop it."""

@@ -10,6 +10,7 @@ import bpy
 from ...core.errors import DecompositionError
 from ..bridge.hulls.listed import is_hull
 from ..bridge.refusals import rough_refusal
+from . import modal
 
 if TYPE_CHECKING:  # at run time the whole operator has this base, and its halves not
     from bpy.types import Operator
@@ -17,20 +18,28 @@ else:
     Operator = object
 
 
+# How many objects that failed are named in one sentence.
+_NAMED = 4
+
+
 class OnObjects(Operator):
     """Half an operator on the selected objects.
 
     The other half has `_refusal(obj)`, which returns why an object cannot be worked on.
-    It waits for the seams of parts, unless it replaces or removes the parts.
+    It waits for the seams of parts, unless it replaces or removes the parts. It also
+    waits while something is computed, unless it only selects or shows something: what
+    is written at the end would undo what it did.
     """
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     _needs_seams = True
+    _waits = True
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is an object to work on."""
-        return is_free(cls, cls._obstacle(context))
+        busy = modal.busy() if cls._waits else None
+        return is_free(cls, busy or cls._obstacle(context))
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
@@ -86,17 +95,22 @@ class OnObjects(Operator):
         return sorted(chosen, key=lambda obj: bool(obj != active))
 
     def _conclude(
-        self, failures: Sequence[str], n_objects: int, late: bool = False
+        self, failures: Sequence[tuple[str, str]], n_objects: int, late: bool = False
     ) -> set[str]:
-        """Report the failures among `n_objects`; return the answer of the operator.
+        """Report which of `n_objects` failed, and why; return the operator's answer.
 
         Scripts get an error as an exception. So failures are errors only if nothing was
         done; otherwise they are warnings. So are those that come `late`, while the user
         does something else: an error opens a popup, which would take the next key.
+
+        The status bar shows the last report only. So one more names all that failed.
         """
         none_done = len(failures) == n_objects
-        for failure in failures:
-            self.report({"ERROR" if none_done and not late else "WARNING"}, failure)
+        kind = {"ERROR" if none_done and not late else "WARNING"}
+        for name, error in failures:
+            self.report(kind, f"{name}: {error}" if n_objects > 1 else error)
+        if len(failures) > 1 and kind == {"WARNING"}:
+            self.report(kind, _all_failed([name for name, _ in failures], n_objects))
         return {"CANCELLED" if none_done else "FINISHED"}
 
 
@@ -122,9 +136,15 @@ class OnEach(OnObjects):
             try:
                 self._work(obj)
             except DecompositionError as error:
-                title = f"{obj.name}: " if objects[1:] else ""
-                failures.append(f"{title}{error}")
+                failures.append((obj.name, str(error)))
         return self._conclude(failures, len(objects))
+
+
+def _all_failed(names: Sequence[str], n_objects: int) -> str:
+    """Return which objects failed, in a sentence."""
+    there = ", ".join(names[:_NAMED]) + (" and others" if names[_NAMED:] else "")
+    share = f"{len(names)} of {n_objects} objects failed"
+    return f"{share}: {there}. The Info editor says why."
 
 
 def is_free(operator: type[Operator], obstacle: str | None) -> bool:

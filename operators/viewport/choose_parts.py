@@ -8,7 +8,8 @@ import bpy
 
 from ...core.errors import DecompositionError
 from ..bridge.homes import objects_in
-from ..bridge.parts.rows import active_row, chosen_numbers, noted_refusal
+from ..bridge.parts.renaming import rename_parts
+from ..bridge.parts.rows import active_row, chosen_numbers
 from ..bridge.refusals import edit_refusal
 from ..bridge.work.in_step import bring_in_step
 from ..running.on_objects import OnActive, OnEach, is_free
@@ -123,6 +124,7 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
     bl_idname = "wcd.rename_part"
     bl_label = "Rename Convex Part"
     bl_description = "Rename the highlighted part, its vertex group and its material"
+    _waits = False  # runs take names as they are at their end
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the name."""
@@ -136,9 +138,8 @@ class WCD_OT_rename_part(_OnRows, bpy.types.Operator):
         self.layout.prop(self, "name", text="")
 
     def _work(self, obj: bpy.types.Object) -> None:
-        active_row(obj).name = self.name
-        reason = noted_refusal(obj)
-        if reason:
+        number = active_row(obj).number
+        for reason in rename_parts(obj, {number: self.name.strip()}):
             self.report({"WARNING"}, f"{reason}.")
 
 

@@ -45,6 +45,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
 
     _viewer: Any = None  # the `core.PointViewer`, once it is made
 
+    _settings = SELECTION
     _refusal = staticmethod(measure_refusal)
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -25,6 +25,10 @@ from .kept_materials import is_overlaid, mark_group
 from .materials import color_of, discard_unused, own_material, part_slots
 from .palette import Color
 
+# The latest name that was typed and not taken: the object, the number of the part and
+# the name. It is not in Blender's data, because undo would bring it back.
+refused: tuple[int, int, str] | None = None
+
 
 def rename_part(
     obj: bpy.types.Object, number: int, name: str
@@ -42,8 +46,7 @@ def rename_part(
     part = next((each for each in identities if each.number == number), None)
     if restore is None or part is None or name == part.name:
         return name, None
-    taken = {each.name for each in identities if each != part}
-    reason = library_refusal(obj) or name_refusal(name, part.name, taken)
+    reason = _refusal(obj, identities, part, name)
     if reason:
         return part.name, reason
     group = obj.type == "MESH" and obj.vertex_groups.get(part.name)
@@ -51,7 +54,7 @@ def rename_part(
     if group and ours:
         group.name = name
         if group.name != name:
-            reason = f"Another vertex group is called {name}; this one is {group.name}"
+            reason = _clash(name, group.name)
         name = group.name  # with a number if the name is taken
         groups = [name if each == part.name else each for each in restore.groups]
         write_restore(obj.data, replace(restore, groups=groups))
@@ -89,13 +92,55 @@ def rename_parts(obj: bpy.types.Object, names: Mapping[int, str]) -> list[str]:
         others = [other for key, other in after.items() if key != number]
         reason = name_refusal(name, before[number], others)
         if reason:
-            raise DecompositionError(f"{reason}. No part was renamed.")
+            rest = " No part was renamed." if len(names) > 1 else ""
+            raise DecompositionError(f"{reason}.{rest}")
     # First out of each other's way.
     for number, name in names.items():
         if name != before[number] and name in before.values():
             rename_part(obj, number, f"wcd {number}")
     found = [rename_part(obj, number, name) for number, name in names.items()]
     return [reason for _, reason in found if reason]
+
+
+def noted_refusal(obj: bpy.types.Object, number: int) -> str | None:
+    """Return why a part has not the name that was typed latest, while that holds."""
+    if refused is None or refused[:2] != (obj.session_uid, number):
+        return None
+    name, identities = refused[2], identities_of(record_of(obj))
+    part = next((each for each in identities if each.number == number), None)
+    if part is None or part.name == name:
+        return None
+    taken = obj.type == "MESH" and name in obj.vertex_groups
+    clash = _clash(name, part.name) if taken else None
+    return _refusal(obj, identities, part, name) or clash
+
+
+@bpy.app.handlers.persistent
+def forget_refused(*_: object) -> None:
+    """Forget the name that was not taken. Blender passes arguments to handlers."""
+    global refused
+    refused = None
+
+
+stop = forget_refused  # when the extension goes
+HANDLERS = {
+    "undo_post": forget_refused,
+    "redo_post": forget_refused,
+    "load_post": forget_refused,
+}
+
+
+def _refusal(
+    obj: bpy.types.Object, identities: Iterable[Identity], part: Identity, name: str
+) -> str | None:
+    """Return why a part of an object cannot have a name."""
+    taken = {each.name for each in identities if each != part}
+    return library_refusal(obj) or name_refusal(name, part.name, taken)
+
+
+def _clash(name: str, instead: str) -> str:
+    """Return that a name is taken by a group, and which name the part has instead."""
+    return f"Another vertex group is called {name}; this one is {instead}"
 
 
 def color_of_part(obj: bpy.types.Object, number: int) -> Color:

@@ -16,16 +16,14 @@ import bpy
 from ....core.parameters.hulls import SHAPES
 from ..mesh.layers import let_undo_see_all
 from ..stored.identity import Identity
+from ..untranslated import in_english, register_class
+from . import renaming
 from .read import part_identities
-from .renaming import color_of_part, recolor_part, rename_part
 
 # The choice of a part whose hull has the shape that is set for all.
 AS_SET = "AS_SET"
 # The number of a row that is being made.
 _NO_NUMBER = -1
-# Why the latest name that was typed was not taken: the object, the number of the part
-# and a sentence. It is not in Blender's data, because undo would bring it back.
-_refused: tuple[int, int, str] | None = None
 # Seconds for which a row that was clicked shows its part in the viewports.
 _LOOK = 1.5
 # The object whose row was clicked latest, and when, by `time.monotonic`.
@@ -33,15 +31,15 @@ _looked: tuple[int, float] | None = None
 
 
 def _rename(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    global _refused
     obj = row.id_data
     if row.number == _NO_NUMBER:  # it is being made
         return
-    name, reason = rename_part(obj, row.number, row.name.strip())
+    typed = row.name.strip()
+    name, reason = renaming.rename_part(obj, row.number, typed)
     if name != row.name:
         row.name = name  # this asks for the name that the part has, which is no news
     let_undo_see_all(obj)
-    _refused = (obj.session_uid, row.number, reason) if reason else None
+    renaming.refused = (obj.session_uid, row.number, typed) if reason else None
 
 
 def _set(row: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -73,11 +71,12 @@ def _highlight(obj: bpy.types.Object, context: bpy.types.Context) -> None:
 
 
 def _color(row: bpy.types.PropertyGroup) -> tuple[float, float, float]:
-    return color_of_part(row.id_data, row.number)
+    return renaming.color_of_part(row.id_data, row.number)
 
 
 def _recolor(row: bpy.types.PropertyGroup, color: Sequence[float]) -> None:
-    recolor_part(row.id_data, row.number, (color[0], color[1], color[2]))
+    rgb = color[0], color[1], color[2]
+    renaming.recolor_part(row.id_data, row.number, rgb)
     _set(row, bpy.context)
 
 
@@ -161,6 +160,7 @@ def write_rows(
         active = place if before.active else active
     obj.wcd_active_part = active  # last, because ticks move it
     _looked = None  # nobody has clicked it
+    renaming.forget_refused()
 
 
 def erase_rows(obj: bpy.types.Object) -> None:
@@ -222,8 +222,7 @@ def active_row(obj: bpy.types.Object) -> Any:
 def noted_refusal(obj: bpy.types.Object) -> str | None:
     """Return why the highlighted part did not get the name that was typed latest."""
     row = active_row(obj)
-    part = row and (obj.session_uid, row.number)
-    return _refused[2] if _refused is not None and _refused[:2] == part else None
+    return row and renaming.noted_refusal(obj, row.number)
 
 
 def active_part(obj: bpy.types.Object) -> int:
@@ -236,11 +235,12 @@ def active_part(obj: bpy.types.Object) -> int:
 
 def register() -> None:
     """Add the table's properties to objects."""
-    bpy.utils.register_class(WCD_PG_part)
+    register_class(WCD_PG_part)
     bpy.types.Object.wcd_parts = bpy.props.CollectionProperty(type=WCD_PG_part)
-    bpy.types.Object.wcd_active_part = bpy.props.IntProperty(
+    active = bpy.props.IntProperty(
         name="Part", description="The highlighted part", update=_highlight
     )
+    bpy.types.Object.wcd_active_part = in_english(active)
 
 
 def unregister() -> None:

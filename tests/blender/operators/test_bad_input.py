@@ -125,7 +125,7 @@ def test_linked_objects_are_read_only(library, name):
     obj = link(library, "objects", "Suzanne")
     bpy.context.collection.objects.link(obj)
     activate(obj)
-    refused(getattr(bpy.ops.wcd, name), "linked from a library")
+    refused(getattr(bpy.ops.wcd, name), r"poll\(\) Suzanne is linked from a library")
     assert not obj.keys()
 
 
@@ -134,7 +134,7 @@ def test_linked_meshes_are_read_only_but_can_be_measured(library):
     obj = bpy.data.objects.new("local", mesh)
     bpy.context.collection.objects.link(obj)
     activate(obj)
-    refused(bpy.ops.wcd.decompose, "linked from a library")
+    refused(bpy.ops.wcd.decompose, "The mesh of local is linked from a library")
     assert bpy.ops.wcd.measure(**FAST) == {"FINISHED"}
     assert bpy.ops.wcd.clear() == {"FINISHED"}
     assert not obj.keys()

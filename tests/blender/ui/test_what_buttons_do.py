@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import bpy
 import pytest
-from stand_ins.layout import context
+from stand_ins.layout import EDGES, context, drawn
 from weak_convex_decomposition.ui import menus
 from weak_convex_decomposition.ui.edit_panel import WCD_PT_edit
 from weak_convex_decomposition.ui.use_panel import WCD_PT_use
@@ -41,10 +41,14 @@ def values_of(cls, operator, key):
 
 def test_buttons_that_edit_parts(monkey):
     directions = values_of(WCD_PT_edit, "mirror_parts", "direction")
-    assert directions == {"To -X": "TO_NEGATIVE", "To +X": "TO_POSITIVE"}
+    assert directions == {"-X": "TO_NEGATIVE", "+X": "TO_POSITIVE"}
     assert values_of(WCD_PT_edit, "split_parts", "parts") == {"In Two": 2, "By ψ": 0}
     hiding = values_of(WCD_PT_edit, "isolate_parts", "hide")
     assert hiding == {"Isolate 2 Parts": True, "Show All": False}
+
+
+def test_directions_are_told_apart_in_a_narrow_sidebar(monkey):
+    assert not {"-X", "+X", "Mirror to"} & {*drawn(WCD_PT_edit).cut_off(188 - EDGES)}
 
 
 def test_menus_that_edit_and_show_parts(monkey):

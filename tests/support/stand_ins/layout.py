@@ -58,7 +58,8 @@ class Layout:
     def operator_menu_enum(self, name, choice, text="", icon="NONE"):
         return self._text(text, icon)
 
-    def progress(self, factor, text):
+    def progress(self, factor, text, translate=True):
+        self.verbatim |= set() if translate else {text}
         self._text(text, "NONE")
 
     def prop(self, owner, name, text=None, icon="NONE", translate=True, **look):

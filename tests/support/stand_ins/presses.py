@@ -92,7 +92,9 @@ class Pressed:
     """
 
     def __init__(self, cls):
-        vars(self).update(values_of(cls), _cls=cls, reports=[])
+        values = values_of(cls)
+        vars(self).update(values, _cls=cls, reports=[])
+        self.properties = SimpleNamespace(is_property_set=values.__contains__)
 
     @property
     def __class__(self):  # for `super()` in the operator's methods

@@ -52,6 +52,51 @@ def test_a_name_that_is_refused_says_so(pair, name, reason):
     assert noted_refusal(pair) is None
 
 
+def refuse(obj):
+    """Ask for a name that another part has."""
+    obj.wcd_active_part = 0
+    obj.wcd_parts[0].name = "Jaw"
+    assert "Another part is called Jaw" in noted_refusal(obj)
+
+
+def clear_and_decompose(obj):
+    bpy.ops.wcd.clear()
+    decompose_by_hand(obj, 4)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda obj: setattr(obj.wcd_parts[3], "name", "Chin"),
+        lambda obj: bpy.ops.wcd.rename_parts(way="NUMBER", pattern="P#"),
+        lambda obj: decompose_by_hand(obj, 4),
+        clear_and_decompose,
+    ],
+)
+def test_a_refusal_goes_with_its_reason(pair, change):
+    refuse(pair)
+    change(pair)
+    pair.wcd_active_part = 0
+    assert noted_refusal(pair) is None
+
+
+def test_a_refusal_goes_with_undo(pair):
+    bpy.ops.ed.undo_push(message="before")
+    refuse(pair)
+    bpy.ops.ed.undo_push(message="refused")
+    bpy.ops.ed.undo()
+    assert noted_refusal(bpy.context.active_object) is None
+
+
+def test_each_dialog_says_which_parts_it_is_about():
+    scopes = {}
+    for name in ("rename_parts", "smooth_seams", "mark_seams"):
+        rna = getattr(bpy.ops.wcd, name).get_rna_type()
+        scopes[name] = rna.properties["scope"].name
+    assert scopes.pop("rename_parts") == "Names Of"
+    assert set(scopes.values()) == {"Seams Of"}
+
+
 def test_a_name_that_the_users_group_has_gets_a_number_and_says_so(pair):
     pair.vertex_groups.new(name="Skull")
     pair.wcd_active_part = 0

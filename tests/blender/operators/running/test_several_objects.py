@@ -50,6 +50,19 @@ def test_all_selected_objects_are_decomposed_and_no_other():
     assert not decomposed(second)
 
 
+@pytest.mark.parametrize(("n_bad", "named"), [(2, "Bad 0, Bad 1"), (6, "and others")])
+def test_one_warning_names_all_that_failed(capfd, n_bad, named):
+    bad = [mesh_object(f"Bad {n}", [(0, 0, 0)] * 3, [(0, 1, 2)]) for n in range(n_bad)]
+    good = add(0)
+    select(good, *bad)
+    assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
+    said = capfd.readouterr().out
+    assert said.count("Warning: Bad") == n_bad
+    assert f"{n_bad} of {n_bad + 1} objects failed: Bad 0" in said.splitlines()[-1]
+    assert named in said.splitlines()[-1]
+    assert decomposed(good)
+
+
 def test_without_a_window_the_active_object_is_worked_on(suzanne):
     other = add(5)
     select(suzanne, other)

@@ -223,5 +223,9 @@ def test_parts_are_locked_and_renamed(suzanne):
     bpy.ops.wcd.rename_part(name=" Ear ")
     assert suzanne.wcd_parts[1].name == "Ear"
     assert "Ear" in suzanne.vertex_groups
-    bpy.ops.wcd.rename_part(name="Part 01")
+    with pytest.raises(RuntimeError, match=r"is still Ear\.$"):
+        bpy.ops.wcd.rename_part(name="Part 01")
     assert suzanne.wcd_parts[1].name == "Ear"
+    suzanne.vertex_groups.new(name="Horn")
+    assert bpy.ops.wcd.rename_part(name="Horn") == {"FINISHED"}
+    assert suzanne.wcd_parts[1].name == "Horn.001"

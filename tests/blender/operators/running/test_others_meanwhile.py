@@ -1,0 +1,73 @@
+"""What waits while something is computed, and what does not."""
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from hand_made import decompose_by_hand
+from snapshot import snapshot
+from stand_ins.layout import Layout, context
+from stand_ins.presses import TIMER, finish, press
+from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
+
+# What only selects, shows, hides or names something, and what belongs to the run.
+_GO_ON = {
+    *("cancel", "choose_part", "merge_next", "pick_parts", "tell_quality"),
+    *("select_parts", "select_boundary", "frame_parts", "isolate_parts"),
+    *("explode", "implode", "hide_sight", "show_hulls", "use_preset", "recut"),
+    *("rename_part", "rename_parts"),
+}
+
+
+@pytest.fixture
+def running(suzanne, window):
+    """Suzanne in four parts, with hulls, while she is decomposed."""
+    decompose_by_hand(suzanne, 4)
+    bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
+    pressed = press(WCD_OT_decompose, window)
+    pressed.modal(None, TIMER)
+    return pressed
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_what_would_change_the_object_waits(running, suzanne, mode):
+    bpy.ops.object.mode_set(mode=mode)
+    before = snapshot(suzanne)
+    for name in set(dir(bpy.ops.wcd)) - _GO_ON:
+        with pytest.raises(RuntimeError, match="is running; wait for it, or press Esc"):
+            getattr(bpy.ops.wcd, name)()
+    assert snapshot(suzanne) == before
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert finish(running) == {"FINISHED"}
+    assert bpy.ops.wcd.clear() == {"FINISHED"}
+
+
+@pytest.mark.parametrize(
+    "name", ["select_parts", "select_boundary", "isolate_parts", "explode"]
+)
+def test_what_only_selects_or_shows_does_not_wait(running, name):
+    assert getattr(bpy.ops.wcd, name)() == {"FINISHED"}
+    assert finish(running) == {"FINISHED"}
+
+
+def test_names_and_colors_that_are_set_meanwhile_stay(running, suzanne):
+    suzanne.wcd_parts[0].name = "Head"
+    suzanne.wcd_parts[0].color = (1.0, 0.0, 0.0)
+    assert finish(running) == {"FINISHED"}
+    row = next(row for row in suzanne.wcd_parts if row.name == "Head")
+    assert tuple(row.color) == (1.0, 0.0, 0.0)
+
+
+def test_padlocks_wait(running, suzanne):
+    def can_lock():
+        layout, row = Layout(), suzanne.wcd_parts[0]
+        owner = SimpleNamespace(layout=layout)
+        WCD_UL_parts.draw_item(
+            owner, context(), layout, suzanne, row, 0, suzanne, "", 0
+        )
+        return {name: free for _, name, free in layout.properties()}["locked"]
+
+    assert not can_lock()
+    finish(running)
+    assert can_lock()
