@@ -17,7 +17,7 @@ from .bridge.refusals import measure_refusal, selection_refusal
 from .bridge.stored.record import record_if_ours, write_measurement
 from .bridge.work.computing import measure_object
 from .running.computation import Computation
-from .running.on_objects import is_free
+from .running.modal import is_free
 from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
 
 

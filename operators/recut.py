@@ -22,7 +22,8 @@ from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
 from .running.computation import Replacement
-from .running.on_objects import active_object, is_free
+from .running.modal import is_free
+from .running.on_objects import active_object
 from .settings import parameters_from, properties_for
 
 # Seconds that a slider waits for parts, most and least; after that a modal run finds

@@ -68,6 +68,13 @@ def busy() -> str | None:
     return f"{current.title} is running; wait for it, or press Esc"
 
 
+def is_free(operator: type[bpy.types.Operator], obstacle: str | None) -> bool:
+    """Return whether an operator can be called; its button tells of an obstacle."""
+    if obstacle:
+        operator.poll_message_set(obstacle)
+    return obstacle is None
+
+
 def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
     """Start computing in a window; its timer events ask for `advance`."""
     global current
@@ -170,9 +177,7 @@ class WCD_OT_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether anything is running."""
-        if current is None:
-            cls.poll_message_set("Nothing is running that could stop")
-        return current is not None
+        return is_free(cls, None if current else "Nothing is running that could stop")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Stop it."""

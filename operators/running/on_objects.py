@@ -39,7 +39,7 @@ class OnObjects(Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Return whether there is an object to work on."""
         busy = modal.busy() if cls._waits else None
-        return is_free(cls, busy or cls._obstacle(context))
+        return modal.is_free(cls, busy or cls._obstacle(context))
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
@@ -145,13 +145,6 @@ def _all_failed(names: Sequence[str], n_objects: int) -> str:
     there = ", ".join(names[:_NAMED]) + (" and others" if names[_NAMED:] else "")
     share = f"{len(names)} of {n_objects} objects failed"
     return f"{share}: {there}. The Info editor says why."
-
-
-def is_free(operator: type[Operator], obstacle: str | None) -> bool:
-    """Return whether an operator can be called; its button tells of an obstacle."""
-    if obstacle:
-        operator.poll_message_set(obstacle)
-    return obstacle is None
 
 
 def active_object(context: bpy.types.Context) -> Any:

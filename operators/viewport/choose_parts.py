@@ -12,7 +12,8 @@ from ..bridge.parts.renaming import rename_parts
 from ..bridge.parts.rows import active_row, chosen_numbers
 from ..bridge.refusals import edit_refusal
 from ..bridge.work.in_step import bring_in_step
-from ..running.on_objects import OnActive, OnEach, is_free
+from ..running.modal import is_free
+from ..running.on_objects import OnActive, OnEach
 from . import picking
 
 

@@ -12,7 +12,7 @@ from ..bridge.parts.rows import chosen_numbers
 from ..bridge.refusals import edit_refusal, faces_refusal
 from ..bridge.stored.names import RESULT
 from ..running import modal
-from ..running.on_objects import is_free
+from ..running.modal import is_free
 from . import picking
 from .choose_parts import choose_too
 from .part_at import make_tree, part_at

@@ -20,7 +20,8 @@ from ..bridge.watching import changed_objects
 from ..bridge.work.computing import point_viewer_of
 from ..running import modal
 from ..running.computation import Computation
-from ..running.on_objects import OnActive, is_free
+from ..running.modal import is_free
+from ..running.on_objects import OnActive
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
 from .sight_overlay import Overlay

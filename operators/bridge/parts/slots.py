@@ -44,10 +44,10 @@ def put_in_slots(
     tagged = [material.name for material in mesh.materials if is_ours(material)]
     active_slot = obj.active_material_index
     index = int(before[0]) if uniform and before is not None else None
+    noted = {"slots": slots, "index": (index or 0) if uniform else None}
     for material in materials:
         mesh.materials.append(material)
         if not is_cloud(obj):  # clouds share theirs
-            noted = {"slots": slots, "index": (index or 0) if uniform else None}
             write_note(material, FORMER_SLOTS, noted)
     obj.active_material_index = active_slot
     if before is not None and not uniform:
