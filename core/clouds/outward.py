@@ -62,8 +62,7 @@ class _Rows:
         """Return the winding number of each place, (Q,), times a constant."""
         heights = (vectors * self.points).sum(axis=1)
         sums = self.cubes @ np.column_stack([vectors, heights])
-        numbers: Single = sums[:, 3] - (self.places * sums[:, :3]).sum(axis=1)
-        return numbers
+        return sums[:, 3] - (self.places * sums[:, :3]).sum(axis=1)
 
     def slopes(self, missing: Single) -> Single:
         """Return the steepest change (Q, 3) of vectors to reduce `missing` (N,).
@@ -72,16 +71,14 @@ class _Rows:
         """
         moments = missing[:, None] * self.points
         sums = self.cubes @ np.column_stack([moments, missing])
-        slopes: Single = self.places * sums[:, 3:] - sums[:, :3]
-        return slopes
+        return self.places * sums[:, 3:] - sums[:, :3]
 
     def falls(self, vectors: Single) -> Single:
         """Return the negative gradient of the winding number at the places, (Q, 3)."""
         heights = (vectors * self.points).sum(axis=1) - self.places @ vectors.T
         heights *= self.fifths
         there = self.places * heights.sum(axis=1)[:, None]
-        falls: Single = self.cubes @ vectors - heights @ self.points + there
-        return falls
+        return self.cubes @ vectors - heights @ self.points + there
 
 
 def outward_directions(

@@ -145,8 +145,7 @@ def smoothed(
     )
     chords = points[nearest] - points[:, None]
     heights = np.einsum("nkd,nkd->nk", chords, normals[nearest] + normals[:, None]) / 2
-    moved: NDArray[np.float64] = points + heights.mean(axis=1)[:, None] * normals
-    return moved
+    return points + heights.mean(axis=1)[:, None] * normals
 
 
 def splats(
@@ -219,5 +218,4 @@ def _areas_around(
 ) -> NDArray[np.float64]:
     """Return the area (Q,) that a point stands for around each of `probes` (Q, 3)."""
     distances, _ = cKDTree(points).query(probes, _NEIGHBORS + 1)
-    areas: NDArray[np.float64] = np.pi * distances[:, -1] ** 2 / _NEIGHBORS
-    return areas
+    return np.pi * distances[:, -1] ** 2 / _NEIGHBORS

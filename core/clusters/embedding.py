@@ -70,8 +70,7 @@ def embed(
     # The first of the largest entries: symmetric shapes have several of equal size.
     leading = (sizes >= (1 - _SAME) * sizes.max(axis=0)).argmax(axis=0)
     signs = np.sign(vectors[leading, np.arange(n_vectors)])
-    embedding: NDArray[np.float64] = vectors * (signs * values * np.sqrt(n_samples))
-    return embedding
+    return vectors * (signs * values * np.sqrt(n_samples))
 
 
 def _shifted_walk(

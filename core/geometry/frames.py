@@ -108,8 +108,7 @@ def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float
     -------
     (...) float
     """
-    product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return product
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 def distinct_directions(
@@ -153,8 +152,7 @@ def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
         Unit vectors as rows.
     """
     spread = points - points.mean(axis=0)
-    axes: NDArray[np.float64] = np.linalg.eigh(spread.T @ spread)[1].T
-    return axes
+    return np.linalg.eigh(spread.T @ spread)[1].T
 
 
 def heights_above(
@@ -172,8 +170,7 @@ def heights_above(
     -------
     (M, P) float
     """
-    heights: NDArray[np.float64] = points @ planes[:, :3].T + planes[:, 3]
-    return heights
+    return points @ planes[:, :3].T + planes[:, 3]
 
 
 def with_normals(

@@ -115,15 +115,13 @@ class TriangleMesh:
             columns = [self.vertices[kept, axis] for axis in range(3)]
             low, high = np.array([(each.min(), each.max()) for each in columns]).T
             self.__dict__["bounds"] = low, high
-        found: tuple[NDArray[np.float64], NDArray[np.float64]] = self.__dict__["bounds"]
-        return found
+        return self.__dict__["bounds"]
 
     @property
     def center(self) -> NDArray[np.float64]:
         """Center of the bounding box, (3,)."""
         low, high = self.bounds
-        center: NDArray[np.float64] = (high + low) / 2
-        return center
+        return (high + low) / 2
 
     @cached_property
     def diagonal(self) -> float:
@@ -191,15 +189,13 @@ class TriangleMesh:
             steps = welded(self.vertices, self.triangles, step)
             places = yield from within(steps, 0.2, 1.0)
             self.__dict__["welded_triangles"] = places
-        found: NDArray[np.int32] = self.__dict__["welded_triangles"]
-        return found
+        return self.__dict__["welded_triangles"]
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(T,) areas of the triangles."""
         run(self.normals_in_steps())
-        areas: NDArray[np.float64] = self.__dict__["areas"]
-        return areas
+        return self.__dict__["areas"]
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:
@@ -228,8 +224,7 @@ class TriangleMesh:
                 normals[rows] = crosses / lengths[:, None]
             areas.flags.writeable = normals.flags.writeable = False
             self.__dict__.update(areas=areas, normals=normals)
-        found: NDArray[np.float64] = self.__dict__["normals"]
-        return found
+        return self.__dict__["normals"]
 
 
 def _kept(array: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:

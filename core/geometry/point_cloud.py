@@ -74,8 +74,7 @@ class PointCloud:
     def center(self) -> NDArray[np.float64]:
         """Center of the bounding box, (3,)."""
         low, high = self.bounds
-        center: NDArray[np.float64] = (low + high) / 2
-        return center
+        return (low + high) / 2
 
     @property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -196,5 +195,4 @@ def _unit_normals(normals: NDArray[np.float64], n_points: int) -> NDArray[np.flo
             "The point cloud has normals that are zero or not finite numbers; delete"
             " those points, or the normals to have them estimated."
         )
-    unit: NDArray[np.float64] = normals / lengths
-    return unit
+    return normals / lengths

@@ -181,11 +181,9 @@ class CollisionShape:
             beyond = np.stack([around - radius, local[:, 2] - half], axis=1)
         else:  # all points at one distance from a segment
             local[:, 2] = np.maximum(local[:, 2] - half, 0.0)
-            rounded: NDArray[np.float64] = np.linalg.norm(local, axis=1) - radius
-            return rounded
+            return np.linalg.norm(local, axis=1) - radius
         away = np.linalg.norm(np.maximum(beyond, 0.0), axis=1)
-        flat: NDArray[np.float64] = away + np.minimum(beyond.max(axis=1), 0.0)
-        return flat
+        return away + np.minimum(beyond.max(axis=1), 0.0)
 
     @property
     def bounds(self) -> NDArray[np.float64]:

@@ -211,5 +211,4 @@ def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
     extent = float((points.max(axis=0) - low).max()) or 1.0
     cells = ((points - low) / extent * (2**_CURVE_BITS - 1)).astype(np.int64)
     x, y, z = _SPREAD[cells.T]
-    codes: NDArray[np.int64] = x | y << 1 | z << 2
-    return codes
+    return x | y << 1 | z << 2

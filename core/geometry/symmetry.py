@@ -47,8 +47,7 @@ class Plane:
         ----------
         points : (N, 3) float
         """
-        heights: NDArray[np.float64] = points @ self.normal - self.offset
-        return heights
+        return points @ self.normal - self.offset
 
     def mirrored(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the mirror images of points, (N, 3) float.
@@ -240,5 +239,4 @@ def nearest_images(
     upright = Plane(plane.normal, 0.0)
     turned = upright.mirrored(normals)
     images = with_normals(plane.mirrored(points), turned, NORMAL_WEIGHT)
-    rows: NDArray[np.int64] = tree.query(images)[1]
-    return rows
+    return tree.query(images)[1]

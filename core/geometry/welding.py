@@ -154,5 +154,4 @@ def _united(
             np.minimum.at(lowest, end, lower)
     is_first = lowest == np.arange(len(lowest))
     numbers = np.cumsum(is_first, dtype=np.int32) - 1
-    united: NDArray[np.int32] = numbers[lowest[place_of]]
-    return united
+    return numbers[lowest[place_of]]

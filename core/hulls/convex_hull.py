@@ -189,8 +189,7 @@ def _deepest(hull: Hull) -> NDArray[np.float64]:
         -offsets,
         bounds=[(None, None)] * 3 + [(0, None)],
     )
-    center: NDArray[np.float64] = found.x[:3]
-    return center
+    return found.x[:3]
 
 
 def _farthest_out(

@@ -117,8 +117,7 @@ class Solid:
     @cached_property
     def samples_of_chords(self) -> NDArray[np.int64]:
         """Row of the sample that is nearest to each chord, (C,)."""
-        rows: NDArray[np.int64] = cKDTree(self.samples).query(self.chords)[1]
-        return rows
+        return cKDTree(self.samples).query(self.chords)[1]
 
     def volume_in(self, shape: CollisionShape) -> float:
         """Return about how much of a collision shape is inside.

@@ -101,8 +101,7 @@ def info_of(parameter_field: Field[Any]) -> ParameterInfo:
     -------
     ParameterInfo
     """
-    info: ParameterInfo = parameter_field.metadata["info"]
-    return info
+    return parameter_field.metadata["info"]
 
 
 def field_of(kind: type, name: str) -> Field[Any]:

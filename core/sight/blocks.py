@@ -206,8 +206,7 @@ def _turns(rows: slice, columns: slice) -> NDArray[np.uint16]:
         np.arange(each.start, each.stop).astype(np.uint16) * stride
         for each, stride in zip((rows, columns), _STRIDES, strict=True)
     )
-    turns: NDArray[np.uint16] = np.add.outer(down, across)
-    return turns
+    return np.add.outer(down, across)
 
 
 def _weights_of_neighbors(samples: Samples, diagonal: float) -> sparse.csr_array:

@@ -113,8 +113,7 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
 
 def _grown(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return cells (X, Y, Z), and all that are at most two cells away from them."""
-    grown: NDArray[np.bool_] = ndimage.binary_dilation(cells, np.ones((5, 5, 5)))
-    return grown
+    return ndimage.binary_dilation(cells, np.ones((5, 5, 5)))
 
 
 class _Hits:
@@ -146,8 +145,7 @@ class _Hits:
         single wall, no more than half of the rays meet it near by.
         """
         in_gap = 2 * self.near > self.n_cast
-        outside: NDArray[np.bool_] = (self.front >= self.back) & ~in_gap
-        return outside
+        return (self.front >= self.back) & ~in_gap
 
     def hidden(self, share: float) -> NDArray[np.bool_]:
         """Return the points outside from which at least this share hits the shape."""
@@ -218,5 +216,4 @@ def _enclosed(
     found = np.unique(containers[outside & (shares >= _ENCLOSED)])
     enclosed = np.isin(containers, found[found > 0])
     # Add one layer of cells, up to the rim, where half of the rays leave.
-    dilated: NDArray[np.bool_] = ndimage.binary_dilation(enclosed) & outside
-    return dilated
+    return ndimage.binary_dilation(enclosed) & outside

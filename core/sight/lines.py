@@ -83,8 +83,7 @@ def faces_inside(
         if tilt:
             towards = views.positions[others] - samples.positions[ends]
             allowed = allowed + tilt * np.linalg.norm(towards, axis=-1)
-        under: NDArray[np.bool_] = (heights < allowed) | views.enclosed[ends]
-        return under
+        return (heights < allowed) | views.enclosed[ends]
 
     return below(first, second) & below(second, first)
 

@@ -48,8 +48,7 @@ def inner_walls(mesh: TriangleMesh, edges: Edges) -> Steps[NDArray[np.bool_]]:
     sums = np.bincount(cells.ravel(), np.concatenate([-volumes, volumes]))
     inside = sums > _LEAST_VOLUME * mesh.diagonal**3
     in_front, behind = inside[cells]
-    walls: NDArray[np.bool_] = in_front & behind
-    return walls
+    return in_front & behind
 
 
 def _cells(mesh: TriangleMesh, edges: Edges) -> Steps[NDArray[np.int64]]:

@@ -121,7 +121,4 @@ def _is_thin(mesh: TriangleMesh, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
     a, b, c = (mesh.vertices[column] for column in mesh.triangles[rows].T)
     squares = [(side * side).sum(axis=1) for side in (a - b, b - c, c - a)]
     longest = np.sqrt(np.maximum.reduce(squares))
-    thin: NDArray[np.bool_] = (
-        2 * mesh.areas[rows] <= SAME_PLACE * mesh.diagonal * longest
-    )
-    return thin
+    return 2 * mesh.areas[rows] <= SAME_PLACE * mesh.diagonal * longest

@@ -46,8 +46,7 @@ def on_one_thread(compute: Callable[Given, Steps[T]]) -> Callable[Given, Steps[T
                     try:
                         progress = next(steps)
                     except StopIteration as stop:
-                        value: T = stop.value
-                        return value
+                        return stop.value
                 yield progress
         finally:
             steps.close()

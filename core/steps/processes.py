@@ -242,5 +242,4 @@ def _waiting(
     value, error = found
     if error is not None:
         raise DecompositionError(error)
-    result: T = value
-    return result
+    return value

@@ -56,8 +56,7 @@ def run(steps: Steps[T]) -> T:
         try:
             next(steps)
         except StopIteration as stop:
-            value: T = stop.value
-            return value
+            return stop.value
 
 
 def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
@@ -80,8 +79,7 @@ def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
             try:
                 progress = next(steps)
             except StopIteration as stop:
-                value: T = stop.value
-                return value
+                return stop.value
             yield change(progress)
     finally:
         steps.close()

@@ -14,8 +14,7 @@ def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     corners : (T, 3, 3) float
     """
     edges = corners[:, [1, 2, 0]] - corners
-    lengths: NDArray[np.float64] = np.sqrt(np.einsum("ted,ted->te", edges, edges))
-    return lengths
+    return np.sqrt(np.einsum("ted,ted->te", edges, edges))
 
 
 def halved(

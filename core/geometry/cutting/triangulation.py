@@ -114,8 +114,7 @@ def are_folded(quads: NDArray[np.float64]) -> NDArray[np.bool_]:
     """
     two, across, four = (np.ascontiguousarray(each.T) for each in quads[1:] - quads[0])
     (ax, ay, az), (bx, by, bz) = _cross(two, across), _cross(across, four)
-    folded: NDArray[np.bool_] = ax * bx + ay * by + az * bz < 0
-    return folded
+    return ax * bx + ay * by + az * bz < 0
 
 
 def _cross(
@@ -170,8 +169,7 @@ def _cut_ears(
     outline = _Outline(places, plane)
     found = [outline.cut_off(outline.first_ear()) for _ in range(len(face) - 3)]
     found.append(np.flatnonzero(outline.left))
-    triangles: NDArray[np.int64] = face[np.array(found)]
-    return triangles
+    return face[np.array(found)]
 
 
 class _Outline:

@@ -100,8 +100,7 @@ def components_of_labels(
     # Any numbers will do as the weights of the arcs that are left.
     rest = graph.data[: starts[-1]], graph.indices[alike], starts[graph.indptr]
     within = sparse.csr_array(rest, graph.shape)
-    found: NDArray[np.int32] = connected_components(within, directed=False)[1]
-    return found
+    return connected_components(within, directed=False)[1]
 
 
 def nodes_at_seams(

@@ -218,5 +218,4 @@ def _order(numbers: NDArray[np.int32]) -> NDArray[np.int32]:
     starts = np.arange(n_rows + 1, dtype=np.int32)
     shape = n_rows, int(numbers.max(initial=0)) + 1  # SciPy finds none without rows
     rows = sparse.csr_array((ones, numbers, starts), shape)
-    order: NDArray[np.int32] = rows.tocsc().indices
-    return order
+    return rows.tocsc().indices

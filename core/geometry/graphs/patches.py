@@ -64,8 +64,7 @@ class Patches:
         n_labels, n_patches = int(labels.max()) + 1, self.coarse.n_polygons
         cells = self.of_nodes * n_labels + labels
         areas = np.bincount(cells, self.fine.areas, n_patches * n_labels)
-        found: NDArray[np.int64] = areas.reshape(n_patches, n_labels).argmax(axis=1)
-        return found
+        return areas.reshape(n_patches, n_labels).argmax(axis=1)
 
     def opened(
         self, chosen: NDArray[np.bool_]

@@ -138,8 +138,7 @@ class Section:
         rise = np.where(y1 == y0, 1.0, y1 - y0)
         before = x0 + (up - y0) / rise * (x1 - x0) <= across
         windings = (turns * before).sum(axis=1)
-        inside: NDArray[np.bool_] = (windings != 0) & (turns.sum(axis=1) == 0)
-        return inside
+        return (windings != 0) & (turns.sum(axis=1) == 0)
 
 
 def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:

@@ -31,8 +31,7 @@ def reaches_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
     -------
     (E, N) float
     """
-    reaches: NDArray[np.float64] = _DIRECTIONS @ points.T
-    return reaches
+    return _DIRECTIONS @ points.T
 
 
 def volumes_beside(
@@ -94,5 +93,4 @@ def _volumes_about(
     sixfold = a[0] * (b[1] * c[2] - b[2] * c[1])
     sixfold += a[1] * (b[2] * c[0] - b[0] * c[2])
     sixfold += a[2] * (b[0] * c[1] - b[1] * c[0])
-    volumes: NDArray[np.float64] = sixfold.sum(axis=0) / 6
-    return volumes
+    return sixfold.sum(axis=0) / 6

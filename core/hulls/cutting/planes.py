@@ -216,5 +216,4 @@ def _crowded(
 ) -> NDArray[np.bool_]:
     """Return which planes at offsets (K,) are near flush ones (L, 2), none of them."""
     away = np.abs(offsets[:, None] - flush.ravel()).min(axis=1, initial=np.inf)
-    crowded: NDArray[np.bool_] = (away > 0) & (away < _CROWDED)
-    return crowded
+    return (away > 0) & (away < _CROWDED)

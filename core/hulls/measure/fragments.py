@@ -98,14 +98,12 @@ def distances_to(
     squared = np.where(above, np.minimum(squared, pp - fall), squared)
     # The difference of products above is not exact: no distance is said too small.
     noise = 1e-15 * (pp + bb + cc)
-    distances: NDArray[np.float64] = np.sqrt(np.maximum(squared, 0.0) + noise)
-    return distances
+    return np.sqrt(np.maximum(squared, 0.0) + noise)
 
 
 def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the dot products of vectors (N, 3), (N,)."""
-    product: NDArray[np.float64] = np.einsum("nd,nd->n", a, b)
-    return product
+    return np.einsum("nd,nd->n", a, b)
 
 
 def _from_segment(
@@ -118,5 +116,4 @@ def _from_segment(
     """
     share = np.divide(along, length, out=np.zeros(len(along)), where=length > 0)
     share = np.clip(share, 0.0, 1.0)
-    squares: NDArray[np.float64] = square - share * (2 * along - share * length)
-    return squares
+    return square - share * (2 * along - share * length)

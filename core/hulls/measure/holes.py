@@ -88,8 +88,7 @@ class HoleEdges:
         reach = radii + _GRAIN / 2
         spots = _spots_of(np.repeat(np.arange(3), len(radii)), turned.reshape(-1, 3))
         away = self._tree.query(spots, distance_upper_bound=reach.max())[0]
-        near: NDArray[np.bool_] = away.reshape(3, -1) <= reach
-        return near
+        return away.reshape(3, -1) <= reach
 
     def _votes(
         self,
@@ -170,8 +169,7 @@ def _most_crossed(ends: NDArray[np.float64]) -> NDArray[np.int64]:
     starts, ends = ends[:, :, None, 0], ends[:, :, None, 1]
     begins = starts.swapaxes(1, 2)
     over = (cross_2d(starts, begins) >= 0) & (cross_2d(begins, ends) > _TOUCHING)
-    most: NDArray[np.int64] = over.sum(axis=1).max(axis=1)
-    return most
+    return over.sum(axis=1).max(axis=1)
 
 
 def _from_origin(segments: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -179,10 +177,7 @@ def _from_origin(segments: NDArray[np.float64]) -> NDArray[np.float64]:
     starts, ways = segments[:, 0], segments[:, 1] - segments[:, 0]
     squares = np.maximum((ways**2).sum(axis=1), 1e-30)
     shares = np.clip(-(starts * ways).sum(axis=1) / squares, 0.0, 1.0)
-    distances: NDArray[np.float64] = np.linalg.norm(
-        starts + shares[:, None] * ways, axis=1
-    )
-    return distances
+    return np.linalg.norm(starts + shares[:, None] * ways, axis=1)
 
 
 def _open_edges(corners: NDArray[np.float64]) -> NDArray[np.float64]:

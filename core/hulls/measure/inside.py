@@ -64,8 +64,7 @@ class InsideTest:
         (M,) bool
         """
         votes = (self._leaving(points @ AXES.T) > 0).sum(axis=(0, 1))
-        inside: NDArray[np.bool_] = votes > self._n_axes
-        return inside
+        return votes > self._n_axes
 
     def holds_patches(
         self,

@@ -67,8 +67,7 @@ def _is_above(
 ) -> NDArray[np.bool_]:
     """Return which triangles (N, 3, 3) are wholly above planes of their own, (N, 4)."""
     heights = np.einsum("tcd,td->tc", corners, planes[:, :3]) + planes[:, 3:]
-    above: NDArray[np.bool_] = (heights > _ABOVE).all(axis=1)
-    return above
+    return (heights > _ABOVE).all(axis=1)
 
 
 def _below_all(

@@ -117,5 +117,4 @@ def seen_beyond(joints: Joints, count: Count, demands: Demands) -> Joints:
 
 def _sampled(tally: PairTally, fewest: int) -> NDArray[np.bool_]:
     """Return which pieces have as many known pairs as so many samples have (K,)."""
-    enough: NDArray[np.bool_] = np.diag(tally.known) >= fewest**2
-    return enough
+    return np.diag(tally.known) >= fewest**2

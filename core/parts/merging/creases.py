@@ -165,8 +165,7 @@ def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Return whether each piece is as flat as the floor of a pocket or a dish, (K,)."""
     areas = graph.areas_of(pieces)
     normals = sums_by_label(graph.areas[:, None] * graph.normals, pieces, len(areas))
-    flat: NDArray[np.bool_] = np.linalg.norm(normals, axis=1) > _FLAT * areas
-    return flat
+    return np.linalg.norm(normals, axis=1) > _FLAT * areas
 
 
 def pieces_between(graph: FaceGraph, seams: NDArray[np.bool_]) -> NDArray[np.int64]:

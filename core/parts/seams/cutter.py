@@ -243,5 +243,4 @@ def distances_to_parts(
     squared = cdist(embedding, centers, "sqeuclidean")
     # One variance for all: with variances of their own, wide parts swallow narrow ones.
     variance = (members * squared).sum() / len(labels) + np.finfo(float).tiny
-    costs: NDArray[np.float64] = np.minimum(squared / (2 * variance), _MOST_DISLIKE)
-    return costs
+    return np.minimum(squared / (2 * variance), _MOST_DISLIKE)
