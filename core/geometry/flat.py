@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull
 
 from ..steps.progress import Steps, within
 from .frames import frames, unit
-from .graphs.edges import ends_of_sides, shared_edges, sort_edges
+from .graphs.edges import ends_of_sides, shared_edges
 from .graphs.face_graph import FaceGraph, face_graph
 from .mesh import TriangleMesh
 
@@ -62,12 +62,11 @@ class FlatMesh:
         -------
         Steps of FaceGraph
         """
-        edges = yield from within(sort_edges(self.faces), 0.0, 0.4)
-        graph = yield from within(face_graph(self.faces, edges), 0.4, 0.8)
+        graph = yield from within(face_graph(self.faces), 0.0, 0.8)
         lengths = self.walls.areas / _HEIGHT
         outline = np.bincount(self.walls.polygons, lengths, self.faces.n_polygons)
         # Between two concave corners of the outline is a crease: people cut there.
-        _, sides = yield from within(shared_edges(self.faces, edges), 0.8, 1.0)
+        _, sides = yield from within(shared_edges(self.faces), 0.8, 1.0)
         ends = ends_of_sides(self.faces.welded_triangles, sides)
         bends = self._concave_angles()[np.stack(ends)].min(axis=0)
         return replace(graph, outline=outline.astype(np.float64), bends=bends)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
+from ..steps.memo import kept
 from ..steps.progress import Progress, Steps, run, within
 from ..steps.rows import blocks, used_rows
 from .array_checks import (
@@ -96,8 +97,8 @@ class TriangleMesh:
     def with_polygons(self, polygons: NDArray[np.int64]) -> TriangleMesh:
         """Return the mesh with other numbers of polygons, (T,) int."""
         mesh = replace(self, polygons=polygons)
-        for name in {"areas", "normals"} & self.__dict__.keys():  # as far as known
-            mesh.__dict__[name] = self.__dict__[name]
+        # What is known does not depend on them.
+        mesh.__dict__.update(self.__dict__ | {"polygons": mesh.polygons})
         return mesh
 
     @cached_property
@@ -105,17 +106,16 @@ class TriangleMesh:
         """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
         return run(self.bounds_in_steps())
 
+    @kept
     def bounds_in_steps(self) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Return `bounds`, found in short steps."""
-        if "bounds" not in self.__dict__:
-            steps = used_rows(self.triangles, len(self.vertices))
-            used = yield from within(steps, 0.0, 0.5)
-            yield Progress("Surface", 0.5)
-            kept: Any = slice(None) if used.all() else used
-            columns = [self.vertices[kept, axis] for axis in range(3)]
-            low, high = np.array([(each.min(), each.max()) for each in columns]).T
-            self.__dict__["bounds"] = low, high
-        return self.__dict__["bounds"]
+        steps = used_rows(self.triangles, len(self.vertices))
+        used = yield from within(steps, 0.0, 0.5)
+        yield Progress("Surface", 0.5)
+        rows: Any = slice(None) if used.all() else used
+        columns = [self.vertices[rows, axis] for axis in range(3)]
+        low, high = np.array([(each.min(), each.max()) for each in columns]).T
+        return low, high
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -176,6 +176,7 @@ class TriangleMesh:
         """
         return run(self.welded_in_steps())
 
+    @kept
     def welded_in_steps(self) -> Steps[NDArray[np.int32]]:
         """Return `welded_triangles`, found in short steps.
 
@@ -183,48 +184,37 @@ class TriangleMesh:
         -------
         Steps of (T, 3) int32
         """
-        if "welded_triangles" not in self.__dict__:
-            yield from within(self.bounds_in_steps(), 0.0, 0.2)
-            step = SAME_PLACE * self.diagonal or 1.0
-            steps = welded(self.vertices, self.triangles, step)
-            places = yield from within(steps, 0.2, 1.0)
-            self.__dict__["welded_triangles"] = places
-        return self.__dict__["welded_triangles"]
+        yield from within(self.bounds_in_steps(), 0.0, 0.2)
+        step = SAME_PLACE * self.diagonal or 1.0
+        steps = welded(self.vertices, self.triangles, step)
+        return (yield from within(steps, 0.2, 1.0))
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(T,) areas of the triangles."""
-        run(self.normals_in_steps())
-        return self.__dict__["areas"]
+        return run(self.normals_in_steps())[0]
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:
         """(T, 3) outward unit normals of the triangles, 0 for degenerate ones."""
-        return run(self.normals_in_steps())
+        return run(self.normals_in_steps())[1]
 
-    def normals_in_steps(self) -> Steps[NDArray[np.float64]]:
-        """Return `normals`; they and `areas` are computed in short steps.
-
-        Returns
-        -------
-        Steps of (T, 3) float
-        """
-        if "normals" not in self.__dict__:
-            areas, normals = (
-                np.empty(len(self.triangles)),
-                np.empty_like(self.triangles, float),
-            )
-            for rows in blocks(len(self.triangles)):
-                yield Progress("Surface", rows.start / len(self.triangles))
-                crosses = area_vectors(self.vertices[self.triangles[rows]])
-                lengths = np.linalg.norm(crosses, axis=1)
-                areas[rows] = lengths / 2
-                zero = lengths == 0
-                lengths[zero] = 1.0
-                normals[rows] = crosses / lengths[:, None]
-            areas.flags.writeable = normals.flags.writeable = False
-            self.__dict__.update(areas=areas, normals=normals)
-        return self.__dict__["normals"]
+    @kept
+    def normals_in_steps(
+        self,
+    ) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Return `areas` and `normals`, computed in short steps."""
+        areas = np.empty(len(self.triangles))
+        normals = np.empty_like(self.triangles, float)
+        for rows in blocks(len(areas)):
+            yield Progress("Surface", rows.start / len(areas))
+            crosses = area_vectors(self.vertices[self.triangles[rows]])
+            lengths = np.linalg.norm(crosses, axis=1)
+            areas[rows] = lengths / 2
+            lengths[lengths == 0] = 1.0
+            normals[rows] = crosses / lengths[:, None]
+        areas.flags.writeable = normals.flags.writeable = False
+        return areas, normals
 
 
 def _kept(array: NDArray[Any], dtype: DTypeLike) -> NDArray[Any]:

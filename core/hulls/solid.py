@@ -14,7 +14,7 @@ from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
 from ..geometry.welding import distinct_points
 from ..solids.mass import mass_of_surface
-from ..solids.shells import shells_of
+from ..solids.shells import find_shells
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import used_rows
 from .chords import chords_along
@@ -181,7 +181,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     yield Progress("Solid", 0.0)
     measured = _chords_in(corners, vertices)
     chords, volumes, overlap = yield from within(measured, 0.0, 1.0)
-    shells = yield from within(shells_of(mesh), 1.0, 1.0)
+    shells = yield from within(find_shells(mesh), 1.0, 1.0)
     surface, rows, closed = mesh, np.arange(len(corners)), bool(shells.closed.all())
     if closed and overlap < _NO_OVERLAP:
         surface, rows = yield from within(unburied(mesh, shells), 1.0, 1.0)

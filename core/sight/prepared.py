@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
 from ..geometry.flat import FlatMesh, flat_mesh
-from ..geometry.graphs.edges import sort_edges
 from ..geometry.graphs.face_graph import FaceGraph, face_graph
 from ..geometry.mesh import TriangleMesh
 from ..geometry.point_cloud import PointCloud
@@ -21,6 +20,7 @@ from ..solids.bare import bare_mesh
 from ..solids.convexity import is_convex
 from ..solids.orientation import oriented
 from ..solids.shells import find_shells, set_apart
+from ..steps.memo import kept
 from ..steps.progress import Progress, Steps, run, within
 from .ray_caster import MakeCaster
 from .ray_march import RayMarcher
@@ -78,18 +78,12 @@ class PreparedShape:
     @cached_property
     def graph(self) -> FaceGraph:
         """Graph of neighboring polygons, or of neighboring points of a cloud."""
-        return run(self.make_graph())
+        return run(self.graph_in_steps())
 
+    @kept
     def graph_in_steps(self) -> Steps[FaceGraph]:
-        """Return `graph`, made in steps if it is not known yet.
-
-        Returns
-        -------
-        Steps of FaceGraph
-        """
-        if "graph" not in self.__dict__:
-            self.__dict__["graph"] = yield from self.make_graph()
-        return self.graph
+        """Return `graph`, made in steps if it is not known yet."""
+        return (yield from self.make_graph())
 
     @property
     def sampled(self) -> NDArray[np.int64]:
@@ -180,20 +174,13 @@ def _prepare_mesh(
 ) -> Steps[PreparedShape]:
     """Prepare a mesh, given normalized, too: shells, orientation, what rays see."""
     nodes = np.arange(mesh.n_polygons)
-    edges = yield from within(sort_edges(mesh), 0.0, 0.2)
-    bare = yield from within(bare_mesh(mesh, edges), 0.2, 0.3)
-    shells = yield from within(find_shells(bare.mesh, bare.edges), 0.3, 0.4)
+    bare = yield from within(bare_mesh(mesh), 0.0, 0.3)
+    shells = yield from within(find_shells(bare.mesh), 0.3, 0.4)
     turned, notes = yield from within(oriented(bare.mesh, shells), 0.4, 0.6)
     targets = yield from within(set_apart(turned, shells), 0.6, 0.7)
     yield from within(targets.normals_in_steps(), 0.7, 0.8)
-    whole, its_edges = bare.wound_as(turned), bare.edges
-    if turned is not bare.mesh:  # turned triangles have other sides
-        its_edges = yield from within(sort_edges(turned), 0.8, 0.85)
-    if whole is turned:
-        edges = its_edges
-    elif whole is not mesh:
-        edges = yield from within(sort_edges(whole), 0.85, 0.9)
-    convex = yield from within(is_convex(turned, shells, its_edges), 0.9, 1.0)
+    whole = bare.wound_as(turned)
+    convex = yield from within(is_convex(turned, shells), 0.8, 1.0)
     return PreparedShape(
         shape.center,
         shape.diagonal,
@@ -201,7 +188,7 @@ def _prepare_mesh(
         RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
         len(nodes),
         nodes,
-        lambda: face_graph(whole, edges),
+        lambda: face_graph(whole),
         bare.without_walls(whole),
         notes + bare.notes,
         convex=convex,

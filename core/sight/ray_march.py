@@ -10,11 +10,13 @@ shells it ends a ray, as in the paper; within a closed shell, rays pass through 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
+from ..steps.memo import kept
 from ..steps.progress import Steps, run
 from .ray_caster import MakeCaster, RayCaster, caster_in_steps
 
@@ -78,18 +80,16 @@ class RayMarcher:
         self.tilt = tilt
         self.n_cast = 0
         self._make_caster = make_caster
-        self._caster: RayCaster | None = None
 
-    @property
+    @cached_property
     def caster(self) -> RayCaster:
         """The ray tree of `mesh`, built on first use because hulls cast no rays."""
         return run(self.caster_in_steps())
 
+    @kept
     def caster_in_steps(self) -> Steps[RayCaster]:
-        """Return the steps that make `caster`, if it is not there yet."""
-        if self._caster is None:
-            self._caster = yield from caster_in_steps(self.mesh, self._make_caster)
-        return self._caster
+        """Return `caster`, made in steps if it is not there yet."""
+        return (yield from caster_in_steps(self.mesh, self._make_caster))
 
     def march(
         self,

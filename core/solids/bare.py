@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.beside import beside
 from ..steps.progress import Progress, Steps, within
@@ -27,15 +26,12 @@ class BareMesh:
     mesh : TriangleMesh
         With the vertices and numbers of polygons of `whole`; `whole` itself if all its
         triangles bound solids.
-    edges : Edges
-        Edges of `mesh`.
     rows : (T,) int
         The triangle of `mesh` that each triangle of `whole` lies on; -1 within solids.
     """
 
     whole: TriangleMesh
     mesh: TriangleMesh
-    edges: Edges
     rows: NDArray[np.int64]
 
     def wound_as(self, turned: TriangleMesh) -> TriangleMesh:
@@ -68,7 +64,7 @@ class BareMesh:
         )
 
 
-def bare_mesh(whole: TriangleMesh, edges: Edges) -> Steps[BareMesh]:
+def bare_mesh(whole: TriangleMesh) -> Steps[BareMesh]:
     """Return a mesh without doubled triangles, and without walls within solids.
 
     Of triangles with the same corners and winding, as left by a copy that was joined,
@@ -77,31 +73,26 @@ def bare_mesh(whole: TriangleMesh, edges: Edges) -> Steps[BareMesh]:
     Parameters
     ----------
     whole : TriangleMesh
-    edges : Edges
-        Its edges.
 
     Returns
     -------
     Steps of BareMesh
     """
     rows = np.arange(len(whole.triangles))
-    solid, _ = yield from within(solid_edges(whole, edges), 0.0, 0.1)
-    if not solid.crowded:
-        return BareMesh(whole, whole, edges, rows)
-    found = yield from within(_same_triangles(whole), 0.1, 0.3)
+    edges, _ = yield from within(solid_edges(whole), 0.0, 0.5)
+    if not edges.crowded:
+        return BareMesh(whole, whole, rows)
+    found = yield from within(_same_triangles(whole), 0.5, 0.6)
     kept = found == rows
     mesh = whole
     if not kept.all():
         mesh = _some(whole, kept)
-        edges = yield from within(sort_edges(mesh), 0.3, 0.5)
-        solid, _ = yield from within(solid_edges(mesh, edges), 0.5, 0.5)
         rows = (np.cumsum(kept) - 1)[found]
-    walls = yield from within(inner_walls(mesh, solid), 0.5, 0.8)
+    walls = yield from within(inner_walls(mesh), 0.6, 1.0)
     if walls.any():
         mesh = _some(mesh, ~walls)
-        edges = yield from within(sort_edges(mesh), 0.8, 1.0)
         rows = np.where(walls, -1, np.cumsum(~walls) - 1)[rows]
-    return BareMesh(whole, mesh, edges, rows)
+    return BareMesh(whole, mesh, rows)
 
 
 def _some(mesh: TriangleMesh, kept: NDArray[np.bool_]) -> TriangleMesh:

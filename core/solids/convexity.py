@@ -25,7 +25,7 @@ _SAME_VOLUME = 1e-5
 _MOST_EDGES = 2**17
 
 
-def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
+def is_convex(mesh: TriangleMesh, shells: Shells) -> Steps[bool]:
     """Return whether a mesh is the surface of one convex solid, but for rounding.
 
     It is if it is one closed shell, no edge is concave, all vertices lie on its convex
@@ -38,8 +38,6 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
         Oriented: closed shells face outwards.
     shells : Shells
         Its shells.
-    edges : Edges
-        Its edges.
 
     Returns
     -------
@@ -47,7 +45,7 @@ def is_convex(mesh: TriangleMesh, shells: Shells, edges: Edges) -> Steps[bool]:
     """
     if len(shells.closed) > 1 or not shells.closed[0]:
         return False
-    edges, _ = yield from within(solid_edges(mesh, edges), 0.0, 0.0)
+    edges, _ = yield from within(solid_edges(mesh), 0.0, 0.0)
     if edges.crowded:
         return False
     if (yield from _has_concave_edge(mesh, edges)):

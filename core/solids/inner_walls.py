@@ -11,6 +11,7 @@ from ..geometry.graphs.edges import Edges, places_of_sides, sides_forward
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
+from .slivers import solid_edges
 from .volume import volumes_of
 
 # A cell with less volume, in cubed diagonals, is none.
@@ -21,7 +22,7 @@ _SAME_ANGLE = 1e-5
 _MOST_SIDES = 2**16
 
 
-def inner_walls(mesh: TriangleMesh, edges: Edges) -> Steps[NDArray[np.bool_]]:
+def inner_walls(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
     """Return the triangles that have the inside of a solid on both of their sides.
 
     A surface divides space into cells. Those with a volume are inside, whichever way
@@ -31,18 +32,17 @@ def inner_walls(mesh: TriangleMesh, edges: Edges) -> Steps[NDArray[np.bool_]]:
     ----------
     mesh : TriangleMesh
         No two triangles have the same corners and winding.
-    edges : Edges
-        Its edges.
 
     Returns
     -------
     Steps of (T,) bool
     """
+    edges, _ = yield from within(solid_edges(mesh), 0.0, 0.3)
     uses = edges.uses
     # The rims of walls have three triangles. Without, nothing is to be looked for.
     if not ((uses > 1) & (uses % 2 == 1)).any():
         return np.zeros(len(mesh.triangles), dtype=bool)
-    cells = yield from within(_cells(mesh, edges), 0.0, 0.8)
+    cells = yield from within(_cells(mesh, edges), 0.3, 0.8)
     volumes = yield from within(volumes_of(mesh), 0.8, 1.0)
     # A cell lies in front of some of its triangles, and behind the others.
     sums = np.bincount(cells.ravel(), np.concatenate([-volumes, volumes]))

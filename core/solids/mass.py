@@ -15,7 +15,7 @@ from ..geometry.mesh import TriangleMesh
 from ..steps.progress import run
 from .mass_properties import MassProperties
 from .orientation import oriented
-from .shells import shells_of
+from .shells import find_shells
 
 # Most volume that rounding gives a sheet with two sides, in area times diagonal.
 _ROUNDING = 1e-12
@@ -77,7 +77,7 @@ def mass_of_mesh(mesh: TriangleMesh, density: float) -> MassProperties | None:
     MassProperties or None
         None if the mesh is not closed, or encloses nothing.
     """
-    turned, _ = run(oriented(mesh, run(shells_of(mesh))))
+    turned, _ = run(oriented(mesh, run(find_shells(mesh))))
     if not _is_balanced(turned):
         return None
     return mass_of_surface(turned.vertices, turned.triangles, density)

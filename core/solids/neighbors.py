@@ -15,6 +15,7 @@ from ..geometry.graphs.edges import (
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
+from .slivers import solid_edges
 from .volume import signed_volume
 
 # Angle between triangles on top of each other, in radians: more than rounding.
@@ -28,20 +29,18 @@ _Sides = NDArray[np.int32]
 
 
 def find_neighbors(
-    mesh: TriangleMesh, edges: Edges
+    mesh: TriangleMesh,
 ) -> Steps[tuple[NDArray[np.int32], NDArray[np.bool_]]]:
     """Return pairs of triangles that are neighbors across an edge.
 
     Those are the two triangles of an edge. Where solids touch, edges have more. If as
     many run along an edge one way as the other way, those pair up that have the least
     inside between them. Of others, those pair up that have the same vertices there,
-    and no third one has.
+    and no third one has. Collapsed triangles have no neighbors.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    edges : Edges
-        Its edges.
 
     Returns
     -------
@@ -50,8 +49,9 @@ def find_neighbors(
     opposed : (N,) bool
         Whether they run along the edge in opposite directions, as they should.
     """
+    edges, _ = yield from within(solid_edges(mesh), 0.0, 0.2)
     sides, first = edges
-    forward = yield from within(sides_forward(mesh), 0.0, 0.4)
+    forward = yield from within(sides_forward(mesh), 0.2, 0.4)
     uses = edges.uses
     yield Progress("Surface", 0.5)
     two = first[uses == 2]

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ..geometry.frames import unit
 from ..geometry.graphs.components import components
-from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks, used_rows
@@ -65,36 +64,19 @@ class Shells:
         return lows, np.maximum.reduceat(corners.max(axis=1), firsts)
 
 
-def shells_of(mesh: TriangleMesh) -> Steps[Shells]:
-    """Return the shells of a mesh whose edges are not sorted yet.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-
-    Returns
-    -------
-    Steps of Shells
-    """
-    edges = yield from within(sort_edges(mesh), 0.0, 0.6)
-    return (yield from within(find_shells(mesh, edges), 0.6, 1.0))
-
-
-def find_shells(mesh: TriangleMesh, edges: Edges) -> Steps[Shells]:
+def find_shells(mesh: TriangleMesh) -> Steps[Shells]:
     """Return the connected shells of a mesh.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    edges : Edges
-        Its edges.
 
     Returns
     -------
     Steps of Shells
     """
-    edges, left_out = yield from within(solid_edges(mesh, edges), 0.0, 0.1)
-    neighbors, opposed = yield from within(find_neighbors(mesh, edges), 0.1, 0.2)
+    edges, left_out = yield from within(solid_edges(mesh), 0.0, 0.1)
+    neighbors, opposed = yield from within(find_neighbors(mesh), 0.1, 0.2)
     if left_out.any():
         ties = yield from within(hosts(mesh, left_out), 0.2, 0.2)
         neighbors = np.concatenate([neighbors, ties])

@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.graphs.edges import Edges
+from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import SAME_PLACE, TriangleMesh
+from ..steps.memo import kept
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 
@@ -38,27 +39,25 @@ def are_thin(mesh: TriangleMesh, rows: NDArray[np.int64]) -> Steps[bool]:
     return True
 
 
-def solid_edges(
-    mesh: TriangleMesh, edges: Edges
-) -> Steps[tuple[Edges, NDArray[np.bool_]]]:
+@kept
+def solid_edges(mesh: TriangleMesh) -> Steps[tuple[Edges, NDArray[np.bool_]]]:
     """Return the edges of a mesh without collapsed triangles.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    edges : Edges
-        Its edges.
 
     Returns
     -------
     edges : Edges
-        The same object if no triangle is left out.
+        Those of `sort_edges` if no triangle is left out.
     left_out : (T,) bool
         The collapsed triangles.
     """
-    left_out = yield from within(_collapsed(mesh), 0.0, 0.2)
+    edges = yield from within(sort_edges(mesh), 0.0, 0.6)
+    left_out = yield from within(_collapsed(mesh), 0.6, 0.8)
     if left_out.any():
-        edges = yield from within(_without(edges, left_out), 0.2, 0.4)
+        edges = yield from within(_without(edges, left_out), 0.8, 1.0)
     return edges, left_out
 
 

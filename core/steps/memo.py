@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from functools import wraps
 from hashlib import blake2b
 from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .progress import Steps
+from .progress import Steps, T
 
 Key = TypeVar("Key", bound=Hashable)
 Value = TypeVar("Value")
+Owner = TypeVar("Owner")
 
 
 def digest(labels: NDArray[np.int64 | np.bool_]) -> bytes:
@@ -30,6 +32,30 @@ def digest(labels: NDArray[np.int64 | np.bool_]) -> bytes:
     # Most labels fit into a byte: the fewer bytes, the quicker.
     narrow = np.min_scalar_type(int(labels.max(initial=0)))
     return blake2b(labels.astype(narrow).data).digest()
+
+
+def kept(make: Callable[[Owner], Steps[T]]) -> Callable[[Owner], Steps[T]]:
+    """Keep what is computed of an object in steps: with that object, from then on.
+
+    Parameters
+    ----------
+    make : callable
+        Takes the object alone, as a method does, and returns the steps.
+
+    Returns
+    -------
+    callable
+        Returns steps with the same value; none are left once it is known.
+    """
+    key = f"{make.__module__}.{make.__name__}"
+
+    @wraps(make)
+    def recall(owner: Owner) -> Steps[T]:
+        if key not in owner.__dict__:
+            owner.__dict__[key] = yield from make(owner)
+        return owner.__dict__[key]
+
+    return recall
 
 
 class Memo(Generic[Key, Value]):

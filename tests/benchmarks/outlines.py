@@ -24,7 +24,6 @@ import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 from computed import decompose
 from princeton import median_count
-from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.geometry.graphs.face_graph import face_graph
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
@@ -59,7 +58,7 @@ def score(
 ) -> Score:
     """Decompose one outline with each seed."""
     mesh, labels = read_outline(directory, name)
-    graph = run(face_graph(mesh, run(sort_edges(mesh))))
+    graph = run(face_graph(mesh))
     people = [graph.pieces(each, 0.0) for each in labels]
     found = [
         decompose(mesh, replace(parameters, seed=seed), make_caster=BvhRayCaster)

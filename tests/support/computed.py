@@ -3,7 +3,6 @@
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
-from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.geometry.graphs.face_graph import face_graph
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.measurement import measure_in_steps
@@ -66,12 +65,12 @@ def parts_of(memo, parameters):
 
 def graph_of(mesh):
     """Return the graph of a mesh's polygons."""
-    return run(face_graph(mesh, run(sort_edges(mesh))))
+    return run(face_graph(mesh))
 
 
 def shells_of(mesh):
     """Return the shells of a mesh."""
-    return run(find_shells(mesh, run(sort_edges(mesh))))
+    return run(find_shells(mesh))
 
 
 def apart(mesh):

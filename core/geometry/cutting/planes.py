@@ -11,7 +11,7 @@ from ...steps.progress import run
 from ...steps.rows import RowsByNumber
 from ..frames import unit
 from ..graphs.components import components_at_once
-from ..graphs.edges import ends_of_sides, shared_edges, sort_edges
+from ..graphs.edges import ends_of_sides, shared_edges
 from ..graphs.face_graph import face_graph
 from .refined import Cut, RefinedMesh
 
@@ -104,13 +104,12 @@ def _fitted(
 def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
     """Return the edges between parts, with the connected seam each belongs to."""
     mesh = refined.mesh
-    edges = run(sort_edges(mesh))
-    neighbors, sides = run(shared_edges(mesh, edges))
+    neighbors, sides = run(shared_edges(mesh))
     one, other = neighbors.T
     kept = labels[one] != labels[other]
     one, other, sides = one[kept], other[kept], sides[kept]
     starts, ends = mesh.vertices[np.stack(ends_of_sides(mesh.triangles, sides))]
-    graph = run(face_graph(mesh, edges))
+    graph = run(face_graph(mesh))
     normals = unit(graph.normals[one] + graph.normals[other])
     creases = graph.bends[kept] > _LEAST_CREASE
     weights = np.where(creases, _CREASE_WEIGHT, 1.0) * graph.lengths[kept]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from ...steps.memo import kept
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
 from ..mesh import TriangleMesh
@@ -46,6 +47,7 @@ class Edges(NamedTuple):
         return bool((self.uses > 2).any())
 
 
+@kept
 def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
     """Sort the sides of a mesh's triangles by edge.
 
@@ -89,15 +91,13 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
 
 
 def shared_edges(
-    mesh: TriangleMesh, edges: Edges
+    mesh: TriangleMesh,
 ) -> Steps[tuple[NDArray[np.int32], NDArray[np.int32]]]:
     """Return which polygons have a common edge.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    edges : Edges
-        Its edges.
 
     Returns
     -------
@@ -106,12 +106,13 @@ def shared_edges(
     sides : (E,) int32
         A side of a triangle along the edge of each pair.
     """
+    edges = yield from within(sort_edges(mesh), 0.0, 0.5)
     n_sides = len(edges.sides)
     new = np.zeros(n_sides, dtype=bool)
     new[edges.first] = True
     found = []
     for start in range(0, n_sides, _MOST_SIDES):
-        yield Progress("Surface", start / n_sides)
+        yield Progress("Surface", 0.5 + 0.5 * start / n_sides)
         sides = edges.sides[start : start + _MOST_SIDES + 1]
         owners = mesh.polygons[sides // 3].astype(np.int32)
         shared = owners[1:] != owners[:-1]

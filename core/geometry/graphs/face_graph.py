@@ -17,7 +17,7 @@ from ...steps.rows import blocks
 from ..frames import unit
 from ..mesh import TriangleMesh
 from .components import components_at_once, components_of_labels, graph_of
-from .edges import Edges, lengths_of_sides, shared_edges
+from .edges import lengths_of_sides, shared_edges
 
 # A seam along an edge costs exp(-CREASE * bend) of the edge's length; `bend` is its
 # concave angle in radians.
@@ -189,14 +189,12 @@ class FaceGraph:
         )
 
 
-def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
+def face_graph(mesh: TriangleMesh) -> Steps[FaceGraph]:
     """Return the polygons of `mesh` as a FaceGraph without links and outline.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    edges : Edges
-        Its edges.
 
     Returns
     -------
@@ -223,7 +221,7 @@ def face_graph(mesh: TriangleMesh, edges: Edges) -> Steps[FaceGraph]:
     # A polygon without area takes a vertex as its center.
     empty = np.flatnonzero((areas == 0)[mesh.polygons])[::-1]
     centers[mesh.polygons[empty]] = mesh.vertices[mesh.triangles[empty, 0]]
-    neighbors, starts = yield from within(shared_edges(mesh, edges), 0.5, 0.7)
+    neighbors, starts = yield from within(shared_edges(mesh), 0.5, 0.7)
     lengths, bends = np.empty((2, len(neighbors)))
     for rows in blocks(len(neighbors)):
         yield Progress("Surface", 0.7 + 0.3 * rows.start / len(neighbors))

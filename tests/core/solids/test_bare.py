@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import shapes
 from computed import decompose, measure, prepare
-from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.solids.bare import bare_mesh
@@ -17,7 +16,7 @@ BOX = shapes.box()
 
 
 def bare(mesh):
-    return run(bare_mesh(mesh, run(sort_edges(mesh))))
+    return run(bare_mesh(mesh))
 
 
 def test_a_mesh_without_doubles_stays_itself():

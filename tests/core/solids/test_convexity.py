@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 import shapes
 from computed import normalized
-from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges
 from weak_convex_decomposition.core.solids.convexity import is_convex
 from weak_convex_decomposition.core.solids.shells import find_shells
 from weak_convex_decomposition.core.steps.progress import run
@@ -14,8 +13,7 @@ from weak_convex_decomposition.core.steps.progress import run
 def convex(mesh):
     """Return whether a mesh is convex, once it is normalized."""
     mesh = normalized(mesh)
-    edges = run(sort_edges(mesh))
-    return run(is_convex(mesh, run(find_shells(mesh, edges)), edges))
+    return run(is_convex(mesh, run(find_shells(mesh))))
 
 
 def dented(mesh, depth, row=0):
