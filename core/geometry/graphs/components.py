@@ -13,8 +13,6 @@ from ...steps.progress import Progress, Steps
 
 # Most nodes whose connected components are found in one step.
 _MOST_NODES = 2**20
-# So few pairs are connected one by one: SciPy takes as long to begin.
-_FEW_PAIRS = 16
 
 
 def components(
@@ -52,16 +50,14 @@ def components(
             n_found += n_more
             yield Progress("Surface", 0.8 * start / n_nodes)
         pairs = found[pairs[blocks_of == -1]]
-    graph = graph_of(pairs, n_found)
     yield Progress("Surface", 0.9)
-    components: NDArray[np.int64] = connected_components(graph, directed=False)[1]
-    return components.astype(np.int64)[found]
+    return components_at_once(pairs, n_found)[found]
 
 
 def components_at_once(
     pairs: NDArray[np.integer[Any]], n_nodes: int
 ) -> NDArray[np.int64]:
-    """Return the connected component of each node of a small graph, (`n_nodes`,).
+    """Return what `components` does, for a small graph.
 
     Parameters
     ----------
@@ -69,16 +65,8 @@ def components_at_once(
         Nodes that are connected.
     n_nodes : int
     """
-    keys = np.unique(pairs[:, 0].astype(np.int64) * n_nodes + pairs[:, 1])
-    pairs = np.stack(np.divmod(keys, n_nodes), axis=1)
-    if len(pairs) > _FEW_PAIRS:
-        graph = graph_of(pairs, n_nodes)
-        return connected_components(graph, directed=False)[1].astype(np.int64)
-    found = np.arange(n_nodes)
-    for one, other in pairs:
-        low, high = sorted((found[one], found[other]))
-        found[found == high] = low
-    return np.unique(found, return_inverse=True)[1].reshape(-1)
+    graph = graph_of(pairs, n_nodes)
+    return connected_components(graph, directed=False)[1].astype(np.int64)
 
 
 def components_of_labels(

@@ -165,12 +165,11 @@ def test_pieces_that_are_kept_are_those_of_a_new_graph():
 
 
 @pytest.mark.parametrize("n_pairs", [0, 1, 5, 40, 400])
-def test_few_pairs_and_many_connect_alike(n_pairs, monkeypatch):
+def test_components_are_those_of_blocks(n_pairs, monkeypatch):
     pairs = np.random.default_rng(n_pairs).integers(60, size=(n_pairs, 2))
-    found = []
-    for few in (0, 1000):
-        monkeypatch.setattr(components, "_FEW_PAIRS", few)
-        found.append(components.components_at_once(pairs, 60))
+    found = [components.components_at_once(pairs, 60)]
+    monkeypatch.setattr(components, "_MOST_NODES", 7)
+    found.append(run(components.components(pairs, 60)))
     assert (found[0] == found[1]).all()
     _, first = np.unique(found[0], return_index=True)
     assert (np.diff(first) > 0).all()
