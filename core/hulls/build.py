@@ -95,7 +95,6 @@ def _build(
 ) -> Steps[HullDecomposition]:
     """Put shapes around a mesh that is not known yet."""
     prepared = yield from within(cache.prepare(shape), 0.0, 0.0)
-    assert prepared.solid is not None  # None for point clouds only
     numbers, parts = _parts_of_triangles(prepared.solid, labels)
     fit, factor = fit_for(shape, parameters, scene_unit, numbers.tolist(), kinds)
     found = yield from _find(prepared, fit, shape.diagonal / fit.unit, parts, seed)
@@ -152,7 +151,6 @@ def _find(
     if prepared.convex and not parts.any():
         found = _around_convex(prepared, fit, scale)
     if found is None:
-        assert prepared.solid is not None  # None for point clouds only
         yield Progress("Solid", 0.0)
         solid = yield from within(solid_of(prepared.solid, seed, scale), 0.0, 0.0)
         found = yield from _around_pieces(solid, parts, fit)

@@ -28,7 +28,6 @@ def hull_of_convex(prepared: PreparedShape, scale: float) -> Hull:
     Hull
     """
     mesh = prepared.solid
-    assert mesh is not None  # None for point clouds only
     used = np.unique(mesh.triangles)  # other vertices are in no face
     return convex_hull(mesh.vertices[used] * scale, THIN)
 

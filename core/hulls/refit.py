@@ -43,7 +43,6 @@ def refit_in_steps(
         With one shape, and a volume ratio of that alone.
     """
     prepared = yield from within(cache.prepare(mesh), 0.0, 0.1)
-    assert prepared.solid is not None  # None for point clouds only
     fit, factor = fit_for(mesh, parameters, scene_unit)
     scale = mesh.diagonal / fit.unit
     solid = yield from within(solid_of(prepared.solid, 0, scale), 0.1, 0.8)

@@ -122,7 +122,7 @@ def _notes_on_faces(
     A face does if it carries enough samples, and many of them would raise psi in
     another part than that of the face.
     """
-    if visibility.shape.solid is None or parameters.seams == "CUT":
+    if visibility.shape.is_cloud or parameters.seams == "CUT":
         return ()
     nodes = visibility.nodes
     counts = np.bincount(nodes)

@@ -50,8 +50,8 @@ class PreparedShape:
         Node of each polygon of the mesh, or of each point of the cloud.
     make_graph : callable
         Returns the steps that make `graph`.
-    solid : TriangleMesh or None
-        The normalized mesh without walls within solids; None for a point cloud.
+    solid : TriangleMesh
+        The normalized mesh without walls within solids; the splats of a point cloud.
     notes : tuple of str
         Sentences to the user on what was changed for the computation.
     normals : (P, 3) float or None
@@ -69,7 +69,7 @@ class PreparedShape:
     n_nodes: int
     nodes: NDArray[np.int64]
     make_graph: Callable[[], Steps[FaceGraph]]
-    solid: TriangleMesh | None = None
+    solid: TriangleMesh
     notes: tuple[str, ...] = ()
     normals: NDArray[np.float64] | None = None
     plane: NDArray[np.float64] | None = None
@@ -84,6 +84,11 @@ class PreparedShape:
     def graph_in_steps(self) -> Steps[FaceGraph]:
         """Return `graph`, made in steps if it is not known yet."""
         return (yield from self.make_graph())
+
+    @property
+    def is_cloud(self) -> bool:
+        """Whether it is a point cloud."""
+        return self.marcher.splat_size > 0
 
     @property
     def sampled(self) -> NDArray[np.int64]:
@@ -224,6 +229,7 @@ def _prepare_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[Prepared
         len(found.points),
         found.nodes,
         lambda: neighbor_graph(found.points, found.normals, found.areas),
+        found.mesh,
         notes=found.notes,
         normals=found.found_normals,
     )

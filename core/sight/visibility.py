@@ -177,7 +177,7 @@ def _for_size(shape: PreparedShape, parameters: Parameters) -> Parameters:
 
     Time grows with their square. Parts of a larger mesh get all of them.
     """
-    if shape.solid is None or shape.plane is not None:
+    if shape.is_cloud or shape.plane is not None:
         return parameters
     share = max(_LEAST_SHARE, len(shape.targets.triangles) / _FEW_TRIANGLES)
     few = max(_ENOUGH_SAMPLES, round(share * parameters.samples))
@@ -195,8 +195,8 @@ def _are_guessed(shape: PreparedShape) -> bool:
 
 def _is_whole_solid(shape: PreparedShape) -> bool:
     """Return whether a shape is a whole mesh that is not flat."""
-    whole = (shape.targets.polygons < shape.n_nodes).all()
-    return bool(shape.solid is not None and shape.plane is None and whole)
+    whole = bool((shape.targets.polygons < shape.n_nodes).all())
+    return whole and shape.plane is None and not shape.is_cloud
 
 
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
