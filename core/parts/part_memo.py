@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..clusters.embedding import coordinates_for, embed
 from ..geometry.graphs.face_graph import FaceGraph
-from ..geometry.graphs.patches import MOST_NODES, Patches, find_patches
+from ..geometry.graphs.patches import Patches, find_patches
 from ..geometry.symmetry import Plane, Side, find_plane, find_sides
 from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters
@@ -20,6 +20,9 @@ from ..steps.progress import Steps, run, within
 from .details.surface import PartSurface
 
 Labels: TypeAlias = NDArray[np.int64]
+# Most polygons that are their own patches. More are grouped into a fifth as many. With
+# half as many, parts are no better, and take twice the time when parameters change.
+_MOST_NODES = 40_000
 # A smoothness, a least psi and a digest of parts.
 SeamsKey: TypeAlias = tuple[float, float | None, bytes]
 
@@ -81,15 +84,13 @@ class PartMemo:
     Parameters
     ----------
     visibility : Visibility
-    most_nodes : int, optional
-        The nodes of a larger graph are grouped into a fifth as many patches, which get
-        labels in their place.
 
     Attributes
     ----------
     visibility : Visibility
     patches : Patches or None
-        The patches of a large graph, once `transfer_in_steps` has run.
+        The patches of a large graph, which get labels in its nodes' place; known once
+        `transfer_in_steps` has run.
     tallies : Memo
         Maps the digest and number of labels, and whether seen, to counts of pairs.
     on_nodes, pieces : Memo
@@ -103,11 +104,10 @@ class PartMemo:
         The candidates of the latest search, by number of parts; none at first.
     """
 
-    def __init__(self, visibility: Visibility, most_nodes: int = MOST_NODES) -> None:
+    def __init__(self, visibility: Visibility) -> None:
         self.visibility = visibility
         self.patches: Patches | None = None
         self.tried: dict[int, Candidate] = {}
-        self._most_nodes = most_nodes
         self._transfer: Transfer | None = None
         self._nearest: NearestSamples | None = None
         self._plane: tuple[Plane | None] | None = None
@@ -189,8 +189,8 @@ class PartMemo:
         if self._transfer is None:
             graph = yield from within(self.visibility.shape.graph_in_steps(), 0.0, 0.6)
             nodes = self.visibility.nodes
-            if graph.n_polygons > self._most_nodes:
-                grouping = find_patches(graph, self._most_nodes // 5)
+            if graph.n_polygons > _MOST_NODES:
+                grouping = find_patches(graph, _MOST_NODES // 5)
                 self.patches = yield from within(grouping, 0.6, 0.9)
                 graph, nodes = self.patches.coarse, self.patches.of_nodes[nodes]
             steps = carry(self.visibility.samples, nodes, graph)

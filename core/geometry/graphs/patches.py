@@ -19,9 +19,6 @@ from ..frames import unit
 from .components import components
 from .face_graph import CREASE, FaceGraph
 
-# Most polygons that are their own patches. More are grouped into a fifth as many. With
-# half as many, parts are no better, and take twice the time when parameters change.
-MOST_NODES = 40_000
 # Edges with a larger angle, in radians, are borders of patches.
 _SHARP = 0.7
 # A patch with less than this share of the mean area joins a neighbor, even across a

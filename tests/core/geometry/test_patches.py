@@ -11,8 +11,8 @@ from weak_convex_decomposition.core.geometry.graphs.patches import (
     find_patches,
 )
 from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.parts import part_memo
 from weak_convex_decomposition.core.parts.find import find_parts
-from weak_convex_decomposition.core.parts.part_memo import PartMemo
 from weak_convex_decomposition.core.sight.visibility import see_in_steps
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -37,7 +37,9 @@ def patches_of_dumbbell():
 
 def found_with(most_nodes):
     """Return the parts of the dumbbell, with patches if it has more nodes."""
-    return run(find_parts(PartMemo(dumbbell()[1], most_nodes), PARAMETERS))
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(part_memo, "_MOST_NODES", most_nodes)
+        return run(find_parts(part_memo.PartMemo(dumbbell()[1]), PARAMETERS))
 
 
 def test_patches_are_connected_and_about_as_many_and_as_large_as_asked_for():
@@ -131,6 +133,6 @@ def test_parts_on_patches_are_the_same_every_time():
 
 
 def test_a_mesh_of_few_faces_has_no_patches():
-    memo = PartMemo(dumbbell()[1], dumbbell()[0].n_nodes)
+    memo = part_memo.PartMemo(dumbbell()[1])
     run(memo.transfer_in_steps())
     assert memo.patches is None

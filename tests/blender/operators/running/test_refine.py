@@ -1,12 +1,9 @@
 """A first look at the parts of a large mesh, and the parts that replace it."""
 
-from functools import partial
-
 import bpy
 import pytest
 from snapshot import snapshot
-from weak_convex_decomposition.core import cache
-from weak_convex_decomposition.core.parts.part_memo import PartMemo
+from weak_convex_decomposition.core.parts import part_memo
 from weak_convex_decomposition.core.steps.progress import run
 from weak_convex_decomposition.operators.bridge.stored.record import (
     is_rough,
@@ -23,8 +20,7 @@ SETTINGS = {"samples": 200, "parts": 5}
 @pytest.fixture
 def rough(suzanne, monkeypatch):
     """Suzanne with a first look at five parts of hers."""
-    few = partial(PartMemo, most_nodes=300)  # as if she had many more faces
-    monkeypatch.setattr(cache, "PartMemo", few)
+    monkeypatch.setattr(part_memo, "_MOST_NODES", 300)  # as if she had many more faces
     bpy.ops.wcd.decompose(samples=200, parts=4)
     look_first(suzanne, parts=5)
     return suzanne
@@ -83,7 +79,7 @@ def test_without_a_number_it_has_the_best_of_those_tried_last(rough):
 def test_above_the_highest_number_tried_it_has_the_number_too(
     suzanne, monkeypatch, few
 ):
-    monkeypatch.setattr(cache, "PartMemo", partial(PartMemo, most_nodes=few))
+    monkeypatch.setattr(part_memo, "_MOST_NODES", few)
     bpy.ops.wcd.decompose(samples=200, parts=4)
     for parts in (18, 24):
         look_first(suzanne, parts=parts)
