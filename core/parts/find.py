@@ -46,8 +46,7 @@ def find_parts(
     yield from within(memo.transfer_in_steps(), 0.0, 0.2)
     partitioner = Partitioner(memo, parameters)
     cutter = SeamCutter(partitioner, cut.seams)
-    numbers = parameters.min_parts, parameters.max_parts
-    search = PartCountSearch(partitioner, cutter, *numbers, cut)
+    search = PartCountSearch(partitioner, cutter, cut)
     likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
     guesses = rough and likely_k > 0 and not _is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":

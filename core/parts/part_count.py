@@ -46,39 +46,33 @@ class Search(NamedTuple):
 
 
 class PartCountSearch:
-    """Tries the numbers of parts from `low` to `high` and chooses one by psi.
+    """Tries numbers of parts and chooses one by psi.
 
     Parameters
     ----------
     partitioner : Partitioner
-        Finds the parts for each number.
+        Finds the parts for each number. Its parameters tell which are tried.
     seams : SeamCutter
-    low, high : int
-        First and last number that is tried.
     memo : CutMemo
         Keeps what is found.
 
     Attributes
     ----------
-    partitioner, seams, low, high, memo
+    partitioner, seams, memo
         As given.
     creases : CreaseParts
         Parts along creases, which compete with others.
+    low, high : int
+        First and last number that is tried.
     """
 
     def __init__(
-        self,
-        partitioner: Partitioner,
-        seams: SeamCutter,
-        low: int,
-        high: int,
-        memo: CutMemo,
+        self, partitioner: Partitioner, seams: SeamCutter, memo: CutMemo
     ) -> None:
-        self.partitioner = partitioner
-        self.seams = seams
+        self.partitioner, self.seams, self.memo = partitioner, seams, memo
         self.creases = CreaseParts(partitioner)
-        self.low, self.high = low, high
-        self.memo = memo
+        self.low = partitioner.parameters.min_parts
+        self.high = partitioner.parameters.max_parts
 
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.

@@ -1,5 +1,7 @@
 """The core's computations, finished at once, with rays cast by the oracle."""
 
+from dataclasses import replace
+
 from brute_caster import BruteCaster
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
@@ -92,9 +94,9 @@ def cut_seams_of(partitioner, memo, parts):
 
 def part_count_search(memo, parameters, low, high):
     """Return a search for the number of parts."""
+    parameters = replace(parameters, min_parts=low, max_parts=high)
     partitioner, cut = Partitioner(memo, parameters), memo.cut(parameters)
-    cutter = SeamCutter(partitioner, cut.seams)
-    return PartCountSearch(partitioner, cutter, low, high, cut)
+    return PartCountSearch(partitioner, SeamCutter(partitioner, cut.seams), cut)
 
 
 def search_part_count(memo, parameters, low, high):

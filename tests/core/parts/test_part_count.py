@@ -30,7 +30,7 @@ class KnownParts:
         self.visibility = SimpleNamespace(
             is_guessed=guessed, shows_all_of_solid=guessed
         )
-        self.parameters = Parameters(alpha=alpha)
+        self.parameters = Parameters(alpha=alpha, max_parts=len(PSI))
 
     def psi(self, parts):
         return PSI[parts.max()]
@@ -50,7 +50,7 @@ def chosen(even, alpha=2.0, guessed=False):
     memo = CutMemo()
     memo.searches.recall((2, 6), lambda: tried)
     known = KnownParts(alpha, guessed)
-    return run(PartCountSearch(known, known, 2, 6, memo).best()).best_k
+    return run(PartCountSearch(known, known, memo).best()).best_k
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def test_psi_of_sight_decides_on_the_number():
     memo = CutMemo()
     memo.searches.recall((2, 6), lambda: tried)
     known = Guessed(10.0, True)
-    found = run(PartCountSearch(known, known, 2, 6, memo).best())
+    found = run(PartCountSearch(known, known, memo).best())
     assert (found.best_k, found.psi_by_k[5]) == (3, 0.0)
 
 
