@@ -99,7 +99,7 @@ def _decompose(
     # Section 4: embed, cluster, choose k by psi (eq. 5), cut the seams (eq. 4).
     found = yield from within(find_parts(memo, parameters, rough), seen, done)
     # Section 5: split parts further, each seen by samples of its own.
-    steps = split_further(prepared, memo, found, parameters, cache.see)
+    steps = split_further(memo, found, parameters, cache.see)
     found = yield from within(steps, done, 1.0)
     return found if members is not None else (yield from _with_pairs(memo, found))
 

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..clusters.moves import MoveGains
-from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.transfer import Transfer
 from ..parameters.parts import Parameters
 from ..results.parts import Decomposition
+from ..sight.prepared import PreparedShape
 from ..sight.visibility import Visibility
 from .part_psi import count_parts
 
@@ -70,21 +70,22 @@ def describe(
     )
 
 
-def by_size(parts: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
+def by_size(nodes: NDArray[np.int64], shape: PreparedShape) -> NDArray[np.int64]:
     """Renumber parts by area, the largest first.
 
     Parameters
     ----------
-    parts : (P,) int
-        Part of each node of `graph`, in 0…K − 1.
-    graph : FaceGraph
+    nodes : (`n_nodes`,) int
+        Part of each node of the shape, in 0…K − 1.
+    shape : PreparedShape
 
     Returns
     -------
-    parts : (P,) int
+    labels : (P,) int
+        New number of the part of each polygon, or of each point of a cloud.
     """
-    order = np.argsort(-graph.areas_of(parts), kind="stable")
-    return np.argsort(order)[parts]
+    order = np.argsort(-shape.graph.areas_of(nodes), kind="stable")
+    return np.argsort(order)[nodes][shape.nodes]
 
 
 def notes_on(

@@ -62,7 +62,7 @@ def find_parts(
     rough = rough and (guesses or seams_take_long(memo, parameters, seams))
     finer = labels_of_nodes(memo, parameters, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)
-    labels = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
+    labels = by_size(nodes, visibility.shape)
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
     notes = notes_on(found, visibility, memo.transfer, parameters)
     return replace(found, notes=found.notes + notes, rough=rough)

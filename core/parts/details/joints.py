@@ -67,9 +67,8 @@ def cut_joints(
     if memo.patches is None:
         wanted = range(2, int(nodes.max()) * 2)
         nodes = yield from Partitioner(memo, parameters).evened(nodes, wanted)
-    numbered = by_size(nodes, shape.graph)[shape.nodes]
-    visibility, ks = memo.visibility, (found.psi_by_k, found.best_k)
-    cut_parts = describe(visibility, numbered, parameters, *ks)
+    ks = found.psi_by_k, found.best_k
+    cut_parts = describe(memo.visibility, by_size(nodes, shape), parameters, *ks)
     return replace(cut_parts, notes=found.notes)
 
 

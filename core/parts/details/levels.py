@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
 from ...sight.prepared import PreparedShape
-from ...sight.visibility import Visibility
 from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..find import find_parts
@@ -58,7 +57,6 @@ def finds_details(parameters: Parameters) -> bool:
 
 
 def split_further(
-    prepared: PreparedShape,
     memo: PartMemo,
     found: Decomposition,
     parameters: Parameters,
@@ -68,9 +66,8 @@ def split_further(
 
     Parameters
     ----------
-    prepared : PreparedShape
     memo : PartMemo
-        Of this shape.
+        Of the shape.
     found : Decomposition
         Its parts. A first look at them has no details.
     parameters : Parameters
@@ -99,14 +96,13 @@ def split_further(
             containers="HOLLOW",  # limbs enclose nothing, and to find that out is slow
         )
         tips = yield from within(_tips_of(memo, found), 0.1, 0.2)
-        steps = _split(prepared, memo, found, few, see, _FURTHER_LEVELS, tips)
+        steps = _split(memo, found, few, see, _FURTHER_LEVELS, tips)
         return (yield from within(steps, 0.2, 1.0))
     all_samples, n_levels = replace(parameters, parts=0), parameters.levels - 1
-    return (yield from _split(prepared, memo, found, all_samples, see, n_levels))
+    return (yield from _split(memo, found, all_samples, see, n_levels))
 
 
 def _split(
-    prepared: PreparedShape,
     memo: PartMemo,
     found: Decomposition,
     parameters: Parameters,
@@ -118,15 +114,15 @@ def _split(
     if n_levels <= 0:
         return found
     chosen = np.arange(found.n_parts) if tips is None else _hiding(found, tips)
-    pieces = {}
+    shape, pieces = memo.visibility.shape, {}
     for turn, part in enumerate(chosen.tolist()):
         members = found.labels == part
         rest = None if tips is None else tips[members]
-        steps = _split_part(prepared.part(members), parameters, see, n_levels, rest)
+        steps = _split_part(shape.part(members), parameters, see, n_levels, rest)
         split = yield from within_turn(steps, turn, len(chosen))
         if split is not None and (rest is None or _come_apart(split, rest)):
             pieces[part] = split
-    return with_pieces(memo.visibility, found, pieces, parameters) if pieces else found
+    return _with_pieces(memo, found, pieces, parameters) if pieces else found
 
 
 def _split_part(
@@ -141,7 +137,7 @@ def _split_part(
     found = yield from within(find_parts(memo, parameters), 0.4, 0.5)
     if found.psi - found.psi_before <= _WORTH_SPLITTING:
         return None
-    steps = _split(part, memo, found, parameters, see, n_levels - 1, tips)
+    steps = _split(memo, found, parameters, see, n_levels - 1, tips)
     return (yield from within(steps, 0.5, 1.0))
 
 
@@ -178,40 +174,23 @@ def _tips_of(memo: PartMemo, found: Decomposition) -> Steps[NDArray[np.bool_]]:
     return tips
 
 
-def with_pieces(
-    visibility: Visibility,
+def _with_pieces(
+    memo: PartMemo,
     found: Decomposition,
     pieces: Mapping[int, Decomposition],
     parameters: Parameters,
 ) -> Decomposition:
-    """Replace parts by their pieces.
-
-    Parameters
-    ----------
-    visibility : Visibility
-        Visibility of the whole shape.
-    found : Decomposition
-        Its parts so far.
-    pieces : mapping of int to Decomposition
-        From some of these parts to the decomposition of the part alone.
-    parameters : Parameters
-        Only `alpha`, the weight in psi, is used.
-
-    Returns
-    -------
-    Decomposition
-        The parts and pieces by area, the largest first. Convexity ranks of pieces are
-        those measured with the samples on their part alone.
-    """
+    """Replace some parts by their pieces, of which each keeps its convexity rank."""
     labels, ranks = found.labels.copy(), found.ranks.tolist()
     for part, split in pieces.items():
         numbers = [part, *range(len(ranks), len(ranks) + split.n_parts - 1)]
         labels[found.labels == part] = np.array(numbers)[split.labels]
         ranks[part], *others = split.ranks.tolist()
         ranks += others
-    nodes = visibility.shape.labels_of_nodes(labels)
-    numbered = by_size(nodes, visibility.shape.graph)[visibility.shape.nodes]
+    shape = memo.visibility.shape
+    numbered = by_size(shape.labels_of_nodes(labels), shape)
     _, first = np.unique(numbered, return_index=True)
-    described = describe(visibility, numbered, parameters, found.psi_by_k, found.best_k)
+    ks = found.psi_by_k, found.best_k
+    described = describe(memo.visibility, numbered, parameters, *ks)
     own_ranks = np.array(ranks)[labels[first]]  # by the new number of each part
     return replace(described, ranks=own_ranks, notes=found.notes)
