@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from .parts.editing import Change as Change
     from .parts.editing import compacted as compacted
     from .parts.editing import give as give
-    from .parts.editing import merge as merge
     from .parts.editing import mirror as mirror
     from .parts.matching import match_parts as match_parts
     from .parts.matching import settled as settled
@@ -61,7 +60,6 @@ _HOMES = {
     "Change": "parts.editing",
     "compacted": "parts.editing",
     "give": "parts.editing",
-    "merge": "parts.editing",
     "mirror": "parts.editing",
     "match_parts": "parts.matching",
     "settled": "parts.matching",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -44,25 +43,6 @@ class Change:
     mirrored: dict[int, int] = field(default_factory=dict)
     side: str = "L"
     by_hand: NDArray[np.bool_] | None = None
-
-
-def merge(labels: NDArray[np.int64], chosen: Sequence[int], into: int) -> Change:
-    """Merge several parts into one.
-
-    Parameters
-    ----------
-    labels : (P,) int
-    chosen : sequence of int
-        Labels of the parts to merge.
-    into : int
-        Label of the merged part.
-
-    Returns
-    -------
-    Change
-    """
-    merged = np.isin(labels, chosen)
-    return Change(np.where(merged, into, labels), by_hand=merged)
 
 
 def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Change:
@@ -114,7 +94,10 @@ def mirror(
     plane = Plane(np.array([1.0, 0.0, 0.0]), middle)
     side, share = yield from side_of(graph, plane, to_negative)
     if share < _SYMMETRIC:
-        raise _not_symmetric()
+        raise DecompositionError(
+            "The shape is not symmetric: most faces have no mirror image across X; move"
+            " it so that X = 0 is its middle."
+        )
     n_parts = count_parts(labels)
     copied = side.copied(labels, graph)
     images = np.unique(copied[copied >= n_parts])
@@ -122,14 +105,6 @@ def mirror(
         copied,
         mirrored={int(image): int(image) - n_parts for image in images},
         side="L" if to_negative else "R",
-    )
-
-
-def _not_symmetric() -> DecompositionError:
-    """Return the error for a shape that is not symmetric to the plane."""
-    return DecompositionError(
-        "The shape is not symmetric: most faces have no mirror image across X; move"
-        " it so that X = 0 is its middle."
     )
 
 

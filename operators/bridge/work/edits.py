@@ -30,7 +30,7 @@ def merging(chosen: Sequence[int], into: int) -> MakeChange:
 
     def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
         yield Progress("Merge", 0.0)
-        return core.merge(parts.labels, chosen, into)
+        return core.give(parts.labels, np.isin(parts.labels, chosen), into)
 
     return change
 

@@ -5,7 +5,7 @@ import pytest
 import shapes
 from computed import graph_of
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.core.parts.editing import compacted, give, merge, mirror
+from weak_convex_decomposition.core.parts.editing import compacted, give, mirror
 from weak_convex_decomposition.core.parts.seams.smoothing import smooth_seams
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -20,9 +20,8 @@ def seam(surface, labels):
     return surface.lengths[one != other].sum()
 
 
-def test_merging_and_giving_touch_nothing_else():
+def test_giving_touches_nothing_else():
     labels = np.array([0, 1, 2, 3, 2, 1])
-    assert merge(labels, [1, 2], into=2).labels.tolist() == [0, 2, 2, 3, 2, 2]
     faces = np.array([True, False, False, True, False, False])
     assert give(labels, faces, 1).labels.tolist() == [1, 1, 2, 1, 2, 1]
     assert labels.tolist() == [0, 1, 2, 3, 2, 1]
