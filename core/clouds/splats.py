@@ -46,8 +46,9 @@ def normal_weight(points: NDArray[np.float64]) -> float:
         point stands for.
     """
     probes = points[:: -(-len(points) // _PROBES)]
-    spacing = float(np.sqrt(np.median(_areas_around(points, probes))))
-    return _NORMAL_WEIGHT / 2 * spacing
+    distances, _ = cKDTree(points).query(probes, _NEIGHBORS + 1)
+    areas = np.pi * distances[:, -1] ** 2 / _NEIGHBORS
+    return _NORMAL_WEIGHT / 2 * float(np.sqrt(np.median(areas)))
 
 
 def nearest_points(
@@ -211,11 +212,3 @@ def thinned_splats(
         areas = areas_of_points(points[kept], normals[kept])
         targets = splats(points[kept], normals[kept], areas)
     return kept, areas, targets
-
-
-def _areas_around(
-    points: NDArray[np.float64], probes: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the area (Q,) that a point stands for around each of `probes` (Q, 3)."""
-    distances, _ = cKDTree(points).query(probes, _NEIGHBORS + 1)
-    return np.pi * distances[:, -1] ** 2 / _NEIGHBORS

@@ -15,28 +15,6 @@ from .viewpoints import Viewpoints
 _PAIRS_PER_STEP = 65536
 
 
-def facing_pairs(
-    views: Viewpoints, rows: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the pairs of some samples with later ones that face each other.
-
-    Parameters
-    ----------
-    views : Viewpoints
-    rows : (R,) int
-        Consecutive rows of them.
-
-    Returns
-    -------
-    first, second : (M,) int
-        Rows of all; the first one is in `rows`, and smaller than the second one.
-    """
-    columns = np.arange(rows[0], len(views.samples))
-    facing = faces_inside(views, rows[:, None], columns[None])
-    first, second = np.nonzero(np.triu(facing, 1))
-    return rows[first], columns[second]
-
-
 def see_all_pairs(views: Viewpoints) -> Steps[PairVisibility]:
     """Compute the LoS matrix of all pairs of samples (eq. 3).
 
@@ -57,7 +35,9 @@ def see_all_pairs(views: Viewpoints) -> Steps[PairVisibility]:
         # Take a few rows of the upper triangle at a time, to bound the memory.
         stop = start + max(1, _PAIRS_PER_STEP // (n_samples - start))
         stop = min(stop, n_samples - 1)
-        first, second = facing_pairs(views, np.arange(start, stop))
+        rows, columns = np.arange(start, stop), np.arange(start, n_samples)
+        facing = faces_inside(views, rows[:, None], columns[None])
+        first, second = start + np.stack(np.nonzero(np.triu(facing, 1)))
         done, share = (
             1 - ((n_samples - row) / n_samples) ** 2 for row in (start, stop)
         )

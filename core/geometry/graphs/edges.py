@@ -124,20 +124,6 @@ def shared_edges(
     return np.concatenate(neighbors), np.concatenate(along)
 
 
-def lengths_of_sides(
-    mesh: TriangleMesh, sides: NDArray[np.int32]
-) -> NDArray[np.float64]:
-    """Return the lengths (S,) of sides of triangles, numbered as in `Edges`.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    sides : (S,) int
-    """
-    starts, ends = ends_of_sides(mesh.triangles, sides)
-    return np.linalg.norm(mesh.vertices[starts] - mesh.vertices[ends], axis=1)
-
-
 def sides_forward(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
     """Return the sides that run from the lower to the higher place.
 

@@ -17,7 +17,7 @@ from ...steps.rows import blocks
 from ..frames import unit
 from ..mesh import TriangleMesh
 from .components import components_at_once, components_of_labels, graph_of
-from .edges import lengths_of_sides, shared_edges
+from .edges import ends_of_sides, shared_edges
 
 # A seam along an edge costs exp(-CREASE * bend) of the edge's length; `bend` is its
 # concave angle in radians.
@@ -221,11 +221,12 @@ def face_graph(mesh: TriangleMesh) -> Steps[FaceGraph]:
     # A polygon without area takes a vertex as its center.
     empty = np.flatnonzero((areas == 0)[mesh.polygons])[::-1]
     centers[mesh.polygons[empty]] = mesh.vertices[mesh.triangles[empty, 0]]
-    neighbors, starts = yield from within(shared_edges(mesh), 0.5, 0.7)
+    neighbors, sides = yield from within(shared_edges(mesh), 0.5, 0.7)
     lengths, bends = np.empty((2, len(neighbors)))
     for rows in blocks(len(neighbors)):
         yield Progress("Surface", 0.7 + 0.3 * rows.start / len(neighbors))
-        lengths[rows] = lengths_of_sides(mesh, starts[rows])
+        ends = np.stack(ends_of_sides(mesh.triangles, sides[rows]))
+        lengths[rows] = np.linalg.norm(np.subtract(*mesh.vertices[ends]), axis=1)
         bends[rows] = _bends(centers, normals, neighbors[rows])
     return FaceGraph(areas, centers, normals, neighbors, lengths, bends)
 

@@ -36,7 +36,8 @@ def around(hull: Hull, kind: str) -> CollisionShape:
         return box_around(hull)
     along = _cylinder if kind == "CYLINDER" else _capsule
     # Only the best is made exactly.
-    rough = [along(hull, axis, _FEW_ROUNDS) for axis in _axes(hull)]
+    axes = np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
+    rough = [along(hull, axis, _FEW_ROUNDS) for axis in axes]
     return along(hull, _smallest(rough).axes[2], _ROUNDS)
 
 
@@ -98,11 +99,6 @@ def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionSha
     middle = np.r_[center, (low + high) / 2] @ frame
     sizes = np.array([radius, radius, max(high - low, 0.0) / 2])
     return CollisionShape("CAPSULE", hull, middle, frame, sizes)
-
-
-def _axes(hull: Hull) -> NDArray[np.float64]:
-    """Return the axes to try: those of the box and the principal axes, (6, 3)."""
-    return np.concatenate([box_around(hull).axes, principal_axes(hull.vertices)])
 
 
 def _smallest_ball(

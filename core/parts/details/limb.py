@@ -124,7 +124,7 @@ def limb_of(part: PartSurface) -> Limb | None:
     """Return a part as a limb; None if it is none, or too coarse for it."""
     if part.far.max() ** 2 < _LONG * float(part.graph.areas.sum()):
         return None
-    far = part.from_node(int(part.far.argmax()))
+    (far,) = part.from_nodes([int(part.far.argmax())])
     if (far == 0).sum() > 1:
         return None  # a part of several shells
     limb = Limb(part, far)

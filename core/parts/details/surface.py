@@ -120,12 +120,8 @@ class PartSurface:
             return np.zeros(len(self.kept))
         return distances(self._roads, self._starts)
 
-    def from_node(self, node: int) -> NDArray[np.float64]:
-        """Return the distance of each node from one of them, (M,); 0 without a way."""
-        return self.from_nodes([node])[0]
-
     def from_nodes(self, nodes: list[int]) -> list[NDArray[np.float64]]:
-        """Return what `from_node` does, for each of several nodes; kept from then on.
+        """Return the distances (M,) of all nodes from each of some; 0 without a way.
 
         Parameters
         ----------
