@@ -113,7 +113,6 @@ class ShapeCache:
         Returns
         -------
         Steps of PreparedShape
-            The steps yield `Progress`; `run` returns the prepared shape.
 
         Raises
         ------
@@ -141,7 +140,6 @@ class ShapeCache:
         Returns
         -------
         Steps of PartMemo
-            The steps yield `Progress`; `run` returns the memo.
 
         Raises
         ------

@@ -84,7 +84,6 @@ def mirror(
     Returns
     -------
     Steps of Change
-        The steps yield `Progress`; `run` returns the change.
 
     Raises
     ------

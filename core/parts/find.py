@@ -40,7 +40,6 @@ def find_parts(
     Returns
     -------
     Steps of Decomposition
-        The steps yield `Progress`; `run` returns the decomposition.
     """
     visibility, cut = memo.visibility, memo.cut(parameters)
     yield from within(memo.transfer_in_steps(), 0.0, 0.2)

@@ -37,8 +37,7 @@ def mirror_pairs(memo: PartMemo, labels: NDArray[np.int64]) -> Steps[Pairs]:
     Returns
     -------
     Steps of tuple of (int, int)
-        Each the part at larger X, then the other; by the first. The steps yield
-        `Progress`; `run` returns the pairs.
+        Each the part at larger X, then the other; by the first.
     """
     if count_parts(labels) < 2:
         return ()

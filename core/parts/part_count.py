@@ -90,7 +90,6 @@ class PartCountSearch:
         Returns
         -------
         Steps of Search
-            The steps yield `Progress`; `run` returns the search.
         """
         tried = yield from within(self.tried(), 0.0, 0.9)
         psi_by_k, best_k = self.rated(tried)

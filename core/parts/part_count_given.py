@@ -31,8 +31,7 @@ def given(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     Returns
     -------
     Steps of Search
-        `best_k` is the k that the search chooses. The steps yield `Progress`; `run`
-        returns the search.
+        `best_k` is the k that the search chooses.
     """
     return search.memo.given.recall_steps(
         _key(search, n_parts), lambda: _find(search, n_parts)

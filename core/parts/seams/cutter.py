@@ -97,7 +97,6 @@ class SeamCutter:
         Returns
         -------
         Steps of Seams
-            The steps yield `Progress`; `run` returns the new parts.
         """
         key = self._smoothness, enough, digest(parts)
         return self._memo.recall_steps(key, lambda: self._cut(parts, enough))

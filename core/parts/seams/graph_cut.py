@@ -51,7 +51,7 @@ def cut_seams(
     Returns
     -------
     Steps of (P,) int
-        The new labels. The steps yield `Progress`; `run` returns the labels.
+        The new labels.
     """
     unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
     seams = smoothness * unit * graph.seam_costs

@@ -52,8 +52,7 @@ def smooth_seams(
     Returns
     -------
     Steps of (P,) int
-        The new labels. No part vanishes: nodes deep inside a part stay in it. The steps
-        yield `Progress`; `run` returns the labels.
+        The new labels. No part vanishes: nodes deep inside a part stay in it.
     """
     n_parts = count_parts(labels)
     free = np.isin(np.arange(n_parts), chosen)
