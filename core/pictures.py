@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
@@ -12,6 +11,7 @@ from scipy import sparse
 from .parameters.parts import Parameters
 from .parts.part_memo import PartMemo
 from .results.views import Picture
+from .sight.pair_visibility import Matrix
 from .steps.one_thread import on_one_thread
 from .steps.progress import Progress, Steps, run
 
@@ -76,31 +76,32 @@ def _pixels(
     Parts are found from it later, so it must not depend on the number of cores.
     """
     yield Progress("Picture", 0.0)
-    return _DRAWN[kind](memo, parameters, labels, colors)
+    if kind == "SIGHT":
+        return _sight(memo.visibility.affinity, labels, colors)
+    # One coordinate for each part; a plane for a single one.
+    n_coordinates = max(2, int(labels.max()) + 1)
+    places = memo.embedding(n_coordinates, parameters)[:, :n_coordinates]
+    draw = _distances if kind == "DISTANCES" else _scatter
+    return draw(places, labels, colors)
 
 
 def _sight(
-    memo: PartMemo,
-    parameters: Parameters,
-    labels: NDArray[np.int64],
-    colors: NDArray[np.float64],
+    affinity: Matrix, labels: NDArray[np.int64], colors: NDArray[np.float64]
 ) -> Pixels:
     """Return the LoS matrix sorted by part: visible pairs are black."""
     rows = _by_part(labels)
-    affinity = sparse.csr_array(memo.visibility.affinity)
-    visible = affinity[rows][:, rows].toarray() > 0
+    visible = sparse.csr_array(affinity)[rows][:, rows].toarray() > 0
     return _matrix(np.where(visible, 0.0, 1.0), colors[labels[rows]])
 
 
 def _distances(
-    memo: PartMemo,
-    parameters: Parameters,
+    places: NDArray[np.float64],
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
     """Return distances of samples in the embedding, sorted by part: 0 is black."""
     rows = _by_part(labels)
-    places = _places(memo, parameters, labels)[rows]
+    places = places[rows]
     squares = (places**2).sum(axis=1)
     distances = squares[:, None] + squares - 2 * places @ places.T
     distances = np.sqrt(np.maximum(distances, 0.0))
@@ -112,8 +113,7 @@ def _distances(
 
 
 def _scatter(
-    memo: PartMemo,
-    parameters: Parameters,
+    places: NDArray[np.float64],
     labels: NDArray[np.int64],
     colors: NDArray[np.float64],
 ) -> Pixels:
@@ -121,7 +121,6 @@ def _scatter(
 
     The plane is spanned by the principal axes of the parts' centers.
     """
-    places = _places(memo, parameters, labels)
     sizes = np.bincount(labels)
     totals = np.stack([np.bincount(labels, axis) for axis in places.T], axis=1)
     middles = totals[sizes > 0] / sizes[sizes > 0, None]
@@ -141,14 +140,6 @@ def _scatter(
     return pixels
 
 
-def _places(
-    memo: PartMemo, parameters: Parameters, labels: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """Return the embedding of the samples in K parts, (N, K); (N, 2) for one part."""
-    n_coordinates = max(2, int(labels.max()) + 1)
-    return memo.embedding(n_coordinates, parameters)[:, :n_coordinates]
-
-
 def _by_part(labels: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return samples sorted by part, evenly thinned to at most `_MOST_ROWS`."""
     order = np.argsort(labels, kind="stable")
@@ -165,9 +156,3 @@ def _matrix(grays: NDArray[np.float64], colors: NDArray[np.float64]) -> Pixels:
     pixels[: _MARGIN - 2, _MARGIN:] = colors
     times = -(-_LEAST_SIZE // n_rows)
     return pixels.repeat(times, axis=0).repeat(times, axis=1)
-
-
-_DRAWN: dict[
-    str,
-    Callable[[PartMemo, Parameters, NDArray[np.int64], NDArray[np.float64]], Pixels],
-] = {"SIGHT": _sight, "DISTANCES": _distances, "SCATTER": _scatter}
