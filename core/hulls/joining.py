@@ -99,8 +99,17 @@ def _join(
     alive: dict[int, Piece] = {}
     queue: list[_Joint] = []
     solid_volume = sum(piece.volume for piece in pieces)
-    for piece in pieces:
-        _add(piece, len(alive), alive, queue, may, solid_volume)
+
+    def add(piece: Piece, number: int) -> None:
+        """Add a piece under a new number, and queue its joints with the others."""
+        for other, neighbor in alive.items():
+            if may(neighbor, piece):
+                cost = least_cost(neighbor, piece, solid_volume)
+                heapq.heappush(queue, (cost, other, number, None, False))
+        alive[number] = piece
+
+    for number, piece in enumerate(pieces):
+        add(piece, number)
         yield Progress("Joining", 0.0)
     for number in count(len(pieces)):
         steps = _next_joint(alive, queue, max_pieces, known, close, solid_volume)
@@ -109,24 +118,8 @@ def _join(
             break
         one, other, joint = found
         del alive[one], alive[other]
-        _add(joint, number, alive, queue, may, solid_volume)
+        add(joint, number)
     return list(alive.values())
-
-
-def _add(
-    piece: Piece,
-    number: int,
-    alive: dict[int, Piece],
-    queue: list[_Joint],
-    may: Callable[[Piece, Piece], bool],
-    solid_volume: float,
-) -> None:
-    """Add a piece under a new number, and queue its joints with the others."""
-    for other, neighbor in alive.items():
-        if may(neighbor, piece):
-            cost = least_cost(neighbor, piece, solid_volume)
-            heapq.heappush(queue, (cost, other, number, None, False))
-    alive[number] = piece
 
 
 def _next_joint(
