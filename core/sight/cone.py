@@ -82,7 +82,7 @@ def see_cones(
     sources = np.repeat(np.arange(n_samples), n_rays)
     # Nearest by position and normal: the two sides of a thin wall are close, but their
     # normals point away from each other.
-    scale = float(np.sqrt(marcher.area / n_samples))
+    scale = float(np.sqrt(marcher.mesh.areas.sum() / n_samples))
     tree = cKDTree(with_normals(samples.positions, samples.normals, scale))
     seen_and_hidden: tuple[Pairs, Pairs] = [], []
     for rays in marcher.in_turns(len(sources)):

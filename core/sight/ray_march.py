@@ -57,8 +57,8 @@ class RayMarcher:
     ----------
     normals : (T, 3) float
         Outward unit normals of the triangles.
-    area, diagonal : float
-        Area of `mesh` and diagonal of its bounding box.
+    diagonal : float
+        Diagonal of the bounding box of `mesh`.
     n_cast : int
         Number of rays that `march` has cast: one for each surface that it meets.
     """
@@ -74,7 +74,6 @@ class RayMarcher:
         self.mesh = mesh
         self.normals = mesh.normals
         self.closed = np.zeros(len(mesh.triangles), bool) if closed is None else closed
-        self.area = float(mesh.areas.sum())
         self.diagonal = mesh.diagonal
         self.splat_size = splat_size
         self.tilt = tilt
