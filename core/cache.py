@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from dataclasses import fields
+from functools import partial
 from hashlib import blake2b
 from typing import Any, NoReturn
 
@@ -18,7 +19,7 @@ from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_caster import MakeCaster
 from .sight.visibility import see_in_steps
 from .steps.memo import Memo
-from .steps.progress import Steps, T
+from .steps.progress import Steps, T, run
 
 # The visibility of so many parts is kept, if they took at most so many samples.
 _DETAILS = 24
@@ -76,7 +77,7 @@ class ShapeCache:
     def _forget_latest(self) -> None:
         """Forget the latest shape and all that was seen of it."""
         self._shape: tuple[Shape, PreparedShape] | None = None
-        self._seen: tuple[Hashable, PartMemo] | None = None
+        self._seen: Memo[Hashable, PartMemo] = Memo(1)
         self._details: Memo[Hashable, PartMemo] = Memo(_DETAILS)
 
     def recall(
@@ -147,24 +148,14 @@ class ShapeCache:
             If no sample can be placed, or if faces are the samples and there are too
             many.
         """
-        key = _sight_key(parameters)
-        latest = self._shape is not None and self._shape[1] is shape
-        if latest and self._seen is not None and self._seen[0] == key:
-            return self._seen[1]
-        if not latest and parameters.samples <= _FEW_SAMPLES and self._has(shape):
-            part = _digest_of_part(shape)
-            seen = self._details.recall_steps(
-                (part, key), lambda: _seen(shape, parameters)
-            )
-            return (yield from seen)
-        memo = yield from _seen(shape, parameters)
-        if latest:
-            self._seen = key, memo
-        return memo
-
-    def _has(self, part: PreparedShape) -> bool:
-        """Return whether a shape is a part of the latest one."""
-        return self._shape is not None and self._shape[1].marcher is part.marcher
+        key, make = _sight_key(parameters), partial(_seen, shape, parameters)
+        if self._shape is None or self._shape[1].marcher is not shape.marcher:
+            return make()
+        if self._shape[1] is shape:
+            return self._seen.recall_steps(key, make)
+        if parameters.samples > _FEW_SAMPLES:
+            return make()
+        return self._details.recall_steps((_digest_of_part(shape), key), make)
 
     def find_ahead(
         self, parameters: Parameters, rough: bool = False
@@ -183,9 +174,10 @@ class ShapeCache:
             What they compute is kept with the visibility of the latest shape. None if
             no visibility is kept that was computed with these parameters.
         """
-        if self._seen is None or self._seen[0] != _sight_key(parameters):
+        if self._shape is None or _sight_key(parameters) not in self._seen:
             return None
-        return find_parts(self._seen[1], parameters, rough)
+        memo = run(self.see(self._shape[1], parameters))  # it is known
+        return find_parts(memo, parameters, rough)
 
 
 def _seen(shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:

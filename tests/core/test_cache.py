@@ -185,6 +185,15 @@ def test_results_of_large_shapes_are_not_kept(monkeypatch):
     assert sees_anew(cache, shapes.comb())
 
 
+def test_what_was_seen_of_a_shape_while_another_came_is_not_taken_for_that():
+    cache = ShapeCache(WatchedCaster)
+    steps = cache.see(run(cache.prepare(shapes.comb())), BEFORE)
+    next(steps)
+    other = run(cache.prepare(shapes.box()))
+    run(steps)
+    assert run(cache.see(other, BEFORE)).visibility.shape is other
+
+
 def test_forgotten_is_forgotten():
     cache, mesh = ShapeCache(WatchedCaster), shapes.l_shape()
     run(decompose_in_steps(mesh, BEFORE, cache))
