@@ -98,6 +98,9 @@ class PartMemo:
         smallest area and the digest of labels to connected parts.
     moves : Memo
         Maps the digest and number of labels, and alpha, to the labels after all moves.
+    clusters : Memo
+        Maps a normalization, a seed, and the numbers of clusters and of coordinates to
+        the labels of samples by k-means.
     surfaces : Memo
         Maps the digest of a part's place to its surface.
     tried : dict of int to Candidate
@@ -115,26 +118,11 @@ class PartMemo:
         self.on_nodes: Memo[tuple[bytes, int], Labels] = Memo(64)
         self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
         self.moves: Memo[tuple[bytes, int, float], Labels] = Memo(32)
+        self.clusters: Memo[tuple[str, int, int, int], Labels] = Memo(1024)
         self.surfaces: Memo[bytes, PartSurface] = Memo(16)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
-        self._clusters: Memo[tuple[str, int], Memo[tuple[int, int], Labels]] = Memo(2)
         self._cuts: Memo[tuple[str, int, str, float, float], CutMemo] = Memo(3)
         self._sides: tuple[Side, ...] | None = None
-
-    def clusters(self, parameters: Parameters) -> Memo[tuple[int, int], Labels]:
-        """Return the memo of the clusters that k-means finds with these parameters.
-
-        Parameters
-        ----------
-        parameters : Parameters
-            Only `normalization` and `seed` are used.
-
-        Returns
-        -------
-        Memo
-            Maps the numbers of clusters and coordinates to labels of samples (N,).
-        """
-        return self._clusters.recall((parameters.normalization, parameters.seed), Memo)
 
     def cut(self, parameters: Parameters) -> CutMemo:
         """Return the memo of the parts that are found with these parameters.
@@ -224,8 +212,12 @@ class PartMemo:
         memo = PartMemo(self.visibility)
         memo._transfer = yield from carry(samples, nodes, graph, self._nearest, numbers)
         memo._plane = self._plane
-        memo.tallies, memo.moves = self.tallies, self.moves
-        memo._embeddings, memo._clusters = self._embeddings, self._clusters
+        memo.tallies, memo.moves, memo.clusters = (
+            self.tallies,
+            self.moves,
+            self.clusters,
+        )
+        memo._embeddings = self._embeddings
         return memo
 
     def sides(self) -> Steps[tuple[Side, ...]]:

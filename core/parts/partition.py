@@ -49,7 +49,6 @@ class Partitioner(PartPsi):
         self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.graph.areas.sum()
         self._cut = memo.cut(parameters)
-        self._of_clusters = memo.clusters(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts and their psi; fewer parts if no more are possible."""
@@ -192,10 +191,11 @@ class Partitioner(PartPsi):
             # Positions separate samples that see the same, as in a convex shape.
             places = _PLACE_WEIGHT * self.visibility.samples.positions
             coordinates = np.hstack([embedding, places])
-            return cluster(coordinates, n_clusters, self.parameters.seed)
+            return cluster(coordinates, n_clusters, seed)
 
-        key = n_clusters, embedding.shape[1]
-        return n_clusters, self._of_clusters.recall(key, make)
+        seed, kind = self.parameters.seed, self.parameters.normalization
+        key = kind, seed, n_clusters, embedding.shape[1]
+        return n_clusters, self._memo.clusters.recall(key, make)
 
     def embedding(self, n_parts: int) -> NDArray[np.float64]:
         """Return the embedding of the samples for `n_parts` parts, (N, n) float."""
