@@ -28,12 +28,11 @@ def are_equal(shape: Shape, other: Shape) -> bool:
     -------
     bool
     """
-    if type(shape) is not type(other):
+    arrays, others = _arrays(shape), _arrays(other)
+    if type(shape) is not type(other) or len(arrays) != len(others):
         return False
-    return all(
-        one is two or (one is not None and two is not None and np.array_equal(one, two))
-        for one, two in zip(_arrays(shape), _arrays(other), strict=True)
-    )
+    pairs = zip(arrays, others, strict=True)
+    return all(one is two or np.array_equal(one, two) for one, two in pairs)
 
 
 def digest_of(shape: Shape) -> bytes:
@@ -49,9 +48,8 @@ def digest_of(shape: Shape) -> bytes:
     """
     found = blake2b(type(shape).__name__.encode())
     for array in _arrays(shape):
-        if array is not None:
-            found.update(f"{array.dtype} {array.shape}".encode())
-            found.update(np.ascontiguousarray(array).data)
+        found.update(f"{array.dtype} {array.shape}".encode())
+        found.update(np.ascontiguousarray(array).data)
     return found.digest()
 
 
@@ -66,7 +64,7 @@ def size_of(shape: Shape) -> int:
     -------
     int
     """
-    return sum(array.size for array in _arrays(shape) if array is not None)
+    return sum(array.size for array in _arrays(shape))
 
 
 def check_members(members: object, shape: Shape) -> None:
@@ -141,6 +139,7 @@ def checked_labels(
     return array
 
 
-def _arrays(shape: Shape) -> list[NDArray[Any] | None]:
-    """Return all arrays of a shape."""
-    return [getattr(shape, field.name) for field in fields(shape)]
+def _arrays(shape: Shape) -> list[NDArray[Any]]:
+    """Return all arrays of a shape; a cloud without normals has one."""
+    arrays = (getattr(shape, field.name) for field in fields(shape))
+    return [array for array in arrays if array is not None]
