@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.progress import Progress, Steps
-from .surface import distances, meetings, roads
+from .surface import PartSurface, meetings
 
 # A prong is long if its squared length is at least this share of its area. A cylinder
 # has that share if it is 2.5 times as long as its radius; a heel has less.
@@ -47,33 +47,22 @@ def find_tips(
         Different nodes, ascending; at least two of each part that has prongs.
     """
     at_seams = nodes_at_seams(graph.neighbors, parts)
-    kept = np.flatnonzero(chosen[parts])
-    if not at_seams[kept].any():
-        return kept[:0]
-    some, parts = graph.part(kept), parts[kept]
-    ends = some.neighbors
-    pairs = ends[parts[ends[:, 0]] == parts[ends[:, 1]]]
-    far = distances(roads(some, pairs), np.flatnonzero(at_seams[kept]))
-    yield Progress("Details", 0.5)
-    reach = np.zeros(len(chosen))
-    np.maximum.at(reach, parts, far)
-    least = _LEAST_LENGTH * reach[parts]
-    return kept[_long_prongs(far, some.areas, pairs, least)]
+    found = [np.zeros(0, dtype=np.int64)]
+    for part in np.flatnonzero(chosen).tolist():
+        yield Progress("Details", 0.0)
+        surface = PartSurface(graph, np.flatnonzero(parts == part), at_seams)
+        found.append(surface.kept[_long_prongs(surface)])
+    return np.sort(np.concatenate(found))
 
 
-def _long_prongs(
-    far: NDArray[np.float64],
-    areas: NDArray[np.float64],
-    pairs: NDArray[np.int32],
-    least: NDArray[np.float64],
-) -> NDArray[np.int64]:
-    """Return the tips of prongs that are long where they meet another, ascending."""
-    found = set()
-    for short, long, between, prong in meetings(far, pairs):
+def _long_prongs(part: PartSurface) -> list[int]:
+    """Return the tips of prongs of a part that are long where they meet another."""
+    far, least, found = part.far, _LEAST_LENGTH * float(part.far.max()), set()
+    for short, long, between, prong in meetings(far, part.graph.neighbors):
         length = far[short] - far[between]
-        if length > least[short]:
+        if length > least:
             beyond = np.flatnonzero(prong & (far > far[between]))
-            is_long = length**2 >= _LONG * areas[beyond].sum()
+            is_long = length**2 >= _LONG * part.graph.areas[beyond].sum()
             if is_long and len(beyond) >= _LEAST_NODES:
                 found |= {short, long}
-    return np.array(sorted(found), dtype=np.int64)
+    return list(found)

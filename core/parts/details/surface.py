@@ -14,20 +14,12 @@ from scipy.sparse.csgraph import dijkstra
 from ...geometry.graphs.face_graph import FaceGraph
 
 
-def roads(
-    graph: FaceGraph, pairs: NDArray[np.integer[Any]], least: float = 0.0
-) -> sparse.csr_array:
-    """Return the ways (P, P) between the centers of some neighbors (E, 2)."""
-    ways = np.linalg.norm(np.subtract(*graph.centers[pairs.T]), axis=1)
+def roads(graph: FaceGraph, least: float = 0.0) -> sparse.csr_array:
+    """Return the ways (P, P) between the centers of neighbors."""
+    ends = graph.neighbors.T
+    ways = np.linalg.norm(np.subtract(*graph.centers[ends]), axis=1)
     ways = np.maximum(ways, least or np.finfo(float).tiny)  # 0 would mean no way
-    size = graph.n_polygons, graph.n_polygons
-    return sparse.csr_array((ways, tuple(pairs.T)), shape=size)
-
-
-def distances(ways: sparse.csr_array, starts: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return how far nodes (P,) are from the nearest start; 0 without a way."""
-    far = dijkstra(ways, directed=False, indices=starts, min_only=True)
-    return np.where(np.isfinite(far), far, 0.0)
+    return sparse.csr_array((ways, tuple(ends)), shape=2 * (graph.n_polygons,))
 
 
 def meetings(
@@ -110,7 +102,7 @@ class PartSurface:
     ) -> None:
         self.graph, self.kept = graph.part(kept), kept
         self._starts = np.flatnonzero(at_seams[kept])
-        self._roads = roads(self.graph, self.graph.neighbors)
+        self._roads = roads(self.graph)
         self._from: dict[int, NDArray[np.float64]] = {}
 
     @cached_property
@@ -118,7 +110,8 @@ class PartSurface:
         """(M,) distance of each node from the seams; 0 if there are none."""
         if len(self._starts) == 0:
             return np.zeros(len(self.kept))
-        return distances(self._roads, self._starts)
+        far = dijkstra(self._roads, directed=False, indices=self._starts, min_only=True)
+        return np.where(np.isfinite(far), far, 0.0)
 
     def from_nodes(self, nodes: list[int]) -> list[NDArray[np.float64]]:
         """Return the distances (M,) of all nodes from each of some; 0 without a way.

@@ -71,7 +71,7 @@ def _costs(
     yield Progress("Seams", 0.0)
     n_parts, may_leave = len(free), free[labels]
     unit = _UNIT * float(np.sqrt(graph.areas.sum()))
-    ways = roads(graph, graph.neighbors, 1e-6 * unit)
+    ways = roads(graph, 1e-6 * unit)
     costs = np.full((graph.n_polygons, n_parts), _NEVER)
     rim = np.flatnonzero(nodes_at_seams(graph.neighbors, labels))
     depths = np.full(graph.n_polygons, 4 * unit)
