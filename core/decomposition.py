@@ -16,7 +16,6 @@ from .parts.convex_whole import as_one_part, stays_whole
 from .parts.details.levels import finds_details, split_further
 from .parts.find import find_parts
 from .parts.pairs import mirror_pairs
-from .parts.part_memo import PartMemo
 from .results.parts import Decomposition
 from .steps.memo import digest
 from .steps.progress import Steps, within
@@ -101,7 +100,10 @@ def _decompose(
     # Section 5: split parts further, each seen by samples of its own.
     steps = split_further(memo, found, parameters, cache.see)
     found = yield from within(steps, done, 1.0)
-    return found if members is not None else (yield from _with_pairs(memo, found))
+    if members is not None:
+        return found
+    # Beyond the paper: which parts are mirror images of each other.
+    return replace(found, pairs=(yield from mirror_pairs(memo, found.labels)))
 
 
 def _ends_of_stages(parameters: Parameters) -> tuple[float, float, float]:
@@ -109,8 +111,3 @@ def _ends_of_stages(parameters: Parameters) -> tuple[float, float, float]:
     if finds_details(parameters):
         return _DETAILS
     return _LEVELS if parameters.levels > 1 else _ONE_LEVEL
-
-
-def _with_pairs(memo: PartMemo, found: Decomposition) -> Steps[Decomposition]:
-    """Return parts with the pairs among them that are mirror images of each other."""
-    return replace(found, pairs=(yield from mirror_pairs(memo, found.labels)))

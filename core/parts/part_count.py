@@ -132,7 +132,8 @@ class PartCountSearch:
         tried : dict of int to Candidate
             They may have been found with other parameters.
         """
-        psi_by_k = self._psi_of_sight(tried)
+        psi_seen = self.partitioner.psi_seen
+        psi_by_k = {k: psi_seen(candidate.parts) for k, candidate in tried.items()}
         guessed = self.partitioner.visibility.is_guessed
         narrow = _GAIN_TOLERANCE if guessed else _WIDE_TOLERANCE
         best_k = self._good_enough(psi_by_k, narrow)[0]
@@ -148,11 +149,6 @@ class PartCountSearch:
         share = tolerance * _strictness(by.parameters.alpha)
         enough = most - max(2 * by.negligible, share * (most - psi_by_k[1]))
         return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
-
-    def _psi_of_sight(self, tried: dict[int, Candidate]) -> dict[int, float]:
-        """Return psi of candidates by lines of sight alone (eq. 5)."""
-        seen = self.partitioner.psi_seen
-        return {k: seen(candidate.parts) for k, candidate in tried.items()}
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""

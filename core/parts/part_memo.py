@@ -15,7 +15,7 @@ from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
-from ..steps.memo import Memo
+from ..steps.memo import Memo, kept
 from ..steps.progress import Steps, run, within
 from .details.surface import PartSurface
 
@@ -122,7 +122,6 @@ class PartMemo:
         self.surfaces: Memo[bytes, PartSurface] = Memo(16)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
         self._cuts: Memo[tuple[str, int, str, float, float], CutMemo] = Memo(3)
-        self._sides: tuple[Side, ...] | None = None
 
     def cut(self, parameters: Parameters) -> CutMemo:
         """Return the memo of the parts that are found with these parameters.
@@ -220,6 +219,7 @@ class PartMemo:
         memo._embeddings = self._embeddings
         return memo
 
+    @kept
     def sides(self) -> Steps[tuple[Side, ...]]:
         """Return the two sides of the shape's mirror plane, none if it has no plane.
 
@@ -227,10 +227,7 @@ class PartMemo:
         -------
         Steps of tuple of Side
         """
-        if self._sides is None:
-            graph = (yield from self.transfer_in_steps()).graph
-            if self._plane is None:
-                self._plane = ((yield from find_plane(graph)),)
-            (plane,) = self._plane
-            self._sides = yield from find_sides(graph, plane)
-        return self._sides
+        graph = (yield from self.transfer_in_steps()).graph
+        if self._plane is None:
+            self._plane = ((yield from find_plane(graph)),)
+        return (yield from find_sides(graph, *self._plane))
