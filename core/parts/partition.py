@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -115,17 +116,7 @@ class Partitioner(PartPsi):
         return self._pieces(side.copied(parts, self.graph))
 
     def partition(self, n_parts: int) -> NDArray[np.int64]:
-        """Return `n_parts` connected parts; fewer if no more are possible.
-
-        Parameters
-        ----------
-        n_parts : int
-
-        Returns
-        -------
-        parts : (P,) int
-            Part of each node, in 0…K − 1.
-        """
+        """Return `n_parts` connected parts (P,); fewer if no more are possible."""
         plain = self.plain(n_parts)
         if n_parts == 1 or not self.by_psi:
             return plain
@@ -238,8 +229,20 @@ class Partitioner(PartPsi):
         split = yield from self._split_in_steps(parts, max(n_parts, most), tries)
         return self._at_most(n_parts, split)
 
-    def merged(self, parts: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
-        """Merge parts (P,) where psi loses least, until `n_parts` are left."""
-        borders = self.graph.borders(parts, count_parts(parts)).toarray()
-        alpha = self.parameters.alpha
-        return merge_to(n_parts, self.tally(parts), borders, alpha)[parts]
+    def merged(
+        self,
+        parts: NDArray[np.int64],
+        n_parts: int,
+        lengths: NDArray[np.float64] | None = None,
+        price: float = 0.0,
+        *,
+        further: bool = False,
+    ) -> NDArray[np.int64]:
+        """Merge parts (P,) where psi loses least, until `n_parts` are left.
+
+        Borders may have a price, and other `lengths` (E,) along edges; see `merge_to`.
+        """
+        graph = self.graph if lengths is None else replace(self.graph, lengths=lengths)
+        borders = graph.borders(parts, count_parts(parts)).toarray()
+        tally, alpha = self.tally(parts), self.parameters.alpha
+        return merge_to(n_parts, tally, borders, alpha, price, further=further)[parts]

@@ -20,7 +20,7 @@ from ...steps.progress import run
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .flush import flush_seams
-from .pieces import connected_parts, merge_to
+from .pieces import connected_parts
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
 _CREASED = 0.25
@@ -78,17 +78,8 @@ class CreaseParts:
             pieces_between(graph, graph.bends > _CORNER),
             by.parameters.smallest_part,
         )
-        costs = replace(graph, lengths=graph.seam_costs)
-        borders = costs.borders(pieces, count_parts(pieces)).toarray()
-        merged = merge_to(
-            by.parameters.max_parts,
-            by.tally(pieces),
-            borders,
-            by.parameters.alpha,
-            _price(graph),
-            further=True,
-        )
-        return merged[pieces]
+        most, price = by.parameters.max_parts, _price(graph)
+        return by.merged(pieces, most, graph.seam_costs, price, further=True)
 
     def better(
         self,
@@ -129,13 +120,9 @@ class CreaseParts:
         finer = connected_parts(
             by.graph, parts * n_pieces + self.parts, by.smallest_area
         )
-        n_finer = count_parts(finer)
-        if n_finer <= most:
+        if count_parts(finer) <= most:
             return finer
-        priced = replace(by.graph, lengths=self._costs)
-        borders = priced.borders(finer, n_finer).toarray()
-        merged = merge_to(most, by.tally(finer), borders, by.parameters.alpha, 1.0)
-        return merged[finer]
+        return by.merged(finer, most, self._costs, 1.0)
 
     def _worth(self, parts: NDArray[np.int64]) -> float:
         """Return psi of parts (P,), less what their seams cost."""
