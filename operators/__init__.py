@@ -5,6 +5,7 @@ Nothing is imported here at module level: the package loads without Blender.
 
 from __future__ import annotations
 
+import atexit
 from typing import Any
 
 
@@ -40,13 +41,20 @@ def _classes() -> tuple[Any, ...]:
 
 def _modules() -> tuple[Any, ...]:
     """Return the modules that have something to register besides classes, in order."""
-    from . import recut, scene_settings
+    from . import scene_settings
     from .bridge.parts import rows
-    from .bridge.work import session_cache
     from .headless import command_line
+
+    return scene_settings, command_line, rows
+
+
+def _computing() -> tuple[Any, ...]:
+    """Return the modules that hold what was computed until they `stop`."""
+    from . import recut
+    from .bridge.work import session_cache
     from .running import ahead
 
-    return scene_settings, command_line, session_cache, recut, ahead, rows
+    return session_cache, recut, ahead
 
 
 def _watchers() -> tuple[Any, ...]:
@@ -56,7 +64,13 @@ def _watchers() -> tuple[Any, ...]:
     from .viewport import picking, show_sight, shown_figures, shown_parts
 
     shown = show_sight, shown_parts, shown_figures, picking
-    return refine, joins, renaming, *shown
+    return *_computing(), refine, joins, renaming, *shown
+
+
+def _let_go() -> None:
+    """Let go of what was computed: Blender calls a ray tree that is left an error."""
+    for module in reversed(_computing()):
+        module.stop()
 
 
 def register() -> None:
@@ -70,6 +84,7 @@ def register() -> None:
         module.register()
     for module in _watchers():
         watch(module.HANDLERS)
+    atexit.register(_let_go)  # Blender counts its memory when Python ends
 
 
 def unregister() -> None:
@@ -82,6 +97,7 @@ def unregister() -> None:
 
     modal.stop()
     libraries.unregister()
+    atexit.unregister(_let_go)
     for module in reversed(_watchers()):
         unwatch(module.HANDLERS)
         module.stop()

@@ -17,7 +17,7 @@ from .bridge.read.target import Target
 from .bridge.refusals import recut_refusal
 from .bridge.stored.noted_parts import n_faces_of
 from .bridge.stored.record import noted_mesh, noted_parameters, record_of
-from .bridge.watching import call_at_end, call_now_instead, stop_timer
+from .bridge.watching import stop_timer
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
@@ -198,14 +198,7 @@ def stop(*_: object) -> None:
     stop_timer(_invoke)
 
 
-def register() -> None:
-    """Stop whenever a file is loaded, and when Python ends."""
-    call_at_end(stop)
-
-
-def unregister() -> None:
-    """Undo `register`, and stop."""
-    call_now_instead(stop)
+HANDLERS = {"load_pre": stop}
 
 
 class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):

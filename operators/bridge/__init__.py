@@ -5,7 +5,7 @@ By package and module:
 - `stored`: what a file keeps: names, notes and records.
 - `mesh`: faces, points and layers as arrays.
 - `homes`: where what belongs to an object goes in a file.
-- `watching`: Blender tells of changes, of another file and of the end.
+- `watching`: Blender tells of changes and of another file.
 - `rays`: rays that Blender or Embree casts.
 - `read`: an object becomes a shape.
 - `parts`: parts on an object: read, written, named, colored and erased.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from typing import Any
@@ -24,23 +23,6 @@ def unwatch(handlers: Mapping[str, Callable[..., Any]]) -> None:
     for name, handler in handlers.items():
         with suppress(ValueError):
             getattr(bpy.app.handlers, name).remove(handler)
-
-
-def call_at_end(stop: Callable[..., None]) -> None:
-    """Call a persistent handler whenever a file is loaded, and when Python ends.
-
-    It lets go of what was computed: Blender counts its memory then, and calls a ray
-    tree that is left over an error.
-    """
-    atexit.register(stop)
-    watch({"load_pre": stop})
-
-
-def call_now_instead(stop: Callable[..., None]) -> None:
-    """Undo `call_at_end`, and call the function."""
-    unwatch({"load_pre": stop})
-    atexit.unregister(stop)
-    stop()
 
 
 def stop_timer(function: Callable[[], float | None]) -> None:

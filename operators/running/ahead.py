@@ -18,7 +18,7 @@ from ...core.parameters.parameter import field_of, info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps, T
-from ..bridge.watching import call_at_end, call_now_instead, stop_timer
+from ..bridge.watching import stop_timer
 from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
@@ -82,7 +82,7 @@ def go_on() -> float | None:
     if _current is None:
         steps = session_cache().find_ahead(*_wanted[0]) if _wanted else None
         if steps is None:
-            stop()
+            _wanted.clear()
             return None
         _current = _wanted.pop(0), Job(steps)
     (_, is_look), job = _current
@@ -119,14 +119,7 @@ def stop(*_: object) -> None:
     if _current is not None:
         _current[1].cancel()
     _current = None
-
-
-def register() -> None:
-    """Stop whenever a file is loaded, and when Python ends."""
-    call_at_end(stop)
-
-
-def unregister() -> None:
-    """Undo `register`, and stop."""
-    call_now_instead(stop)
     stop_timer(go_on)
+
+
+HANDLERS = {"load_pre": stop}

@@ -14,7 +14,6 @@ import bpy
 from .... import core
 from ..mesh import known
 from ..rays.bvh import BvhRayCaster
-from ..watching import call_at_end, call_now_instead
 
 # Most results that are kept while files are worked through.
 _RESULTS = 64
@@ -55,11 +54,5 @@ def forget(*_: object) -> None:
     known.forget()
 
 
-def register() -> None:
-    """Empty the cache whenever a file is loaded, and when Python ends."""
-    call_at_end(forget)
-
-
-def unregister() -> None:
-    """Undo `register`, and empty the cache."""
-    call_now_instead(forget)
+stop = forget  # when the extension or Python ends
+HANDLERS = {"load_pre": forget}
