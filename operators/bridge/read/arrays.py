@@ -57,10 +57,9 @@ def shape_of(shape: object, faces: object) -> TriangleMesh | PointCloud:
     if isinstance(shape, _OWN):
         return shape
     if is_object:
-        from .place import place_now
         from .shape import read_shape
 
-        return read_shape(shape, place_now(shape))
+        return read_shape(shape)
     if named:
         faces = getattr(shape, "faces", getattr(shape, "triangles", None))
         shape = shape.vertices  # type: ignore[attr-defined]
@@ -124,10 +123,9 @@ def stretch(shape: object) -> NDArray[np.float64]:
     """
     if not _is_blender_object(shape):
         return np.eye(3)
-    from .place import place_now
     from .shape import stretch as stretch_of_object
 
-    return stretch_of_object(shape, place_now(shape))
+    return stretch_of_object(shape)
 
 
 def scene_unit_of(shape: object) -> float:
@@ -145,10 +143,9 @@ def scene_unit_of(shape: object) -> float:
     """
     if not _is_blender_object(shape):
         return 1.0
-    from .place import place_now
     from .shape import scene_unit
 
-    return scene_unit(shape, place_now(shape))
+    return scene_unit(shape)
 
 
 def _is_blender_object(shape: object) -> bool:

@@ -17,6 +17,7 @@ from ..mesh.known import triangles_in_steps, vertex_positions
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
 from .converting import lent_mesh
+from .place import place_now
 from .stretching import scaling, sheared_scale, stretched, unstretched
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
@@ -25,12 +26,12 @@ _SAME_SCALE = 1e-5
 _CLAMPED = np.finfo(np.float32).max
 
 
-def read_shape(obj: bpy.types.Object, place: Matrix | None = None) -> Shape:
+def read_shape(obj: bpy.types.Object) -> Shape:
     """Return at once what `shape_in_steps` returns."""
-    return run(shape_in_steps(obj, place))
+    return run(shape_in_steps(obj))
 
 
-def shape_in_steps(obj: bpy.types.Object, place: Matrix | None = None) -> Steps[Shape]:
+def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
     """Return the triangles of an object's mesh, without modifiers, or its points.
 
     Coordinates are in object space, in Blender units. If the object's scale differs by
@@ -40,22 +41,12 @@ def shape_in_steps(obj: bpy.types.Object, place: Matrix | None = None) -> Steps[
 
     All is read at once, so that the object may change before the steps are done.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    place : (4, 4) Matrix, default that of Blender's last update
-        Where the object is.
-
-    Returns
-    -------
-    Steps of TriangleMesh or PointCloud
-
     Raises
     ------
     DecompositionError
         At once, if an object has no usable faces or points, or no proper place.
     """
-    matrix = stretch(obj, place)
+    matrix = stretch(obj)
     if is_cloud(obj):
         return as_steps(_cloud(obj, matrix))
     flush_edits(obj)
@@ -107,20 +98,19 @@ def _mesh_in_steps(
     return work()
 
 
-def stretch(obj: bpy.types.Object, place: Matrix | None = None) -> NDArray[np.float64]:
+def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
     """Return the matrix, (3, 3), that gives a mesh its proportions.
 
     It is symmetric: it turns nothing. Its determinant is 1: it keeps volumes, and
     lengths of 1 are about as long as in object space. It is diagonal if no parent
-    shears the object, and the identity if the scale is uniform. `place` is as in
-    `shape_in_steps`.
+    shears the object, and the identity if the scale is uniform.
 
     Raises
     ------
     DecompositionError
         If the scale is zero, or the object's place is not finite.
     """
-    scale, axes = _scale_of(obj, place)
+    scale, axes = _scale_of(obj)
     return scaling(_factors(scale), axes)
 
 
@@ -132,17 +122,15 @@ def _factors(scale: NDArray[np.float64]) -> NDArray[np.float64]:
     return factors
 
 
-def scene_unit(obj: bpy.types.Object, place: Matrix | None = None) -> float:
+def scene_unit(obj: bpy.types.Object) -> float:
     """Return the length in the scene of 1 in the coordinates of `read_shape`.
-
-    `place` is as there.
 
     Raises
     ------
     DecompositionError
         As `stretch` does.
     """
-    scale, _ = _scale_of(obj, place)
+    scale, _ = _scale_of(obj)
     return float((scale / _factors(scale)).max())
 
 
@@ -157,13 +145,13 @@ def _is_finite(place: Matrix) -> bool:
 
 
 def _scale_of(
-    obj: bpy.types.Object, place: Matrix | None
+    obj: bpy.types.Object,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the scale of an object, (3,), without signs, and its axes.
 
     These are the columns of a matrix, (3, 3). Raise as `stretch` does.
     """
-    place = obj.matrix_world if place is None else place
+    place = place_now(obj)
     if not _is_finite(place):
         raise DecompositionError(
             "The object's location, rotation or scale, or its parent's, is not a"
