@@ -7,12 +7,12 @@ import numpy as np
 
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
-from ..mesh.layers import flush_edits, let_undo_see_all
+from ..mesh.layers import flush_edits
 from ..parts.figures import figures_of
 from ..parts.present_parts import faces_by_hand
-from ..parts.write import write_parts
 from ..stored.noted_parts import identities_of
-from ..stored.record import note_mesh, noted_mesh, noted_parameters, record_of
+from ..stored.record import noted_parameters, record_of
+from .run_edit import Edited
 
 
 def bring_in_step(obj: bpy.types.Object) -> None:
@@ -29,16 +29,10 @@ def bring_in_step(obj: bpy.types.Object) -> None:
     there = {each.number for each in figures.identities}
     if figures.found.in_step and there <= noted:
         return
-    let_undo_see_all(obj)
-    counts, areas = (
-        figures.measured_on[:, 0].astype(np.int64),
-        figures.measured_on[:, 1],
-    )
-    parameters, mesh = noted_parameters(obj) or Parameters(), noted_mesh(obj)
-    unknown = float("nan")
+    counts, unknown = figures.measured_on[:, 0].astype(np.int64), float("nan")
     decomposition = Decomposition(
         labels=figures.found.labels,
-        areas=areas,
+        areas=figures.measured_on[:, 1],
         face_counts=counts,
         ranks=figures.ranks,
         psi_before=unknown,
@@ -47,6 +41,6 @@ def bring_in_step(obj: bpy.types.Object) -> None:
         best_k=len(counts),
         notes=(),
     )
+    parameters = noted_parameters(obj) or Parameters()
     by_hand = faces_by_hand(obj, len(figures.found.labels))
-    write_parts(obj, decomposition, parameters, figures.identities, by_hand)
-    note_mesh(obj, mesh)
+    Edited(decomposition, figures.identities, parameters, by_hand).write(obj)
