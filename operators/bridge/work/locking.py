@@ -36,7 +36,7 @@ from ..stored.record import record_of
 from .computing import decompose_object, read_seen
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
-from .run_edit import Edited, on_own_faces, ready_to_write
+from .run_edit import Edited, on_own_faces, ready_to_write, with_known_ranks
 from .session_cache import session_cache
 
 _NOT_CUT = (
@@ -163,32 +163,16 @@ def _decompose_rest(
         found = core.describe(
             memo.visibility, labels, parameters, searched.psi_by_k, searched.best_k
         )
-        ranks = _ranks(found, after, np.concatenate([parts.ranks, run.ranks]))
+        ranks = np.concatenate([parts.ranks, run.ranks])
+        found = with_known_ranks(found, after, ranks)
         pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
         said = (*notes, *found.notes)
-        found = replace(found, ranks=ranks, pairs=pairs, notes=said)
+        found = replace(found, pairs=pairs, notes=said)
         return Edited(
             on_own_faces(found, seen), None, parameters, parts.by_hand, seen=seen
         )
 
     return ready_to_write(obj, work())
-
-
-def _ranks(
-    found: Decomposition, before: NDArray[np.int64], known: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the rank of each part: the known one, if no face came or went.
-
-    Only few samples of the whole shape lie on a small part.
-    """
-    ranks = found.ranks.copy()
-    pairs = np.unique(np.stack([found.labels, before], axis=1), axis=0)
-    alone = np.bincount(pairs[:, 0])[pairs[:, 0]] == 1
-    alone &= np.bincount(pairs[:, 1])[pairs[:, 1]] == 1
-    for part, former in pairs[alone]:
-        if np.isfinite(known[former]):
-            ranks[part] = known[former]
-    return ranks
 
 
 def _parameters_of_rest(

@@ -171,24 +171,32 @@ def _described(
     found = core.describe(
         memo.visibility, labels, parts.parameters, parts.psi_by_k, parts.best_k
     )
-    ranks = _ranks(found, parts, change, former.tolist())
+    found = with_known_ranks(found, parts.labels, parts.ranks)
+    own = zip(former.tolist(), found.ranks.tolist(), strict=True)
+    ranks = np.array([change.ranks.get(label, rank) for label, rank in own])
     return replace(found, ranks=ranks), tuple(identities)
 
 
-def _ranks(
-    found: Decomposition, parts: PresentParts, change: core.Change, former: list[int]
-) -> NDArray[np.float64]:
-    """Return the convexity rank of each part, from the best estimate there is, (K,).
+def with_known_ranks(
+    found: Decomposition, before: NDArray[np.int64], known: NDArray[np.float64]
+) -> Decomposition:
+    """Return parts with the ranks that they had, where no face came or went.
 
-    Only few samples of the whole shape lie on a small part. So unchanged parts keep
-    their ranks, and parts that were split off have ranks from their own samples.
+    Only few samples of the whole shape lie on a small part.
+
+    Parameters
+    ----------
+    found : Decomposition
+    before : (P,) int
+        Part of each face before.
+    known : (K,) float
+        Ranks of these parts; nan for those that are not known.
     """
-    changed = parts.labels != change.labels
-    touched = set(parts.labels[changed]) | set(change.labels[changed])
     ranks = found.ranks.copy()
-    for row, label in enumerate(former):
-        if label in change.ranks:
-            ranks[row] = change.ranks[label]
-        elif label not in touched and np.isfinite(parts.ranks[label]):
-            ranks[row] = parts.ranks[label]
-    return ranks
+    pairs = np.unique(np.stack([found.labels, before], axis=1), axis=0)
+    alone = np.bincount(pairs[:, 0])[pairs[:, 0]] == 1
+    alone &= np.bincount(pairs[:, 1])[pairs[:, 1]] == 1
+    for part, former in pairs[alone]:
+        if np.isfinite(known[former]):
+            ranks[part] = known[former]
+    return replace(found, ranks=ranks)
