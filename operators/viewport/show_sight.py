@@ -64,7 +64,10 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         """Make the object ready; then show what each clicked point sees."""
         if self._viewer is None:
             answer = super().modal(context, event)
-            return answer if answer != {"FINISHED"} else self._wait()
+            if answer != {"FINISHED"}:
+                return answer
+            modal.show_hint(self._overlay.workspace, _HINT)
+            return {"RUNNING_MODAL"}
         if sight_overlay.current is not self._overlay:  # hidden, or replaced by another
             return {"FINISHED", "PASS_THROUGH"}
         if context.mode not in CLICKED_MODES:  # others take clicks; the picture stays
@@ -98,11 +101,6 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             self._show(*ray)
         return f"{len(value.views.samples):,} samples"
 
-    def _wait(self) -> set[str]:
-        """Wait for clicks."""
-        modal.show_hint(self._overlay.workspace, _HINT)
-        return {"RUNNING_MODAL"}
-
     def _press(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Take a pressed key or button; all that is not ours passes."""
         place = viewport_at(context, event.mouse_x, event.mouse_y)
@@ -135,7 +133,8 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         ray = stretched(np.array([origin, direction]), self._overlay.stretch)
         view = self._viewer.look(*ray)
         if view is not None:
-            sight_overlay.show_view(view)
+            self._overlay.view = view
+            sight_overlay.show(self._overlay)
 
 
 WCD_OT_show_sight.__annotations__ = {
@@ -177,7 +176,7 @@ CLASSES = (WCD_OT_show_sight, WCD_OT_hide_sight)
 def stop(*_: object) -> None:
     """Hide the overlay, and clear its text from the status bar."""
     overlay = sight_overlay.current
-    sight_overlay.hide()
+    sight_overlay.show(None)
     if overlay is not None:
         modal.show_hint(overlay.workspace, None)
 

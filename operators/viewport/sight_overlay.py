@@ -48,22 +48,8 @@ class Overlay:
 current: Overlay | None = None
 
 
-def show(overlay: Overlay) -> None:
-    """Show an overlay in place of another."""
+def show(overlay: Overlay | None) -> None:
+    """Show an overlay in place of another, None for no overlay."""
     global current
     current = overlay
-    redraw()
-
-
-def hide() -> None:
-    """Show no overlay."""
-    global current
-    current = None
-    redraw()
-
-
-def show_view(view: View) -> None:
-    """Show what a point sees in place of what another saw."""
-    if current is not None:
-        current.view = view
     redraw()
