@@ -14,6 +14,7 @@ import numpy as np
 from bpy.types import Material
 from numpy.typing import NDArray
 
+from ....core.errors import DecompositionError
 from ..mesh.attributes import IntArray
 from ..mesh.layers import layers_of
 from ..mesh.points import count_points, is_cloud
@@ -133,6 +134,14 @@ def part_materials(obj: bpy.types.Object, found: FoundParts) -> list[Material | 
         else None
         for number, turn in found.origins
     ]
+
+
+def parts_on(obj: bpy.types.Object) -> FoundParts:
+    """Return the parts that an object has now; raise if it has none of ours."""
+    found = find_parts_on(obj)
+    if found is None:
+        raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
+    return found
 
 
 def part_labels(obj: bpy.types.Object) -> NDArray[np.int64] | None:

@@ -11,7 +11,6 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ....core.errors import DecompositionError
 from ..cuts.whole_mesh import forget_whole
 from ..homes import hand_over, new_collection
 from ..hulls.hull_objects import erase_hulls
@@ -21,7 +20,7 @@ from ..mesh.known import face_areas
 from ..views.node_modifiers import discard_views, remove_views
 from .erase import clear
 from .materials import discard, discard_unused, none_missing
-from .read import find_parts_on, part_materials
+from .read import part_materials, parts_on
 
 
 def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
@@ -43,9 +42,7 @@ def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
     DecompositionError
         If the object has no parts. Nothing is changed then, nor by any other error.
     """
-    found = find_parts_on(obj)
-    if found is None:
-        raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
+    found = parts_on(obj)
     identities, own = found.identities, part_materials(obj, found)
     pieces: list[bpy.types.Object] = []
     with ExitStack() as on_error:

@@ -8,19 +8,18 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.errors import DecompositionError
 from ..mesh.attributes import read_labels
 from ..mesh.layers import layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..parts.palette import UNPAINTED
-from ..parts.read import FoundParts, find_parts_on, part_identities
+from ..parts.read import part_identities, parts_on
 from ..stored.identity import Identity
 from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:
     """Make a face set of each part; Clear restores the former face sets."""
-    layers, ours = layers_of(obj), _found(obj).face_sets
+    layers, ours = layers_of(obj), parts_on(obj).face_sets
     if layers.faces(FACE_SET_LAYER) is None:
         before = layers.faces(FACE_SETS)
         layers.set_faces(
@@ -32,7 +31,7 @@ def write_face_sets(obj: bpy.types.Object) -> None:
 
 def write_colors(obj: bpy.types.Object) -> None:
     """Give the corners of faces the colors of their parts."""
-    layers, found = layers_of(obj), _found(obj)
+    layers, found = layers_of(obj), parts_on(obj)
     layers.set_colors(COLOR_LAYER, _colors(found.identities)[found.labels])
     layers.finish()
 
@@ -47,7 +46,7 @@ def paint_points(
 def show_colors(obj: bpy.types.Object) -> None:
     """Bring the colors of points, and of corners if they have them, up to date."""
     if is_cloud(obj):
-        found = _found(obj)
+        found = parts_on(obj)
         paint_points(obj, found.labels, found.identities)
     elif shown(obj)[1]:
         write_colors(obj)
@@ -85,10 +84,3 @@ def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:
 def _colors(identities: Sequence[Identity]) -> NDArray[np.float32]:
     """Return the linear RGBA color of each part, (K, 4)."""
     return np.array([(*each.color, 1.0) for each in identities], dtype=np.float32)
-
-
-def _found(obj: bpy.types.Object) -> FoundParts:
-    found = find_parts_on(obj)
-    if found is None:
-        raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
-    return found
