@@ -15,6 +15,7 @@ import bpy
 
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps
+from ..viewport.viewports import redraw_sidebars
 
 # Seconds of work in a slice; the window takes the user's input after it. Steps end some
 # 20 ms late, 75 on a mesh of a million faces.
@@ -153,17 +154,6 @@ def _show_status(name: str, text: str | None) -> None:
     # Blender sets the text of the workspace in the context, not of the one called.
     with bpy.context.temp_override(workspace=workspace):
         workspace.status_text_set(text)
-
-
-def redraw_sidebars() -> None:
-    """Let Blender draw the sidebars of all 3D viewports."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type != "VIEW_3D":
-                continue
-            for region in area.regions:
-                if region.type == "UI":
-                    region.tag_redraw()
 
 
 class WCD_OT_cancel(bpy.types.Operator):

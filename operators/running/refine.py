@@ -27,6 +27,7 @@ from ..bridge.stored.record import (
 from ..bridge.watching import stop_timer
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
+from ..viewport.viewports import redraw_sidebars
 from . import modal
 
 # Seconds that settings rest before their parts are found.
@@ -84,8 +85,9 @@ def go_on() -> float | None:
         if _current is None or _current[0] != target:
             _current = target, Job(_steps(ready[0]))
         elif _current[1].done:  # the parts are written in a slice of their own
-            _write(ready[0], _current[1].result())
+            _current[1].result().write(ready[0])
             _current = None
+            redraw_sidebars()
         else:
             _current[1].advance(_SLICE)
     except DecompositionError:  # the next run reports it
@@ -100,12 +102,6 @@ def _steps(obj: bpy.types.Object) -> Steps[Edited]:
     if parameters is None or figures is None or figures.problem:
         raise DecompositionError(f"The faces of {obj.name} have changed; start again.")
     return decompose_unlocked(obj, parameters, seen=read_as(noted_mesh(obj), obj))
-
-
-def _write(obj: bpy.types.Object, found: Edited) -> None:
-    """Write the parts; the object has the same number of faces as when it was read."""
-    found.write(obj)
-    modal.redraw_sidebars()
 
 
 @bpy.app.handlers.persistent

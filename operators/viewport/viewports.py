@@ -48,6 +48,15 @@ def redraw() -> None:
             area.tag_redraw()
 
 
+def redraw_sidebars() -> None:
+    """Let Blender draw the sidebars alone: a large scene takes long."""
+    for window in bpy.context.window_manager.windows:
+        for area in _areas(window.screen):
+            for region in area.regions:
+                if region.type == "UI":
+                    region.tag_redraw()
+
+
 def show_header(text: str | None) -> None:
     """Show a text in the headers of all viewports; None shows the usual ones again."""
     for screen in bpy.data.screens:
