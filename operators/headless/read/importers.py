@@ -21,19 +21,10 @@ from .off_files import read_off
 from .xyz_files import read_points
 
 
-def _obj(path: Path, up: str) -> set[str]:
-    """Import .obj."""
-    return set(bpy.ops.wm.obj_import(filepath=str(path), **axes(up)))
-
-
-def _ply(path: Path, up: str) -> set[str]:
-    """Import .ply."""
-    return set(bpy.ops.wm.ply_import(filepath=str(path), **axes(up)))
-
-
-def _stl(path: Path, up: str) -> set[str]:
-    """Import .stl."""
-    return set(bpy.ops.wm.stl_import(filepath=str(path), **axes(up)))
+def _mesh(path: Path, up: str) -> set[str]:
+    """Import .obj, .ply or .stl."""
+    operator = getattr(bpy.ops.wm, f"{path.suffix[1:].lower()}_import")
+    return set(operator(filepath=str(path), **axes(up)))
 
 
 def _off(path: Path, up: str) -> set[str]:
@@ -144,9 +135,9 @@ def _add_object(mesh: bpy.types.Mesh, up: str) -> bpy.types.Object:
 
 
 IMPORTERS: dict[str, Callable[[Path, str], set[str]]] = {
-    ".obj": _obj,
-    ".ply": _ply,
-    ".stl": _stl,
+    ".obj": _mesh,
+    ".ply": _mesh,
+    ".stl": _mesh,
     ".off": _off,
     ".xyz": _points,
     ".pwn": _points,

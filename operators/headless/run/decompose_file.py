@@ -52,32 +52,32 @@ def decompose_file(
     screen.stages = stages
     with stages.during("read"):
         loaded = _load(path, targets, request, goals, attempts)
-    objects = loaded.objects
+    objects, bodies = loaded.objects, request.body_parameters
     results = _parts_of(loaded, path, targets, request, screen)
-    hull_objects: list[bpy.types.Object] = []
+    built: list[bpy.types.Object] = []
     if all(result.record is None for result in results):
         targets = Targets()  # there is nothing to write
 
     up = request.up or USUAL_UP.get(path.suffix.lower())
     if request.with_hulls and targets.output:
-        hull_objects, results = build_hulls(objects, results, request, screen)
-        if not hull_objects:  # a model without its hulls is not what was asked for
+        built, results = build_hulls(objects, results, request, screen)
+        if not built:  # a model without its hulls is not what was asked for
             attempts.failed(_NO_HULLS.format(targets.output.name))
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
         output = attempts.written(
             targets.output,
-            lambda file: _warn(save(file, up, hull_objects), file, screen),
+            lambda file: _warn(save(file, up, built), file, screen),
         )
         picture = attempts.written(
             targets.picture, lambda file: save_picture(file, objects, trial.engine())
         )
-    if targets.hulls and not hull_objects:
-        hull_objects, results = build_hulls(objects, results, request, screen)
+    if targets.hulls and not built:
+        built, results = build_hulls(objects, results, request, screen)
     with stages.during("write"):
         hulls = attempts.written(
-            targets.hulls if hull_objects else None,
-            lambda file: _write_hulls(file, hull_objects, up, request, screen),
+            targets.hulls if built else None,
+            lambda file: _warn(save_hulls(file, built, up, bodies), file, screen),
         )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     notes, used = loaded.about, stages.stages
@@ -126,17 +126,6 @@ def _without_parts(
         show(file_name, result, screen)
         results.append(result)
     return tuple(results)
-
-
-def _write_hulls(
-    file: Path,
-    hulls: Sequence[bpy.types.Object],
-    up: str | None,
-    request: Request,
-    screen: Screen,
-) -> None:
-    """Write hulls to a file of their own, and show what is to be said of it."""
-    _warn(save_hulls(file, hulls, up, request.body_parameters), file, screen)
 
 
 def _warn(notes: Sequence[str], file: Path, screen: Screen) -> None:

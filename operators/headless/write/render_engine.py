@@ -32,14 +32,10 @@ class EngineTrial:
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
 
-    def start(self) -> None:
-        """Start the test render; it runs while this process works."""
-        self._running()
-
     def engine(self) -> RenderEngine:
         """Wait for the test render; return Workbench if it worked, else Cycles."""
         try:
-            works = self._running().wait(timeout=_TRIAL_SECONDS) == 0
+            works = self.start().wait(timeout=_TRIAL_SECONDS) == 0
         except subprocess.TimeoutExpired:
             works = False
             self.close()
@@ -51,8 +47,8 @@ class EngineTrial:
             self._process.kill()
             self._process.wait()
 
-    def _running(self) -> subprocess.Popen[bytes]:
-        """Return the process of the test render; start it if there is none."""
+    def start(self) -> subprocess.Popen[bytes]:
+        """Start the test render, if it is not; it runs while this process works."""
         if self._process is not None:
             return self._process
         if bpy.app.binary_path:
