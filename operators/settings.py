@@ -50,11 +50,6 @@ def property_for(name: str, **more: Any) -> Any:
     """Return a setting as a Blender property; `more` is given to Blender as it is."""
     if name in _FIELDS:
         return _property(_FIELDS[name], **more)
-    return _of_runs(name, **more)
-
-
-def _of_runs(name: str, **more: Any) -> Any:
-    """Return a setting of `_OF_RUNS` or `_OF_HULLS` as a Blender property."""
     if name == "keep_edits":
         return bpy.props.BoolProperty(
             name="Keep Edits",

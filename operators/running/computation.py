@@ -116,7 +116,7 @@ class Computation(OnObjects):
         for target, name, outcome in zip(
             self._targets, self._names, outcomes, strict=True
         ):
-            self._title = f"{name}: " if outcomes[1:] else ""
+            title = f"{name}: " if outcomes[1:] else ""
             try:
                 if isinstance(outcome, DecompositionError):
                     raise outcome
@@ -124,9 +124,10 @@ class Computation(OnObjects):
             except DecompositionError as error:
                 failures.append((name, str(error)))
                 continue
-            self._warn(outcome.notes)
+            for note in outcome.notes:
+                self.report({"WARNING"}, f"{title}{note}")
             seconds = time.perf_counter() - self._started
-            self.report({"INFO"}, f"{self._title}{figures}, {seconds:.1f} s")
+            self.report({"INFO"}, f"{title}{figures}, {seconds:.1f} s")
         late = find == self._changeable
         return self._conclude(failures, len(outcomes), late)
 
@@ -143,11 +144,6 @@ class Computation(OnObjects):
         if reason:
             raise DecompositionError(f"{reason}. Start again.")
         return obj
-
-    def _warn(self, notes: Sequence[str]) -> None:
-        """Report the notes that came with a result."""
-        for note in notes:
-            self.report({"WARNING"}, f"{self._title}{note}")
 
 
 class Replacement(OnActive, Computation):

@@ -69,18 +69,14 @@ class WCD_OT_choose_part(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Choose the part, on the object that has it."""
-        obj = context.active_object
-        if self.object:
-            obj = bpy.data.objects.get(self.object)
-            if obj is None:
-                self.report({"ERROR"}, f"There is no object {self.object}.")
-                return {"CANCELLED"}
-        reason = edit_refusal(obj) or _absence(context, obj)
-        if reason:
-            self.report({"ERROR"}, f"{reason}.")
-            return {"CANCELLED"}
-        make_active(context, obj)
+        name, obj = self.object, context.active_object
+        if name:
+            obj = bpy.data.objects.get(name)
+        lost = f"There is no object {name}" if name and obj is None else None
         try:
+            if reason := lost or edit_refusal(obj) or _absence(context, obj):
+                raise DecompositionError(f"{reason}.")
+            make_active(context, obj)
             choose(obj, self.number, self.extend)
         except DecompositionError as error:
             self.report({"ERROR"}, str(error))
