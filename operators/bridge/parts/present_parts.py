@@ -82,8 +82,3 @@ def faces_by_hand(obj: bpy.types.Object, n_faces: int) -> NDArray[np.bool_]:
     if flags is None or len(flags) != n_faces:
         return np.zeros(n_faces, dtype=bool)
     return flags > 0
-
-
-def has_faces_by_hand(obj: bpy.types.Object) -> bool:
-    """Return whether it is noted of the faces of an object who settled them."""
-    return layers_of(obj).faces(HAND_LAYER) is not None

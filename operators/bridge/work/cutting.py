@@ -42,25 +42,23 @@ def gets_new_faces(
         If faces are to be cut in Edit Mode, those of a mesh as it is seen, or those
         that sculpted details or modifiers are bound to.
     """
-    if seen is not None and parameters.seams == "CUT":
+    cuts = parameters.seams == "CUT"
+    if seen is not None and cuts:
         raise DecompositionError(
             "Only faces of the mesh itself are cut; choose Original for Mesh, or Keep"
             " Faces for Seams."
         )
-    if seen is not None:
+    if seen is not None or obj.type != "MESH" or not obj.data.polygons:
         return False
-    if obj.type != "MESH" or not obj.data.polygons:
-        return False
-    if parameters.seams == "CUT":
-        _check_free_faces(obj)
-    if not obj.data.is_editmode:
-        return parameters.seams == "CUT" or is_cut(obj)
-    if parameters.seams == "CUT":
+    if not cuts:
+        return is_cut(obj) and not obj.data.is_editmode
+    _check_free_faces(obj)
+    if obj.data.is_editmode:
         raise DecompositionError(
             "Faces are cut in Object Mode only; switch the mode, or choose Keep Faces"
             " for Seams."
         )
-    return False
+    return True
 
 
 def _check_free_faces(obj: bpy.types.Object) -> None:

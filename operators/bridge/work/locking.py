@@ -21,16 +21,13 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..mesh.by_label import areas_of
-from ..parts.present_parts import (
-    PresentParts,
-    faces_by_hand,
-    has_faces_by_hand,
-    present_parts,
-)
+from ..mesh.layers import layers_of
+from ..parts.present_parts import PresentParts, present_parts
 from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..refusals import edit_refusal
+from ..stored.names import HAND_LAYER
 from ..stored.noted_parts import psi_by_k_of
 from ..stored.record import record_of
 from .computing import decompose_object, read_seen
@@ -113,12 +110,8 @@ def _may_hold(obj: bpy.types.Object, keep_edits: bool) -> bool:
     if edit_refusal(obj) is not None:
         return False
     locked = any(row.locked for row in obj.wcd_parts)
-    if not locked and not (keep_edits and has_faces_by_hand(obj)):
-        return False
-    labels = part_labels(obj)
-    if labels is None:
-        return False
-    return locked or bool(faces_by_hand(obj, len(labels)).any())
+    by_hand = keep_edits and layers_of(obj).faces(HAND_LAYER) is not None
+    return (locked or by_hand) and part_labels(obj) is not None
 
 
 def _held(parts: PresentParts, by_hand: NDArray[np.bool_]) -> NDArray[np.bool_]:
