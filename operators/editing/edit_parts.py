@@ -189,7 +189,7 @@ class WCD_OT_refresh_parts(_Edit, bpy.types.Operator):
     _refusal = staticmethod(decomposed_refusal)
 
     def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
-        return edit_object(obj, edits.refreshing)
+        return edit_object(obj, edits.refreshing())
 
 
 CLASSES: tuple[Any, ...] = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,31 +18,16 @@ from .session_cache import session_cache
 
 
 def merging(chosen: Sequence[int], into: int) -> MakeChange:
-    """Return the edit that merges parts into one.
+    """Return the edit that merges the chosen parts into one of them."""
 
-    Parameters
-    ----------
-    chosen : sequence of int
-        Parts to merge.
-    into : int
-        Part that they become.
-    """
+    def merged(labels: NDArray[np.int64]) -> core.Change:
+        return core.give(labels, np.isin(labels, chosen), into)
 
-    def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
-        yield Progress("Merge", 0.0)
-        return core.give(parts.labels, np.isin(parts.labels, chosen), into)
-
-    return change
+    return _at_once("Merge", merged)
 
 
 def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
-    """Return the edit that assigns faces to a part.
-
-    Parameters
-    ----------
-    faces : (P,) bool
-        Faces to assign.
-    part : int
+    """Return the edit that assigns faces, (P,), to a part.
 
     Raises
     ------
@@ -51,29 +36,28 @@ def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
     """
     if not faces.any():
         raise DecompositionError("No face is selected; select the faces to assign.")
+    return _at_once("Assign", lambda labels: core.give(labels, faces, part))
+
+
+def refreshing() -> MakeChange:
+    """Return the edit of no face: parts are only measured and written again."""
+    return _at_once("Refresh", lambda labels: core.Change(labels))
+
+
+def _at_once(
+    stage: str, edit: Callable[[NDArray[np.int64]], core.Change]
+) -> MakeChange:
+    """Return an edit that takes the labels of faces, (P,), and no time."""
 
     def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
-        yield Progress("Assign", 0.0)
-        return core.give(parts.labels, faces, part)
+        yield Progress(stage, 0.0)
+        return edit(parts.labels)
 
     return change
 
 
-def refreshing(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:
-    """Change no face: the parts are only measured and written again."""
-    yield Progress("Refresh", 0.0)
-    return core.Change(parts.labels)
-
-
 def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
-    """Return the edit that splits each of some parts.
-
-    Parameters
-    ----------
-    chosen : sequence of int
-        Parts to split.
-    n_parts : int
-        Number of parts that each becomes; 0 lets psi decide.
+    """Return the edit that splits each of some parts into `n_parts`; 0 lets psi decide.
 
     Raises
     ------
@@ -119,12 +103,7 @@ def _nothing_split(name: str, n_parts: int) -> DecompositionError:
 def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
     """Return the edit that smooths the seams of parts.
 
-    Parameters
-    ----------
-    chosen : sequence of int
-        Parts whose seams are smoothed.
-    smoothness : float
-        Weight lambda of the smoothness term (eq. 4).
+    `smoothness` is the weight lambda of the smoothness term (eq. 4).
     """
 
     def change(
@@ -139,12 +118,7 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
 
 
 def mirroring(to_negative: bool) -> MakeChange:
-    """Return the edit that copies the parts of one side of X to the other.
-
-    Parameters
-    ----------
-    to_negative : bool
-        Whether to copy from positive X to negative X, or the reverse.
+    """Return the edit that copies the parts at positive X to negative X, or back.
 
     Raises
     ------
