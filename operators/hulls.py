@@ -69,10 +69,12 @@ WCD_OT_build_hulls.__annotations__ = properties_for(HULL_RUN)
 class _OnHulls(OnEach):
     """Half an operator on objects with hulls."""
 
+    _refusal: ClassVar[Callable[..., str | None]] = staticmethod(no_hulls_refusal)
+
     @classmethod
     def _refusals(cls) -> Callable[[Any], str | None]:
         """Return the refusal, which looks for hulls once for all objects."""
-        return partial(no_hulls_refusal, owners=owners_of_hulls())
+        return partial(cls._refusal, owners=owners_of_hulls())
 
 
 class WCD_OT_make_rigid(_OnHulls, bpy.types.Operator):
@@ -107,11 +109,7 @@ class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):
     bl_idname = "wcd.remove_hulls"
     bl_label = "Remove Collision Hulls"
     bl_description = "Remove the hulls that were built; the parts stay"
-
-    @classmethod
-    def _refusals(cls) -> Callable[[Any], str | None]:
-        """Return the refusal, which looks for hulls once for all objects."""
-        return partial(remove_hulls_refusal, owners=owners_of_hulls())
+    _refusal = staticmethod(remove_hulls_refusal)
 
     def _work(self, obj: bpy.types.Object) -> None:
         erase_hulls(obj)
