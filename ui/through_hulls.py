@@ -47,14 +47,7 @@ def transparent_hulls(context: bpy.types.Context) -> list[bpy.types.Object]:
 
 
 def draw_through(hulls: Sequence[bpy.types.Object], draw: Callable[[], None]) -> None:
-    """Let hulls show what is drawn, wherever they are in front.
-
-    Parameters
-    ----------
-    hulls : sequence of Object
-    draw : callable
-        Draws with the depth test, on transparent white.
-    """
+    """Let hulls show what is drawn, on transparent white, where they are in front."""
     view, noting = bpy.context.region_data, gpu.state.depth_mask_get()
     colors, picture = _picture(*gpu.state.viewport_get()[2:])
     gpu.state.depth_mask_set(True)

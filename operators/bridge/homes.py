@@ -99,14 +99,9 @@ def hand_over(
     """Give a child of an object another parent, or none, and leave it in place.
 
     Its location stays what it is below a parent: that may be animated. A child that
-    vertices hold is held by all of the parent: their numbers are others there.
-
-    Parameters
-    ----------
-    child : Object
-    parent : Object or None
-    within : Matrix
-        From the space of the former parent to that of `parent`, or of the scene.
+    vertices hold is held by all of the parent: their numbers are others there. The
+    matrix `within` is from the space of the former parent to that of `parent`, or of
+    the scene.
     """
     inverse = child.matrix_parent_inverse.copy()
     if child.parent_type.startswith("VERTEX"):

@@ -52,22 +52,11 @@ CONTROL_CHARACTERS = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
 
 
 def up_in(ending: str, chosen: str | None) -> str:
-    """Return the axis that points up in a file: the chosen one, or the usual one.
-
-    Parameters
-    ----------
-    ending : str
-    chosen : {'Y', 'Z'} or None
-    """
+    """Return the axis that points up in a file, Y or Z: the chosen or the usual one."""
     return chosen or USUAL_UP.get(ending, "Z")
 
 
 def axes(up: str) -> dict[str, str]:
-    """Return the options of Blender's importers and exporters for an up axis.
-
-    Parameters
-    ----------
-    up : {'Y', 'Z'}
-    """
+    """Return the options of Blender's importers and exporters for Y or Z up."""
     forward = {"Y": "NEGATIVE_Z", "Z": "Y"}[up]
     return {"forward_axis": forward, "up_axis": up}

@@ -108,15 +108,7 @@ class Screen:
 
 
 def progress_title(title: str, number: int, total: int) -> str:
-    """Return the title of an object's progress, which of them it is if there are many.
-
-    Parameters
-    ----------
-    title : str
-    number : int
-        Counted from 1.
-    total : int
-    """
+    """Return the title of an object's progress, with its number if there are many."""
     return f"{title} (object {number:,} of {total:,})" if total > 1 else title
 
 

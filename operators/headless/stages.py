@@ -86,17 +86,7 @@ class Stages:
             self._ends(name)
 
     def watched(self, steps: Steps[T]) -> Steps[T]:
-        """Run `steps`; count the time after each report to the stage it names.
-
-        Parameters
-        ----------
-        steps : Steps
-
-        Returns
-        -------
-        Steps
-            With the same reports and value.
-        """
+        """Run `steps`; count the time after each report to the stage it names."""
         name, started = "prepare", self._clock()
         try:
             while True:

@@ -92,19 +92,7 @@ def go_on() -> float | None:
 
 
 def after_rest(wanted: Wanted, steps: Steps[T]) -> Steps[T]:
-    """Run `steps`, which find parts too; if these are half found, find the rest first.
-
-    Parameters
-    ----------
-    wanted : Parameters, bool
-        That `steps` find parts with, and whether a first look is enough.
-    steps : Steps
-
-    Returns
-    -------
-    Steps
-        With the value of `steps`.
-    """
+    """Run `steps`, which find parts too; find the rest first of those half found."""
     while _current is not None and _current[0] == wanted and not _current[1].done:
         _current[1].advance(0.0)
         yield _current[1].progress

@@ -24,15 +24,10 @@ _OPACITY = 0.35
 
 
 def look_like(hulls: Sequence[bpy.types.Object], look: str) -> None:
-    """Show hulls as transparent or opaque solids, or as wires.
+    """Show hulls in one of the looks of `CHOICES`.
 
     The material of the mesh may be that of a part, which is opaque. So a transparent
     hull wears a copy of its own. Materials that the user gave it stay as they are.
-
-    Parameters
-    ----------
-    hulls : sequence of Object
-    look : {'TRANSPARENT', 'SOLID', 'WIRE'}
     """
     for hull in hulls:
         hull.display_type = "WIRE" if look == WIRE else "TEXTURED"

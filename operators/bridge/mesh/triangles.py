@@ -51,10 +51,6 @@ def ask(mesh: bpy.types.Mesh, faces: IntArray) -> Asked:
         With its triangles made.
     faces : (T,) int32
         The face of each triangle.
-
-    Returns
-    -------
-    Asked
     """
     counts = np.bincount(faces, minlength=len(mesh.polygons))
     large = counts > 2

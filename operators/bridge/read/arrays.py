@@ -38,10 +38,6 @@ def shape_of(shape: object, faces: object) -> TriangleMesh | PointCloud:
     faces : sequence of sequences of int, or None
         Vertex rows of each polygon. Vertices without faces are points.
 
-    Returns
-    -------
-    TriangleMesh or PointCloud
-
     Raises
     ------
     TypeError
@@ -79,10 +75,6 @@ def mesh_of(shape: object, faces: object) -> TriangleMesh:
         attributes `vertices` and `faces`.
     faces : sequence of sequences of int, or None
         Vertex rows of each polygon.
-
-    Returns
-    -------
-    TriangleMesh
 
     Raises
     ------

@@ -23,11 +23,7 @@ from .shown_mesh import evaluated_copy
 def carrier_for(obj: bpy.types.Object, seen: SeenMesh | None) -> bpy.types.Object:
     """Return the object to be read: a mesh itself, or a new carrier.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    seen : SeenMesh or None
-        The mesh as it is seen, if that is read.
+    The carrier has the mesh as it is `seen`, if that is read.
 
     Raises
     ------

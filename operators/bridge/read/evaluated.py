@@ -136,11 +136,6 @@ def which_mesh(mesh: str, obj: bpy.types.Object) -> str:
 def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
     """Return the mesh of an object as it is seen, None if its own is to be read.
 
-    Parameters
-    ----------
-    mesh : {'ORIGINAL', 'EVALUATED'}
-    obj : bpy.types.Object
-
     Raises
     ------
     DecompositionError

@@ -185,11 +185,7 @@ def have_equal_shapes(
 ) -> bool:
     """Return whether `read_shape` gives the same for two objects.
 
-    Parameters
-    ----------
-    obj, other : bpy.types.Object
-    of_equal_size : bool
-        Whether they must have the same size in the scene, too.
+    If `of_equal_size`, they must have the same size in the scene, too.
 
     Raises
     ------

@@ -67,10 +67,6 @@ def decompose_unlocked(
     rough : bool, optional
         Whether a first look at the parts is enough; only if the run covers all faces.
 
-    Returns
-    -------
-    Steps of Edited
-
     Raises
     ------
     DecompositionError

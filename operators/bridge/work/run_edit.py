@@ -71,13 +71,7 @@ class Edited:
         return self.decomposition.notes
 
     def write(self, obj: bpy.types.Object) -> None:
-        """Write the parts to an object.
-
-        Parameters
-        ----------
-        obj : bpy.types.Object
-            The object that they were computed for.
-        """
+        """Write the parts to the object that they were computed for."""
         mesh = EVALUATED if self.seen else ORIGINAL
         if self.identities is not None:  # an edit finds no parts
             mesh = noted_mesh(obj)
@@ -116,21 +110,8 @@ def ready_to_write(obj: bpy.types.Object, steps: Steps[Edited]) -> Steps[Edited]
     return work()
 
 
-def edit_object(
-    obj: bpy.types.Object,
-    make_change: MakeChange,
-) -> Steps[Edited]:
+def edit_object(obj: bpy.types.Object, make_change: MakeChange) -> Steps[Edited]:
     """Check and read an object with parts; return the steps that change them.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    make_change : callable
-        Takes the shape, its memo and the present parts; returns the steps of a Change.
-
-    Returns
-    -------
-    Steps of Edited
 
     Raises
     ------

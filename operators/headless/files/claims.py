@@ -20,11 +20,7 @@ _MATERIALS_LINE = re.compile(rb"^mtllib (.+?)\r?$", re.MULTILINE)
 def companion_of(path: Path, is_model: bool) -> Path | None:
     """Return the file or folder that is written beside `path`, None if there is none.
 
-    Parameters
-    ----------
-    path : Path
-    is_model : bool
-        Whether it is a model; hulls have no materials.
+    It may hold the materials of a model; hulls have none.
     """
     ending = path.suffix.lower()
     if ending in SIMULATOR_ENDINGS:
@@ -72,17 +68,9 @@ def _check_name(path: Path) -> None:
 
 
 def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
-    """Check that no output is written twice, over an input, or within another.
+    """Raise if an output is written twice, over an input, or within another.
 
-    Parameters
-    ----------
-    outputs : sequence of Path
-        With their companions.
-    inputs : sequence of Path
-
-    Raises
-    ------
-    DecompositionError
+    The companions are among the outputs.
     """
     read = {path.resolve() for path in inputs}
     same = {_identity(path) for path in inputs} - {None}

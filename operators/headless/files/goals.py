@@ -15,10 +15,7 @@ from .claims import place_key, place_of
 class Goals:
     """Refuses outputs in place of files that inputs refer to.
 
-    Parameters
-    ----------
-    places : iterable of Path
-        All files of the run, with their companions.
+    The `places` are all files of the run, with their companions.
     """
 
     def __init__(self, places: Iterable[Path]) -> None:
@@ -26,13 +23,7 @@ class Goals:
         self._refused: dict[str, str] = {}
 
     def keep(self, files: Iterable[Path], user: Path) -> None:
-        """Keep the files that an input refers to: none is written from now on.
-
-        Parameters
-        ----------
-        files : iterable of Path
-        user : Path
-            The input.
+        """Keep the files that an input, `user`, refers to: none is written from now on.
 
         Raises
         ------
@@ -53,12 +44,7 @@ class Goals:
             raise DecompositionError(next(iter(found.values())))
 
     def check(self, places: Iterable[Path]) -> None:
-        """Check that no input so far refers to what is in these places.
-
-        Raises
-        ------
-        DecompositionError
-        """
+        """Raise if an input so far refers to what is in one of these places."""
         for path in places if self._refused else ():
             sentence = self._refused.get(place_key(place_of(path)))
             if sentence:

@@ -33,20 +33,9 @@ def decompose_objects(
 ) -> tuple[ObjectResult, ...]:
     """Decompose each object, write its parts to it and show its result.
 
-    Parameters
-    ----------
-    file_name : str
-    loaded : LoadedFile
-    parameters : Parameters
-    screen : Screen
-    kept : bool
-        Whether objects that have parts keep them as they are.
-
-    Returns
-    -------
-    tuple of ObjectResult
-        One for each object, in their order. Objects without faces are left as they
-        are; objects that share a mesh are decomposed once.
+    Return a result for each object, in their order. Objects without faces are left as
+    they are, and so are those with parts if these are `kept`. Objects that share a mesh
+    are decomposed once.
     """
     done: dict[bpy.types.ID, tuple[bpy.types.Object, ObjectResult]] = {}
 

@@ -23,16 +23,10 @@ def mark_glb(path: Path, n_hulls: int) -> None:
     The extras of a node are the custom properties of its object. The extension is a
     draft; programs that do not know it still read the meshes.
 
-    Parameters
-    ----------
-    path : Path
-    n_hulls : int
-        How many hulls the file has to have.
-
     Raises
     ------
     DecompositionError
-        If it has another number of hulls: the exporter left some out.
+        If the file has another number of hulls: the exporter left some out.
     """
     data = path.read_bytes()
     magic, version, _ = _HEADER.unpack_from(data)

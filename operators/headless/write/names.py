@@ -35,10 +35,6 @@ def legal_names(names: Sequence[str], form: str) -> list[str]:
         Names of objects.
     form : {'obj', 'xml', 'usd'}
         The format.
-
-    Returns
-    -------
-    list of str
     """
     legal = [_legal(name, form) for name in names]
     # Names that stay as they are come first: they keep their name.
