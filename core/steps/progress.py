@@ -59,6 +59,12 @@ def run(steps: Steps[T]) -> T:
             return stop.value
 
 
+def as_steps(value: T) -> Steps[T]:
+    """Return steps that return a value at once."""
+    yield from ()
+    return value
+
+
 def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
     """Run `steps` and change each of their progress reports.
 

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.steps.progress import Progress, Steps, run
+from ....core.steps.progress import Progress, Steps, as_steps, run
 from .attributes import FloatArray, IntArray, read_floats, read_ints
 from .triangles import Asked, ask, cut_in_steps
 
@@ -93,15 +93,9 @@ def triangles_in_steps(
     """
     places = vertex_positions(mesh) if places is None else places
     if _latest is not None and _latest.is_of(mesh, places):
-        return _known(_latest)
+        return as_steps(_latest.triangles)
     faces, corners = _faces_of_triangles(mesh), corner_vertices(mesh)
     return _understood(faces, places, corners, ask(mesh, faces))
-
-
-def _known(latest: Known) -> Steps[Triangles]:
-    """Return the triangles of the latest mesh."""
-    yield from ()
-    return latest.triangles
 
 
 def _understood(

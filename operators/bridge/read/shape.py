@@ -12,7 +12,7 @@ from ....core.geometry.array_checks import check_surface
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
 from ....core.geometry.shape import Shape
-from ....core.steps.progress import Progress, Steps, run
+from ....core.steps.progress import Progress, Steps, as_steps, run
 from ..mesh.known import triangles_in_steps, vertex_positions
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
@@ -60,12 +60,6 @@ def _cloud(obj: bpy.types.Object, matrix: NDArray[np.float64]) -> PointCloud:
     # Stretching tilts normals the other way.
     normals = None if read is None else unstretched(read.astype(np.float64), matrix)
     return PointCloud(stretched(positions_of(obj).astype(np.float64), matrix), normals)
-
-
-def as_steps(shape: Shape) -> Steps[Shape]:
-    """Return steps that return a shape."""
-    yield from ()
-    return shape
 
 
 def read_mesh(mesh: bpy.types.Mesh, matrix: NDArray[np.float64]) -> TriangleMesh:

@@ -17,14 +17,14 @@ from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition, Measurement
 from ....core.results.views import Picture
-from ....core.steps.progress import Progress, Steps, within
+from ....core.steps.progress import Progress, Steps, as_steps, within
 from ..mesh.selection import selected_faces
 from ..parts.palette import srgb_of
 from ..parts.read import find_parts_on
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
-from ..read.shape import as_steps, shape_in_steps
+from ..read.shape import shape_in_steps
 from ..stored.record import check_records, noted_parameters
 from .libraries import with_libraries
 from .session_cache import session_cache
