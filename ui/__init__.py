@@ -1,5 +1,7 @@
 """What the user sees: panels, lists, menus and drawings over the viewports."""
 
+from typing import Any
+
 import bpy
 
 from ..operators.bridge.untranslated import register_class
@@ -36,6 +38,14 @@ CLASSES = (
     WCD_MT_parts,
     WCD_MT_pick,
 )
+# What is drawn over each viewport, and when Blender asks for it.
+_DRAWINGS = (
+    (sight_drawing.draw, "POST_VIEW"),
+    (part_drawing.draw, "POST_VIEW"),
+    (part_drawing.draw_name, "POST_PIXEL"),
+)
+# What takes the drawings off the viewports again.
+_handlers: list[Any] = []
 
 
 def is_registered() -> bool:
@@ -45,18 +55,21 @@ def is_registered() -> bool:
 
 
 def register() -> None:
-    """Register the classes, the submenu and the drawing; operators come before."""
+    """Register the classes, the submenu and the drawings; operators come before."""
     for cls in CLASSES:
         register_class(cls)
     menus.register()
-    sight_drawing.register()
-    part_drawing.register()
+    for draw, when in _DRAWINGS:
+        add = bpy.types.SpaceView3D.draw_handler_add
+        _handlers.append(add(draw, (), "WINDOW", when))
 
 
 def unregister() -> None:
     """Undo `register`."""
-    part_drawing.unregister()
-    sight_drawing.unregister()
+    while _handlers:
+        bpy.types.SpaceView3D.draw_handler_remove(_handlers.pop(), "WINDOW")
+    part_drawing.stop()
+    sight_drawing.stop()
     menus.unregister()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -40,26 +40,14 @@ _NEARER = 4e-4
 # Distance of a name from the cursor, its margins and its size, at interface scale 1.
 _BESIDE, _MARGIN, _SIZE = 18, 6, 12
 
-# What takes the drawings off the viewports again.
-_handlers: list[Any] = []
 
-
-def register() -> None:
-    """Draw in each viewport from now on."""
-    for draw, when in ((_draw, "POST_VIEW"), (_draw_name, "POST_PIXEL")):
-        add = bpy.types.SpaceView3D.draw_handler_add
-        _handlers.append(add(draw, (), "WINDOW", when))
-
-
-def unregister() -> None:
-    """Undo `register`."""
+def stop() -> None:
+    """Draw no more, and forget what was made for it."""
     stop_timer(redraw)
-    while _handlers:
-        bpy.types.SpaceView3D.draw_handler_remove(_handlers.pop(), "WINDOW")
     forget()
 
 
-def _draw() -> None:
+def draw() -> None:
     """Draw over a viewport."""
     context = bpy.context
     space = context.space_data
@@ -214,7 +202,7 @@ def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> 
         batch.draw(shader)
 
 
-def _draw_name() -> None:
+def draw_name() -> None:
     """Draw the name of the part under the cursor beside it, in its window alone."""
     picked, region = picking.current, bpy.context.region
     if picked is None or picked.window != bpy.context.window.as_pointer():

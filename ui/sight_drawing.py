@@ -28,25 +28,13 @@ _CORNERS = 8
 _RADIUS = 0.2
 _HEIGHT = 0.2
 
-# What takes the drawing off the viewports again.
-_handler: Any = None
 
-
-def register() -> None:
-    """Draw the overlay in each viewport from now on."""
-    global _handler
-    _handler = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-
-
-def unregister() -> None:
-    """Undo `register`."""
-    global _handler
-    bpy.types.SpaceView3D.draw_handler_remove(_handler, "WINDOW")
-    _handler = None
+def stop() -> None:
+    """Forget what was made to be drawn."""
     _batches.cache_clear()
 
 
-def _draw() -> None:
+def draw() -> None:
     """Draw the overlay over a viewport, if there is one."""
     overlay = sight_overlay.current
     if overlay is None or overlay.view is None:

@@ -59,7 +59,7 @@ def test_the_name_is_in_the_window_with_the_cursor_alone(window, monkeypatch):
             preferences=bpy.context.preferences,
         )
         monkeypatch.setattr(part_drawing, "bpy", SimpleNamespace(context=context))
-        part_drawing._draw_name()
+        part_drawing.draw_name()
     assert named == ["Part 03"]
 
 
