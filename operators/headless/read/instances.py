@@ -6,7 +6,7 @@ between them. Linked data becomes local first; the library itself is only read.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -184,8 +184,9 @@ def _stop(instancer: bpy.types.Object) -> None:
     """Let an object make no more instances."""
     instancer.instance_type = "NONE"
     instancer.instance_collection = None
-    is_mesh = instancer.type == "MESH"
-    _remove(instancer, {"PARTICLE_SYSTEM"} if is_mesh else {"NODES"})
+    kind = "PARTICLE_SYSTEM" if instancer.type == "MESH" else "NODES"
+    for modifier in [each for each in instancer.modifiers if each.type == kind]:
+        instancer.modifiers.remove(modifier)
 
 
 def _shows_nothing(instancer: bpy.types.Object, own: _Own) -> bool:
@@ -217,9 +218,3 @@ def _leave_out(instancers: Sequence[bpy.types.Object]) -> None:
             collection.objects.unlink(obj)
             if obj in empties:
                 collection.objects.link(empties[obj])
-
-
-def _remove(obj: bpy.types.Object, kinds: Iterable[str]) -> None:
-    """Remove the modifiers of some kinds from an object."""
-    for modifier in [each for each in obj.modifiers if each.type in kinds]:
-        obj.modifiers.remove(modifier)

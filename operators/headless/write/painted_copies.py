@@ -49,10 +49,11 @@ def ply_copies() -> Iterator[bool]:
     Yields whether UV maps are to be written: Blender writes what is in memory by chance
     for vertices of no face.
     """
-    copies = [
-        _copy_of_cloud(obj) if is_cloud(obj) else _copy_of_mesh(obj)
+    painted = {
+        obj: _painted_points(obj, _NUMBER) if is_cloud(obj) else _painted_faces(obj)
         for obj in written_meshes()
-    ]
+    }
+    copies = [_object_like(obj, mesh) for obj, mesh in painted.items()]
     without = [copy for copy in copies if not copy.data.uv_layers]
     with_uv = len(without) < len(copies) and not any(
         _has_loose_vertices(copy.data) for copy in copies
@@ -115,11 +116,6 @@ def _has_loose_vertices(mesh: bpy.types.Mesh) -> bool:
     )
 
 
-def _copy_of_cloud(obj: bpy.types.Object) -> bpy.types.Object:
-    """Return a new object with the points of a cloud, painted by part."""
-    return _object_like(obj, _painted_points(obj, _NUMBER))
-
-
 def _painted_points(
     obj: bpy.types.Object, number: str, with_colors: bool = True
 ) -> bpy.types.Mesh:
@@ -133,8 +129,8 @@ def _painted_points(
     return mesh
 
 
-def _copy_of_mesh(obj: bpy.types.Object) -> bpy.types.Object:
-    """Return a new object with the mesh of another, split at seams and painted."""
+def _painted_faces(obj: bpy.types.Object) -> bpy.types.Mesh:
+    """Return a new mesh with the faces of an object's, split at seams and painted."""
     mesh = obj.data
     n_faces = len(mesh.polygons)
     parts = read_labels(mesh, PART_LAYER, "FACE", n_faces)
@@ -149,7 +145,7 @@ def _copy_of_mesh(obj: bpy.types.Object) -> bpy.types.Object:
     split = _mesh_on(mesh, positions_of(obj)[origins], corners)
     _paint(split, color_of_vertex)
     _number(split, part_of_vertex, _NUMBER)
-    return _object_like(obj, split)
+    return split
 
 
 def _split_at_seams(
