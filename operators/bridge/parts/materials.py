@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..stored.identity import Identity, has_name, part_name, plain_name
-from ..stored.names import KEPT_MATERIALS, MATERIAL_NAME, MATERIAL_TAG
+from ..stored.names import COLOR_LAYER, KEPT_MATERIALS, MATERIAL_NAME, MATERIAL_TAG
 from ..stored.restore import read_restore
 from .palette import Color
 
@@ -129,8 +129,8 @@ def own_material(
     return material
 
 
-def points_material(color_layer: str, taken: list[str]) -> bpy.types.Material:
-    """Return the material that shows a color attribute of points.
+def points_material(taken: list[str]) -> bpy.types.Material:
+    """Return the material that shows the colors of points.
 
     All point clouds share it. Materials with the names `taken` are the user's.
     """
@@ -141,7 +141,7 @@ def points_material(color_layer: str, taken: list[str]) -> bpy.types.Material:
     material[MATERIAL_TAG] = _OF_POINTS
     nodes, links = material.node_tree.nodes, material.node_tree.links
     attribute = nodes.new("ShaderNodeAttribute")
-    attribute.attribute_name = color_layer
+    attribute.attribute_name = COLOR_LAYER
     attribute.location = (-250.0, 300.0)
     for shader in _shaders(material):
         links.new(attribute.outputs["Color"], shader.inputs["Base Color"])

@@ -227,6 +227,6 @@ def _materials(
 ) -> list[bpy.types.Material]:
     """Return a material for each part of a mesh, or one for all points."""
     if is_cloud(obj):
-        return [points_material(COLOR_LAYER, slots)]
+        return [points_material(slots)]
     own = [sources.get(each.number) for each in identities]
     return own_materials(identities, own, hulls_of(obj))

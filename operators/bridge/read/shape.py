@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
@@ -130,12 +129,7 @@ def scene_unit(obj: bpy.types.Object) -> float:
 
 def has_place(obj: bpy.types.Object) -> bool:
     """Return whether an object's location, rotation and scale are finite numbers."""
-    return _is_finite(obj.matrix_world)
-
-
-def _is_finite(place: Matrix) -> bool:
-    """Return whether all numbers of a place are finite."""
-    return bool(np.isfinite(np.array(place)).all())
+    return bool(np.isfinite(np.array(obj.matrix_world)).all())
 
 
 def _scale_of(
@@ -146,14 +140,14 @@ def _scale_of(
     These are the columns of a matrix, (3, 3). Raise as `stretch` does.
     """
     place = place_now(obj)
-    if not _is_finite(place):
+    matrix = np.array(place, dtype=np.float64)
+    if not np.isfinite(matrix).all():
         raise DecompositionError(
             "The object's location, rotation or scale, or its parent's, is not a"
             " number; type one in Sidebar > Item."
         )
     scale, axes = np.abs(np.array(place.to_scale(), dtype=float)), np.eye(3)
-    matrix = np.array(place, dtype=np.float64)[:3, :3]
-    scale, axes = sheared_scale(matrix) or (scale, axes)
+    scale, axes = sheared_scale(matrix[:3, :3]) or (scale, axes)
     if not scale.all():
         raise DecompositionError(
             "The object's scale is zero along an axis; give it a scale in Sidebar >"
