@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .attributes import FIELDS, FloatArray, read_floats, write_floats
+from .known import vertex_positions
 
 # Names that programs and importers give to attributes with normals.
 _NORMALS = ("normal", "Normal", "normals", "Normals", "custom_normal", "N")
@@ -32,6 +33,8 @@ def count_points(obj: bpy.types.Object) -> int:
 
 def positions_of(obj: bpy.types.Object) -> FloatArray:
     """Return the points, or vertices, of an object in its own space, (N, 3)."""
+    if obj.type == "MESH":
+        return vertex_positions(obj.data)
     attribute = obj.data.attributes.get("position")
     if attribute is None:  # Blender has none without points
         return np.zeros((count_points(obj), 3), dtype=np.float32)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hand_made import decompose_by_hand, in_mode
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.mesh.viewing import points_of_parts
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
@@ -97,6 +98,13 @@ def test_showing_is_one_undo_step(suzanne, labels, name):
     assert snapshot(bpy.context.active_object) != before
     bpy.ops.ed.undo()
     assert snapshot(bpy.context.active_object) == before
+
+
+def test_a_part_is_framed_where_it_is_in_any_mode(suzanne, labels):
+    expected = points_of_parts(suzanne, labels == 1)
+    in_mode(suzanne, "EDIT")
+    assert np.ptp(expected, axis=0).min() > 0.1
+    assert (points_of_parts(suzanne, labels == 1) == expected).all()
 
 
 def test_framing_needs_a_viewport(suzanne, labels):
