@@ -46,11 +46,10 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         if other:
             line(layout, *other)
         layout.operator("wcd.build_hulls", text="Build Hulls", icon="MESH_CUBE")
-        result = result_of(context.active_object).get("hulls", {})
-        hulls = hull_rows_of(context.active_object) if result else []
+        hulls = hull_rows_of(obj) if obj else []
         if not hulls:
             return
-        current = bool(hull_rows_of_now(context.active_object))
+        result, current = result_of(obj)["hulls"], bool(hull_rows_of_now(obj))
         largest = f"{max(hull['error'] for hull in hulls):.3g}"
         line(layout, "Largest Error", largest if current else OUT_OF_DATE)
         complete = current and len(hulls) == len(result["hulls"])

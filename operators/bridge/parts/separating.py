@@ -65,7 +65,7 @@ def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
             erase_hulls(obj)
         on_error.pop_all()
     if not stays:
-        _replace(obj, max(pieces, key=area_of))
+        _replace(obj, max(pieces, key=lambda each: face_areas(each.data).sum()))
     return pieces
 
 
@@ -91,11 +91,6 @@ def _replace(obj: bpy.types.Object, piece: bpy.types.Object) -> None:
         forget_whole(obj.data)
     discard([obj])
     discard_views()
-
-
-def area_of(obj: bpy.types.Object) -> float:
-    """Return the area of an object's faces, in its own space."""
-    return float(face_areas(obj.data).sum())
 
 
 def _copy(obj: bpy.types.Object) -> bpy.types.Object:

@@ -11,6 +11,7 @@ import hashlib
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from ....core.errors import DecompositionError
@@ -46,11 +47,7 @@ def replacing_with_folder(path: Path) -> Iterator[tuple[Path, Path]]:
     DecompositionError
         If something of the user's would be lost: see `owned_names`.
     """
-    place = folder_of(path)
-
-    def owned() -> frozenset[str]:
-        return owned_names(path)
-
+    place, owned = folder_of(path), partial(owned_names, path)
     with replacing(path, place, owned=owned) as unfinished:
         folder = unfinished.with_name(place.name)
         folder.mkdir()
