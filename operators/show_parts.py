@@ -9,12 +9,7 @@ import numpy as np
 
 from .bridge.mesh.corners import boundary_edges
 from .bridge.mesh.seams import mark_seams, unmark_seams
-from .bridge.mesh.selection import (
-    isolate_parts,
-    select_edges,
-    select_faces,
-    show_all,
-)
+from .bridge.mesh.selection import isolate_parts, select_edges, select_faces, show_all
 from .bridge.mesh.viewing import frame_points, points_of_parts
 from .bridge.parts.present_parts import present_parts
 from .bridge.parts.rows import chosen_numbers, chosen_parts

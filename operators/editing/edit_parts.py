@@ -35,11 +35,7 @@ def scope(
         name=name,
         description=description,
         items=(
-            (
-                "CHOSEN",
-                "Chosen Parts",
-                "The ticked parts, or the highlighted one",
-            ),
+            ("CHOSEN", "Chosen Parts", "The ticked parts, or the highlighted one"),
             ("ALL", "All Parts", "All parts of the object"),
         ),
         default=default,

@@ -12,15 +12,7 @@ from dataclasses import dataclass
 from ...core.steps.progress import Steps, T
 
 # The stages of the report, in their order.
-STAGES = (
-    "read",
-    "prepare",
-    "lines_of_sight",
-    "clusters",
-    "seams",
-    "hulls",
-    "write",
-)
+STAGES = ("read", "prepare", "lines_of_sight", "clusters", "seams", "hulls", "write")
 # The stage of the report for each stage that progress names; "hulls" for all others.
 STAGE_OF = {
     "Starting": "prepare",

@@ -18,12 +18,7 @@ from ..bridge.parts.figures import figures_of
 from ..bridge.read.evaluated import read_as
 from ..bridge.read.target import Target
 from ..bridge.refusals import refusal
-from ..bridge.stored.record import (
-    forget_rough,
-    is_rough,
-    noted_mesh,
-    noted_parameters,
-)
+from ..bridge.stored.record import forget_rough, is_rough, noted_mesh, noted_parameters
 from ..bridge.watching import stop_timer
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited

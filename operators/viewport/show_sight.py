@@ -91,10 +91,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
         self._viewer = value
         self._target = Target.of(obj)
         self._overlay = Overlay(
-            obj.session_uid,
-            stretch(obj),
-            bpy.context.workspace.name,
-            vertices_now(obj),
+            obj.session_uid, stretch(obj), bpy.context.workspace.name, vertices_now(obj)
         )
         sight_overlay.show(self._overlay)
         if ray is not None:

@@ -23,18 +23,9 @@ from ..read.stretching import unstretched
 from ..stored.names import HULL_TAG, MARGIN_TAG, PIECE_TAG
 from ..stored.noted_hulls import write_hull_record
 from .fitting_names import names_that_fit
-from .hull_collections import (
-    collection_for,
-    own_collection,
-    remove_empty_collections,
-)
+from .hull_collections import collection_for, own_collection, remove_empty_collections
 from .listed import hulls_of
-from .lost_hulls import (
-    has_more,
-    leave_to_user,
-    lost_hulls,
-    noted_by,
-)
+from .lost_hulls import has_more, leave_to_user, lost_hulls, noted_by
 from .placed import pose_of
 from .rigid_bodies import remove_simulation, soften
 

@@ -31,13 +31,7 @@ from ..stored.noted_hulls import (
 from ..stored.record import HULLS, record_of, write_record
 from ..work.apart import hulls_around
 from ..work.libraries import with_libraries
-from .hull_objects import (
-    erase_hulls,
-    figures_of_hull,
-    hull_mesh,
-    keep_piece,
-    tag_hull,
-)
+from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, keep_piece, tag_hull
 from .listed import hulls_of, listed_hulls
 from .looks import look_like, look_of
 

@@ -149,10 +149,7 @@ def _on(obj: bpy.types.Object, scene: bpy.types.Scene) -> Iterator[None]:
         obj.hide_viewport = False
     try:
         with bpy.context.temp_override(
-            object=obj,
-            active_object=obj,
-            selected_objects=[obj],
-            **_within(scene),
+            object=obj, active_object=obj, selected_objects=[obj], **_within(scene)
         ):
             yield
     finally:

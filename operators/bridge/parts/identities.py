@@ -99,9 +99,7 @@ def identities_of_run(
 
 
 def identities_after(
-    before: Sequence[Identity],
-    former: Sequence[int],
-    mirrored: Mapping[int, int],
+    before: Sequence[Identity], former: Sequence[int], mirrored: Mapping[int, int]
 ) -> list[Identity]:
     """Return who the parts are after an edit.
 

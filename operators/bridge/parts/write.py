@@ -20,13 +20,7 @@ from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..refusals import refusal
 from ..stored.identity import Identity
-from ..stored.names import (
-    COLOR_LAYER,
-    HAND_LAYER,
-    LAYERS,
-    NORMAL_LAYER,
-    PART_LAYER,
-)
+from ..stored.names import COLOR_LAYER, HAND_LAYER, LAYERS, NORMAL_LAYER, PART_LAYER
 from ..stored.record import check_records, write_result
 from ..stored.restore import Restore, sharers, write_restore
 from ..views.colors import show_as_overlay
@@ -123,12 +117,7 @@ def _note(
     measured_on = [to_be_noted(row) for row in ready.sums]
     for sharer in sharers(obj):
         write_result(
-            sharer,
-            decomposition,
-            parameters,
-            identities,
-            materials,
-            measured_on,
+            sharer, decomposition, parameters, identities, materials, measured_on
         )
         write_rows(sharer, identities, before.rows.get(sharer.name, {}))
 

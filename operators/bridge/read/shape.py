@@ -132,9 +132,7 @@ def has_place(obj: bpy.types.Object) -> bool:
     return bool(np.isfinite(np.array(obj.matrix_world)).all())
 
 
-def _scale_of(
-    obj: bpy.types.Object,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _scale_of(obj: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the scale of an object, (3,), without signs, and its axes.
 
     These are the columns of a matrix, (3, 3). Raise as `stretch` does.

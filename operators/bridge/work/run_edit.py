@@ -141,9 +141,7 @@ def edit_object(obj: bpy.types.Object, make_change: MakeChange) -> Steps[Edited]
 
 
 def _described(
-    memo: core.PartMemo,
-    parts: PresentParts,
-    change: core.Change,
+    memo: core.PartMemo, parts: PresentParts, change: core.Change
 ) -> tuple[Decomposition, tuple[Identity, ...]]:
     """Return changed parts as a decomposition, and who they are."""
     labels, former = core.compacted(change.labels)

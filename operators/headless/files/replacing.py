@@ -23,9 +23,7 @@ _NOISE = re.compile(r"^(Error: |\w*Error: |\[Errno \d+\] )+|: '[^']*'$|\.$")
 
 @contextmanager
 def replacing(
-    path: Path,
-    *companions: Path,
-    owned: Callable[[], frozenset[str]] = frozenset,
+    path: Path, *companions: Path, owned: Callable[[], frozenset[str]] = frozenset
 ) -> Iterator[Path]:
     """Give the path of a new file; put that in the place of `path` if it is whole.
 

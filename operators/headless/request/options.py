@@ -23,12 +23,7 @@ from .help_text import DESCRIPTION, EPILOG
 from .input_list import all_inputs
 from .option_names import SETTINGS, with_options
 from .outputs import STANDARD_STREAM, Targets, targets_for
-from .parameter_options import (
-    HelpFormatter,
-    add_option,
-    count,
-    with_negative_numbers,
-)
+from .parameter_options import HelpFormatter, add_option, count, with_negative_numbers
 
 _DEFAULT_PRESET = PRESETS[0].identifier
 

@@ -12,12 +12,7 @@ from ....core.errors import DecompositionError
 from ..files.claims import check_companion, check_distinct, companion_of
 from ..files.output_folders import check_outside
 from ..files.replacing import explaining, is_stream
-from ..formats import (
-    HULL_ENDINGS,
-    HULLS_WITHIN_ENDINGS,
-    MODEL_ENDINGS,
-    PICTURE_ENDINGS,
-)
+from ..formats import HULL_ENDINGS, HULLS_WITHIN_ENDINGS, MODEL_ENDINGS, PICTURE_ENDINGS
 
 _NAME = "{name}"
 # Standard input among the inputs, standard output for the report.
@@ -109,10 +104,7 @@ def _check_asked(output: str | None, report: Path | None, with_hulls: bool) -> N
 
 
 def _resolved(
-    inputs: Sequence[Path],
-    pattern: str | None,
-    option: str,
-    endings: tuple[str, ...],
+    inputs: Sequence[Path], pattern: str | None, option: str, endings: tuple[str, ...]
 ) -> list[Path | None]:
     """Return the file for each input; `pattern` may have {name} in it."""
     if pattern is None:

@@ -53,9 +53,7 @@ def build_hulls(
 
 
 def _named_as_in_file(
-    results: Sequence[ObjectResult],
-    hulls: Sequence[bpy.types.Object],
-    request: Request,
+    results: Sequence[ObjectResult], hulls: Sequence[bpy.types.Object], request: Request
 ) -> tuple[ObjectResult, ...]:
     """Return results whose hulls have the names of the file of hulls, if one is asked.
 

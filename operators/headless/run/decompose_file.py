@@ -66,8 +66,7 @@ def decompose_file(
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
         output = attempts.written(
-            targets.output,
-            lambda file: _warn(save(file, up, built), file, screen),
+            targets.output, lambda file: _warn(save(file, up, built), file, screen)
         )
         picture = attempts.written(
             targets.picture, lambda file: save_picture(file, objects, trial.engine())

@@ -14,21 +14,14 @@ import bpy
 import numpy as np
 
 from .names import legal_names, names_of_hulls, names_of_objects
-from .placed_meshes import (
-    Float64Array,
-    digits_of,
-    matrix_of,
-    placed,
-    turned_up,
-)
+from .placed_meshes import Float64Array, digits_of, matrix_of, placed, turned_up
 
 # Blender's exporter rounds to this, and computes in single precision.
 _ROUNDING = 2e-6
 
 
 def write_obj(
-    path: Path,
-    meshes: Sequence[tuple[str, Float64Array, Iterable[Sequence[int]]]],
+    path: Path, meshes: Sequence[tuple[str, Float64Array, Iterable[Sequence[int]]]]
 ) -> None:
     """Write meshes, each an object of its own.
 

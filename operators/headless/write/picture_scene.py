@@ -27,9 +27,7 @@ _LAMP = (radians(-35.0), radians(-30.0), 0.0)
 
 
 @contextmanager
-def picture_scene(
-    objects: Sequence[bpy.types.Object],
-) -> Iterator[bpy.types.Scene]:
+def picture_scene(objects: Sequence[bpy.types.Object]) -> Iterator[bpy.types.Scene]:
     """Make a scene with copies of `objects`, a camera and a lamp; remove it at the end.
 
     The copies share the meshes. The objects themselves may be hidden, and have

@@ -38,9 +38,7 @@ _COLLIDER = ["PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"]
 
 
 def write_usd(
-    path: Path,
-    objects: Sequence[bpy.types.Object],
-    hulls: Sequence[bpy.types.Object],
+    path: Path, objects: Sequence[bpy.types.Object], hulls: Sequence[bpy.types.Object]
 ) -> None:
     """Write objects with the colors of their parts, and hulls.
 
