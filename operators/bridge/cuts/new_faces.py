@@ -79,13 +79,8 @@ class NewFaces:
     ) -> NDArray[np.int64]:
         """Return the label that each face has on an object with other faces, (P,).
 
-        It is that of the largest piece of the same whole face.
-
-        Parameters
-        ----------
-        obj : bpy.types.Object
-        labels : (Q,) int
-            Label of each face that the object has now.
+        It is that of the largest piece of the same whole face. The object has `labels`
+        (Q,) on its faces now.
         """
         wholes, areas = whole_faces(obj), read_floats(obj.data.polygons, "area")
         covered = np.zeros((self.n_wholes, int(labels.max()) + 1))

@@ -34,16 +34,7 @@ def listed_hulls(
 ) -> dict[int, bpy.types.Object]:
     """Return the hulls of an object that are noted, by row; deleted ones are missing.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    noted : sequence of dict
-        What the object notes of each hull.
-
-    Returns
-    -------
-    dict of int to Object
-        In the order of the rows.
+    `noted` is what the object notes of each hull. The rows are in their order.
     """
     named = (bpy.data.objects.get(each["name"]) for each in noted)
     found = {

@@ -109,11 +109,7 @@ def primitive_of(
 def pose_in_scene(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any]:
     """Return pose, size and volume of a shape, in the scene.
 
-    Parameters
-    ----------
-    shape : CollisionShape
-        In the space that `read_shape` reads its object in.
-    obj : bpy.types.Object
+    The shape is in the space that `read_shape` reads its object in.
 
     Returns
     -------

@@ -65,18 +65,9 @@ def rename_part(
 
 
 def rename_parts(obj: bpy.types.Object, names: Mapping[int, str]) -> list[str]:
-    """Rename several parts, which may take each other's names; return what differs.
+    """Rename several parts, by number; they may take each other's names.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    names : mapping of int to str
-        From numbers of parts to their new names.
-
-    Returns
-    -------
-    list of str
-        A sentence for each part whose name Blender changed further.
+    Return a sentence for each part whose name Blender changed further.
 
     Raises
     ------

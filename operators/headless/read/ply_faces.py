@@ -21,11 +21,7 @@ _CORNERS = ("vertex_indices", "vertex_index")
 def refers_to_missing(header: Header, data: bytes) -> bool:
     """Return whether a face has a vertex that the file does not have.
 
-    Parameters
-    ----------
-    header : Header
-    data : bytes
-        The whole file, which has all rows that its header promises.
+    The `data` are the whole file, which has all rows that its header promises.
     """
     n_vertices = sum(each.n_rows for each in header.elements if each.name == "vertex")
     read = _text_corners if not header.order else _binary_corners

@@ -27,14 +27,7 @@ def legal_names(names: Sequence[str], form: str) -> list[str]:
 
     Characters that are not legal become underscores. Where this makes names equal, all
     but the first get a number: "A b" and "A_b" become "A_b" and "A_b_2". Names that
-    are legal and different stay as they are.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Names of objects.
-    form : {'obj', 'xml', 'usd'}
-        The format.
+    are legal and different stay as they are. `form` is the format: obj, xml or usd.
     """
     legal = [_legal(name, form) for name in names]
     # Names that stay as they are come first: they keep their name.
@@ -53,13 +46,7 @@ def legal_names(names: Sequence[str], form: str) -> list[str]:
 
 
 def names_of_objects(form: str) -> dict[str, str]:
-    """Return the legal name of each object that is no hull, by its name.
-
-    Parameters
-    ----------
-    form : {'obj', 'xml', 'usd'}
-        The format.
-    """
+    """Return the legal name of each object that is no hull, by its name."""
     names = [obj.name for obj in bpy.data.objects if not is_hull(obj)]
     return dict(zip(names, legal_names(names, form), strict=True))
 
@@ -71,14 +58,8 @@ def names_of_hulls(
 ) -> list[str]:
     """Return a legal name for each hull: the legal name of its object is in it.
 
-    Parameters
-    ----------
-    hulls : sequence of Object
-        Children of their objects.
-    form : {'obj', 'xml', 'usd'}
-        The format.
-    owners : mapping of str to str, optional
-        The legal names of their objects; by default those of `names_of_objects`.
+    `owners` has the legal names of the objects that hulls are children of; by default
+    they are those of `names_of_objects`.
     """
     owners = owners or names_of_objects(form)
     own = [

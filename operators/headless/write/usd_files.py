@@ -40,17 +40,10 @@ _COLLIDER = ["PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"]
 def write_usd(
     path: Path, objects: Sequence[bpy.types.Object], hulls: Sequence[bpy.types.Object]
 ) -> None:
-    """Write objects with the colors of their parts, and hulls.
+    """Write meshes and point clouds with the colors of their parts, and hulls.
 
     Each is a prim below one root, with the place of its object. Hulls are colliders
     that are their own convex hull (UsdPhysics); beside objects, they are not rendered.
-
-    Parameters
-    ----------
-    path : Path
-    objects : sequence of Object
-        Meshes and point clouds.
-    hulls : sequence of Object
     """
     materials: list[bpy.types.Material] = []
     for obj in objects:
