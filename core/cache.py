@@ -8,6 +8,7 @@ from functools import partial
 from hashlib import blake2b
 from typing import Any, NoReturn
 
+from .geometry.array_checks import described
 from .geometry.mesh import TriangleMesh
 from .geometry.shape import Shape, are_equal, digest_of, size_of
 from .parameters.parameter import info_of
@@ -52,6 +53,11 @@ class ShapeCache:
         Most results of small shapes that are kept. Files have many objects of one
         shape, each with a mesh of its own.
 
+    Raises
+    ------
+    TypeError
+        If `make_caster` cannot be called.
+
     Examples
     --------
     >>> import weak_convex_decomposition as wcd
@@ -66,6 +72,11 @@ class ShapeCache:
     """
 
     def __init__(self, make_caster: MakeCaster, n_results: int = 0) -> None:
+        if not callable(make_caster):
+            raise TypeError(
+                "`make_caster` must be a class of ray casters, as `choose_ray_caster()`"
+                f" returns, not {described(make_caster)}."
+            )
         self._make_caster, self._n_results = make_caster, n_results
         self.forget()
 

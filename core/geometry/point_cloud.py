@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import DecompositionError
 from .array_checks import check_size, rows_of_three
+from .mesh import SAME_PLACE
 
 # Least number of points of a cloud. Fewer do not show a surface.
 _FEWEST = 16
@@ -99,6 +100,7 @@ class PointCloud:
         """Return the cloud without copies of points, and the row of each point there.
 
         Distances of neighbors tell how dense a cloud is; copies would make them 0.
+        Copies may differ by rounding, and so may their normals.
 
         Returns
         -------
@@ -111,13 +113,14 @@ class PointCloud:
         DecompositionError
             If there are too few points without the copies.
         """
-        x, y, z = self.points.T
+        places = np.round((self.points - self.center) / (SAME_PLACE * self.diagonal))
+        x, y, z = places.T
         mixed = np.sort(x + np.sqrt(2) * y + np.pi * z)
         if (mixed[1:] != mixed[:-1]).all():  # far quicker than to compare points
             return self, np.arange(len(self))
         normals = () if self.normals is None else (self.normals,)
         _, first, copies = np.unique(
-            np.hstack([self.points, *normals]),
+            np.hstack([places, *(np.round(each / SAME_PLACE) for each in normals)]),
             axis=0,
             return_index=True,
             return_inverse=True,

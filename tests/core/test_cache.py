@@ -215,3 +215,9 @@ def test_what_a_user_does_to_a_result_stays_out_of_the_next_one():
             found.labels[0] = 1
         later = run(decompose_in_steps(shapes.comb(), parameters, cache))
         assert result(later) == before
+
+
+@pytest.mark.parametrize("caster", [None, "EMBREE"])
+def test_what_makes_no_casters_is_refused_at_once(caster):
+    with pytest.raises(TypeError, match="`make_caster` must be a class"):
+        ShapeCache(caster)

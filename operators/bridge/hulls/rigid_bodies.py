@@ -35,6 +35,11 @@ def make_rigid(
         raise DecompositionError(
             f"{obj.name} is a rigid body already; remove that before its hulls get it."
         )
+    if obj.override_library and obj.override_library.is_system_override:
+        raise DecompositionError(
+            f"{obj.name} is an override of a library that cannot be edited; make it"
+            " local first (Object > Relations > Make Local)."
+        )
     there = objects_in(bpy.context.view_layer)
     unseen = [each.name for each in (obj, *hulls) if each not in there]
     if unseen:

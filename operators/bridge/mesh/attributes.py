@@ -87,14 +87,20 @@ def read_labels(
     data : bpy.types.Mesh or bpy.types.PointCloud
     name : str
     domain : {'FACE', 'POINT'}
-        An attribute of another domain does not count.
+        An attribute of another domain or type does not count.
     n_rows : int
         Number of faces or points.
     missing : int, optional
     """
+    found = whole_numbers(data, name, domain)
+    return np.full(n_rows, missing, dtype=np.int32) if found is None else found
+
+
+def whole_numbers(data: Any, name: str, domain: str) -> IntArray | None:
+    """Return an integer attribute of a domain, None if there is none of that kind."""
     attribute = data.attributes.get(name)
-    if attribute is None or attribute.domain != domain:
-        return np.full(n_rows, missing, dtype=np.int32)
+    if attribute is None or (attribute.data_type, attribute.domain) != ("INT", domain):
+        return None
     return read_ints(attribute.data, "value")
 
 

@@ -10,7 +10,13 @@ import bmesh
 import bpy
 import numpy as np
 
-from .attributes import FloatArray, IntArray, read_ints, write_floats, write_ints
+from .attributes import (
+    FloatArray,
+    IntArray,
+    whole_numbers,
+    write_floats,
+    write_ints,
+)
 from .known import corner_faces, corner_vertices
 from .points import is_cloud
 
@@ -53,9 +59,8 @@ class ObjectModeLayers:
             self.set_faces("material_index", values)
 
     def faces(self, name: str) -> IntArray | None:
-        """Return an attribute of the faces, None if there is none."""
-        attribute = self._mesh.attributes.get(name)
-        return None if attribute is None else read_ints(attribute.data, "value")
+        """Return an attribute of whole numbers of the faces, None if there is none."""
+        return whole_numbers(self._mesh, name, self._domain)
 
     def set_faces(self, name: str, values: IntArray) -> None:
         """Write an attribute of the faces."""

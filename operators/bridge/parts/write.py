@@ -144,6 +144,7 @@ def check_writable(obj: bpy.types.Object) -> None:
     if reason:
         raise DecompositionError(f"{reason}.")
     flush_edits(obj)
+    _check_slots(obj)
     written = check_records(obj)
     for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
@@ -157,6 +158,18 @@ def check_writable(obj: bpy.types.Object) -> None:
                 " from decomposing this object; rename or remove it in the mesh's"
                 " properties."
             )
+
+
+def _check_slots(obj: bpy.types.Object) -> None:
+    """Raise if an attribute of the user is where Blender keeps the slots of faces."""
+    slots = obj.data.attributes.get("material_index")
+    if is_cloud(obj) or slots is None:
+        return
+    if (slots.data_type, slots.domain) != ("INT", "FACE"):
+        raise DecompositionError(
+            "The mesh has an attribute material_index that is not one integer for each"
+            " face; rename or remove it in the mesh's properties."
+        )
 
 
 def _write_mesh(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
@@ -21,7 +22,7 @@ from .stretching import scaling, sheared_scale, stretched, unstretched
 
 # Factors of axes that differ by less, as a share, are equal in single precision.
 _SAME_SCALE = 1e-5
-# Scripts that write an infinite coordinate into a mesh get this one.
+# Scripts that write an infinite coordinate or location get this one.
 _CLAMPED = np.finfo(np.float32).max
 
 
@@ -129,7 +130,12 @@ def scene_unit(obj: bpy.types.Object) -> float:
 
 def has_place(obj: bpy.types.Object) -> bool:
     """Return whether an object's location, rotation and scale are finite numbers."""
-    return bool(np.isfinite(np.array(obj.matrix_world)).all())
+    return _is_finite(obj.matrix_world)
+
+
+def _is_finite(place: Matrix) -> bool:
+    """Return whether all numbers of a place are finite."""
+    return bool((np.abs(np.array(place)) < _CLAMPED).all())
 
 
 def _scale_of(obj: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -138,14 +144,14 @@ def _scale_of(obj: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.fl
     These are the columns of a matrix, (3, 3). Raise as `stretch` does.
     """
     place = place_now(obj)
-    matrix = np.array(place, dtype=np.float64)
-    if not np.isfinite(matrix).all():
+    scale, axes = np.abs(np.array(place.to_scale(), dtype=float)), np.eye(3)
+    if not (_is_finite(place) and np.isfinite(scale).all()):
         raise DecompositionError(
             "The object's location, rotation or scale, or its parent's, is not a"
-            " number; type one in Sidebar > Item."
+            " number, or too large a one; type another in Sidebar > Item."
         )
-    scale, axes = np.abs(np.array(place.to_scale(), dtype=float)), np.eye(3)
-    scale, axes = sheared_scale(matrix[:3, :3]) or (scale, axes)
+    matrix = np.array(place, dtype=np.float64)[:3, :3]
+    scale, axes = sheared_scale(matrix) or (scale, axes)
     if not scale.all():
         raise DecompositionError(
             "The object's scale is zero along an axis; give it a scale in Sidebar >"

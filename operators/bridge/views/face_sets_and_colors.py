@@ -8,13 +8,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import read_labels
 from ..mesh.layers import layers_of
 from ..mesh.points import count_points, is_cloud, set_points
 from ..parts.palette import UNPAINTED
-from ..parts.read import part_identities, parts_on
+from ..parts.read import find_parts_on, parts_on
 from ..stored.identity import Identity
-from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
+from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:
@@ -55,13 +54,12 @@ def show_colors(obj: bpy.types.Object) -> None:
 def point_colors(obj: bpy.types.Object) -> NDArray[np.float32]:
     """Return the linear RGBA color of each point of a cloud, (N, 4).
 
-    Points without a part are gray.
+    They are gray if the cloud has no parts.
     """
-    parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
-    colors = np.tile(np.array(UNPAINTED, np.float32), (parts.max(initial=-1) + 2, 1))
-    for identity in part_identities(obj):
-        colors[identity.number] = (*identity.color, 1.0)
-    return colors[parts]  # the last row is of part -1
+    found = find_parts_on(obj)
+    if found is None:
+        return np.tile(np.array(UNPAINTED, np.float32), (count_points(obj), 1))
+    return _colors(found.identities)[found.labels]
 
 
 def shown(obj: bpy.types.Object) -> tuple[bool, bool]:

@@ -33,14 +33,17 @@ _OBJ_CONTINUED = re.compile(rb"\\[^\S\n]*\n")
 # A vertex or a face in an .obj file, and the numbers of the vertices of a face.
 _OBJ_LINE = re.compile(rb"^[ \t]*([vf])[ \t]([^#\n]*)", re.MULTILINE)
 _OBJ_CORNER = re.compile(rb"(?<!\S)-?\d+")
-# A vertex with a word among its first three numbers. Here, "nan" and "inf" are some.
-_OBJ_NUMBER = (
+# A number in .obj and .stl files. Here, "nan" and "inf" are some.
+_NUMBER = (
     rb"[+-]?(?:(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?+(?![^\s#])"
     rb"|(?i:nan|inf)[^\s#]*+)"
 )
+# A vertex with a word among its first three numbers.
 _OBJ_WORD = re.compile(
-    rb"\n[ \t]*v(?:[^\S\n]++%b){0,2}+[^\S\n]++(?!%b)[^\s#]" % (_OBJ_NUMBER, _OBJ_NUMBER)
+    rb"\n[ \t]*v(?:[^\S\n]++%b){0,2}+[^\S\n]++(?!%b)[^\s#]" % (_NUMBER, _NUMBER)
 )
+# A vertex without three numbers; Blender takes 0 for what it cannot read.
+_STL_WORD = re.compile(rb"\n[ \t]*vertex(?!(?:\s++%b){3})" % _NUMBER)
 # The mark with a line behind it that Blender then does not know.
 _OBJ_MARKED = re.compile(rb"\xef\xbb\xbf[ \t]*[vf]")
 # Numbers on a line of an .obj file, by keyword, at least.
@@ -117,6 +120,8 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
         )
     if b"endsolid" not in tail.lower():
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+    if _STL_WORD.search(path.read_bytes()):
+        raise _wordy(path)
 
 
 def _check_ply(path: Path) -> None:

@@ -119,10 +119,20 @@ def _usd(path: Path, _up: str) -> set[str]:
 
 
 def _blend(path: Path, _up: str) -> set[str]:
-    """Open .blend in place of the empty file; its scripts do not run."""
-    return set(
+    """Open .blend in place of the empty file, in Object Mode; its scripts do not run.
+
+    In other modes, meshes have no faces for exporters, or operators refuse to work.
+    """
+    result = set(
         bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
     )
+    objects = bpy.context.view_layer.objects
+    active = objects.active
+    for obj in [each for each in objects if each.mode != "OBJECT"]:
+        objects.active = obj
+        bpy.ops.object.mode_set(mode="OBJECT")
+    objects.active = active
+    return result
 
 
 def _add_object(mesh: bpy.types.Mesh, up: str) -> bpy.types.Object:

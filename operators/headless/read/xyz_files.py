@@ -6,6 +6,7 @@ number of points. .pwn files may list all points first and all normals after the
 
 from __future__ import annotations
 
+import re
 from io import StringIO
 from pathlib import Path
 
@@ -15,6 +16,10 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ..files.headers import whole_number
 from .finite_checks import all_finite, not_finite
+
+# A line that begins with two numbers with commas in place of decimal points.
+_COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"
+_DECIMAL_COMMAS = re.compile(rf"^\s*{_COMMA}[ \t;]+{_COMMA}(?!\S)", re.MULTILINE)
 
 Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 
@@ -30,7 +35,12 @@ def read_points(path: Path) -> Points:
     DecompositionError
         If the rows are not numbers or differ in length, or the file is cut short.
     """
-    text = path.read_bytes().decode("latin-1").replace(",", " ")
+    text = path.read_bytes().decode("latin-1")
+    if _DECIMAL_COMMAS.search(text):
+        raise DecompositionError(
+            f"{path.name} has commas in its numbers; write decimal points instead."
+        )
+    text = text.replace(",", " ")
     if not text.strip():
         raise DecompositionError(f"{path.name} has no points; it is empty.")
     first, _, rest = text.partition("\n")

@@ -14,6 +14,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.errors import DecompositionError
 from ...bridge.mesh.attributes import (
     FloatArray,
     IntArray,
@@ -40,6 +41,8 @@ _GLB_HAS_COLORS = bpy.app.version >= (5, 0, 0)
 _FORMER = ".former"
 # Formats whose points have neither colors nor materials.
 _NO_POINTS = (".obj", ".fbx")
+# Formats whose exporters take points of meshes alone.
+_NO_CLOUD_OBJECTS = (*_NO_POINTS, ".glb")
 
 
 @contextmanager
@@ -98,14 +101,35 @@ def painted_clouds() -> Iterator[bool]:
 
 
 def clouds_without_parts(ending: str) -> tuple[str, ...]:
-    """Return a sentence for each cloud whose parts are not in files with an ending."""
-    return tuple(
-        f"{obj.name} is a point cloud: {ending} does not hold its parts; write .ply,"
-        " .usd or .blend for them."
-        for obj in written_meshes()
-        if is_cloud(obj)
-        and count_points(obj)
-        and (ending in _NO_POINTS or (ending == ".glb" and obj.type == "POINTCLOUD"))
+    """Return a sentence for each cloud that files with an ending do not hold in full.
+
+    Raises
+    ------
+    DecompositionError
+        If they hold nothing at all of what is to be written.
+    """
+    written = written_meshes()
+    lost = [
+        o for o in written if o.type == "POINTCLOUD" and ending in _NO_CLOUD_OBJECTS
+    ]
+    if lost and lost == written:
+        raise DecompositionError(
+            f"{lost[0].name} is a point cloud object, and {ending} files hold none;"
+            " write .ply, .usd or .blend."
+        )
+    without = [o for o in written if is_cloud(o) and ending in _NO_POINTS]
+    return (
+        *(
+            f"{obj.name} is a point cloud object, which {ending} does not hold: it was"
+            " left out; write .ply, .usd or .blend for it."
+            for obj in lost
+        ),
+        *(
+            f"{obj.name} is a point cloud: {ending} does not hold its parts; write"
+            " .ply, .usd or .blend for them."
+            for obj in without
+            if obj not in lost and count_points(obj)
+        ),
     )
 
 

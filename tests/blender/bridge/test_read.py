@@ -143,9 +143,18 @@ def test_a_scale_of_zero_is_refused(suzanne):
         read_shape(suzanne)
 
 
-@pytest.mark.parametrize("name", ["location", "rotation_euler", "scale"])
-def test_a_place_that_is_no_number_is_refused(suzanne, name):
-    getattr(suzanne, name)[0] = np.nan
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("location", np.nan),
+        ("rotation_euler", np.nan),
+        ("scale", np.nan),
+        ("location", np.inf),  # Blender writes another number than infinity
+        ("scale", 1e30),  # its square is infinite
+    ],
+)
+def test_a_place_that_is_no_number_is_refused(suzanne, name, value):
+    getattr(suzanne, name)[0] = value
     bpy.context.view_layer.update()
     with pytest.raises(DecompositionError, match="location, rotation or scale, or"):
         read_shape(suzanne)

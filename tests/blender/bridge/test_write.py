@@ -15,6 +15,7 @@ from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts import erase, write
+from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
@@ -194,6 +195,28 @@ def test_a_users_attribute_of_our_name_is_refused(suzanne, domain):
             decompose_by_hand(suzanne, 2)
         assert snapshot(suzanne) == before
         suzanne.data.attributes.remove(suzanne.data.attributes[name])
+
+
+OTHER_TYPES = [("INT", "POINT"), ("FLOAT_COLOR", "CORNER"), ("FLOAT_COLOR", "FACE")]
+
+
+@pytest.mark.parametrize(("kind", "domain"), OTHER_TYPES)
+def test_an_attribute_of_our_name_and_another_type_has_no_parts(suzanne, kind, domain):
+    suzanne.data.attributes.new("wcd_part", kind, domain)
+    suzanne.data.attributes.new("wcd_hand", kind, domain)
+    assert part_labels(suzanne) is None
+    with pytest.raises(DecompositionError, match="vertex group wcd_part that"):
+        decompose_by_hand(suzanne, 2)
+
+
+@pytest.mark.parametrize(("kind", "domain"), OTHER_TYPES)
+def test_an_attribute_with_the_name_of_slots_is_refused(suzanne, kind, domain):
+    if suzanne.data.attributes.new("material_index", kind, domain) is None:
+        return  # Blender 4.2 refuses it
+    before = snapshot(suzanne)
+    with pytest.raises(DecompositionError, match="attribute material_index that is"):
+        decompose_by_hand(suzanne, 2)
+    assert snapshot(suzanne) == before
 
 
 def test_a_users_group_of_our_name_is_refused(suzanne):

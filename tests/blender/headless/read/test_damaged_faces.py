@@ -1,4 +1,4 @@
-"""Damaged .ply and .obj files whose faces or coordinates Blender would leave out."""
+"""Damaged files whose faces or coordinates Blender would leave out or misread."""
 
 import struct
 import time
@@ -155,6 +155,31 @@ def test_obj_with_words_where_numbers_should_be(unexpected, word):
     text = TRIANGLE.replace("v 1 0 0", f"v 1 \t{word} 0")
     sentence = "has words where numbers should be"
     assert unexpected({"a.obj": (text.encode(), sentence)}) == {}
+
+
+SOLID = (
+    "solid a vertex\nfacet normal 0 0 1\nouter loop\n vertex 0 0 0\n vertex 1 0 0\n"
+    " vertex 0 1 0\nendloop\nendfacet\nendsolid a vertex\n"
+)
+
+
+@pytest.mark.parametrize("row", ["1,5 0 0", "x y z", "1 0", "1 0 one", ""])
+def test_stl_with_words_where_numbers_should_be(unexpected, row):
+    text = SOLID.replace("vertex 1 0 0", f"vertex {row}")
+    sentence = "has words where numbers should be"
+    assert unexpected({"a.stl": (text.encode(), sentence)}) == {}
+
+
+def test_stl_with_unusual_numbers(tmp_path):
+    path = tmp_path / "a.stl"
+    text = SOLID.replace("vertex 1 0 0", "vertex\t1. -.0  +0e-5 ")
+    path.write_bytes(text.replace("\n", "\r\n").encode())
+    (obj,) = load(path, "Z")
+    assert sorted(tuple(v.co) for v in obj.data.vertices) == [
+        (0, 0, 0),
+        (0, 1, 0),
+        (1, 0, 0),
+    ]
 
 
 def test_obj_with_unusual_numbers(tmp_path):

@@ -78,6 +78,8 @@ BAD_FILES = {
     "ragged.xyz": (b"1 2 3\n1 2\n", "does not have numbers"),
     "two.xyz": (b"1 2\n3 4\n", "three coordinates"),
     "nan.xyz": (b"1 2 3\n1 nan 3\n", "not finite"),
+    "commas.xyz": (b"1 2 3\n+1,5 -2,5e-1 3,5\n", "has commas in its numbers"),
+    "counted.pts": (b"2\n1,5 2,5 3,5\n2,5 3,5 4,5\n", "has commas in its numbers"),
     "squared.xyz": ("²\n1 2 3\n".encode("latin-1"), "does not have numbers"),
     "digits.xyz": (b"9" * 5000 + b"\n1 2 3\n", "does not have numbers"),
     "large.xyz": (b"1 2 3\n1 1e39 3\n", "not finite"),

@@ -7,6 +7,7 @@ import pytest
 import shapes
 import trimesh
 from hand_made import activate, mesh_object
+from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.mesh.points import set_points
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 from weak_convex_decomposition.operators.headless.write.model_files import save
@@ -71,4 +72,36 @@ def test_formats_without_parts_of_points_say_so(tmp_path, recolored, ending):
 def test_a_mesh_without_points_is_no_cloud(tmp_path, ending):
     mesh_object("empty", [], [])
     bpy.ops.mesh.primitive_cube_add()
+    assert save(tmp_path / f"a{ending}", None) == ()
+
+
+if bpy.app.version >= (5, 0, 0):  # 4.2 makes no point cloud objects
+
+    @pytest.mark.parametrize("ending", [".obj", ".fbx", ".glb"])
+    def test_formats_without_point_cloud_objects_say_so(tmp_path, recolored, ending):
+        bpy.ops.wcd.clear()
+        bpy.ops.object.convert(target="POINTCLOUD")
+        path = tmp_path / f"a{ending}"
+        with pytest.raises(
+            DecompositionError, match=f"and {ending} files hold none; write"
+        ):
+            save(path, None)
+        assert not path.exists()
+        bpy.ops.mesh.primitive_cube_add()
+        (note,) = save(path, None)
+        assert f"is a point cloud object, which {ending} does not hold: it was" in note
+
+
+@pytest.mark.parametrize("ending", [".ply", ".usd", ".glb"])
+@pytest.mark.parametrize(
+    ("kind", "domain"), [("INT", "POINT"), ("FLOAT_COLOR", "FACE")]
+)
+def test_attributes_of_the_user_are_no_parts(tmp_path, ending, kind, domain):
+    obj = mesh_object("points", clouds.drawn(shapes.dumbbell(), 99)[0], [])
+    if domain == "FACE":
+        bpy.ops.mesh.primitive_cube_add()
+        obj = bpy.context.active_object
+    values = obj.data.attributes.new("wcd_part", kind, domain).data
+    if kind == "INT":
+        values[0].value, values[1].value = -5, 2**31 - 1
     assert save(tmp_path / f"a{ending}", None) == ()

@@ -163,3 +163,22 @@ def test_a_body_that_the_user_put_in_place_of_ours_stays(table):
     bpy.ops.wcd.clear()
     assert table.rigid_body.collision_shape == "MESH"
     assert "wcd_rigid" not in table
+
+
+def test_an_override_that_cannot_be_edited_is_refused(table, tmp_path):
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, into):
+        into.objects = ["table"]
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    scene.collection.objects.link(into.objects[0])
+    table = into.objects[0].override_hierarchy_create(scene, layer)
+    activate(table)
+    bpy.ops.wcd.build_hulls(max_hulls=2, max_error=0.5)
+    before = snapshot(table)
+    with pytest.raises(RuntimeError, match="override of a library that cannot be"):
+        bpy.ops.wcd.make_rigid()
+    assert snapshot(table) == before
+    table.override_library.is_system_override = False
+    assert bpy.ops.wcd.make_rigid() == {"FINISHED"}
