@@ -10,13 +10,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from .attributes import (
-    FloatArray,
-    IntArray,
-    whole_numbers,
-    write_floats,
-    write_ints,
-)
+from .attributes import FloatArray, IntArray, whole_numbers, write_floats, write_ints
 from .known import corner_faces, corner_vertices
 from .points import is_cloud
 

@@ -108,29 +108,28 @@ def clouds_without_parts(ending: str) -> tuple[str, ...]:
     DecompositionError
         If they hold nothing at all of what is to be written.
     """
-    written = written_meshes()
-    lost = [
-        o for o in written if o.type == "POINTCLOUD" and ending in _NO_CLOUD_OBJECTS
-    ]
-    if lost and lost == written:
+    written, lost, partly = written_meshes(), [], []
+    for obj in written:
+        if obj.type == "POINTCLOUD" and ending in _NO_CLOUD_OBJECTS:
+            lost.append(obj.name)
+        elif is_cloud(obj) and count_points(obj) and ending in _NO_POINTS:
+            partly.append(obj.name)
+    if lost and len(lost) == len(written):
         raise DecompositionError(
-            f"{lost[0].name} is a point cloud object, and {ending} files hold none;"
-            " write .ply, .usd or .blend."
+            f"{lost[0]} is a point cloud object, and {ending} files hold none; write"
+            " .ply, .usd or .blend."
         )
-    without = [o for o in written if is_cloud(o) and ending in _NO_POINTS]
-    return (
-        *(
-            f"{obj.name} is a point cloud object, which {ending} does not hold: it was"
-            " left out; write .ply, .usd or .blend for it."
-            for obj in lost
-        ),
-        *(
-            f"{obj.name} is a point cloud: {ending} does not hold its parts; write"
-            " .ply, .usd or .blend for them."
-            for obj in without
-            if obj not in lost and count_points(obj)
-        ),
+    left_out = (
+        f"{name} is a point cloud object, which {ending} does not hold: it was left"
+        " out; write .ply, .usd or .blend for it."
+        for name in lost
     )
+    without = (
+        f"{name} is a point cloud: {ending} does not hold its parts; write .ply, .usd"
+        " or .blend for them."
+        for name in partly
+    )
+    return *left_out, *without
 
 
 def _has_loose_vertices(mesh: bpy.types.Mesh) -> bool:
