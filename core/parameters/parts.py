@@ -11,7 +11,7 @@ from . import choices
 from .parameter import ParameterInfo, parameter, settle
 
 # A number of parts that bounds the search.
-_searched = partial(ParameterInfo, low=2, high=256, usual=24, affects_sight=False)
+_searched = partial(ParameterInfo, low=2, high=256, affects_sight=False)
 
 
 @dataclass(frozen=True)
@@ -153,10 +153,10 @@ class Parameters:
         ),
     )
     max_parts: int = parameter(
-        13,
+        100,
         _searched(
             "Most Parts",
-            "Largest number of parts that the search tries: higher values take longer",
+            "Largest number of parts that the search tries: 13 first, more if needed",
             used_with=("parts", 0),
         ),
     )

@@ -28,7 +28,7 @@ def likely_number(search: PartCountSearch, tried: dict[int, Candidate]) -> int:
     """
     if not tried:
         return 0
-    return min(max(search.rated(tried)[1], search.low), search.high)
+    return min(max(search.rated(tried)[1], search.low), search.most)
 
 
 def guess(

@@ -19,11 +19,15 @@ _GAIN_TOLERANCE = 0.025
 # Symmetric parts may lack this share. So may parts that were found from lines of sight
 # alone: they fit the chance in the very pairs that psi is counted from.
 _WIDE_TOLERANCE = 0.035
+# One of many equal parts gains little. At most this share of its gain may be lacking.
+_OF_ONE_PART = 0.5
 # Above this number only every second one gets parts of its own. For those between,
 # parts of one more are merged: errors on the benchmark are the same.
 _ALL_OWN = 5
 # Symmetric parts are preferred up to this number, times k.
 _MORE = 1.5
+# Last number that is tried at first. While the best is the last, it is doubled.
+_FIRST_HIGH = 13
 
 
 class Search(NamedTuple):
@@ -62,8 +66,8 @@ class PartCountSearch:
         As given.
     creases : CreaseParts
         Parts along creases, which compete with others.
-    low, high : int
-        First and last number that is tried.
+    low, most : int
+        Least and largest number of parts.
     """
 
     def __init__(
@@ -72,7 +76,19 @@ class PartCountSearch:
         self.partitioner, self.seams, self.memo = partitioner, seams, memo
         self.creases = CreaseParts(partitioner)
         self.low = partitioner.parameters.min_parts
-        self.high = partitioner.parameters.max_parts
+        self.most = partitioner.parameters.max_parts
+
+    @property
+    def high(self) -> int:
+        """Last number to try, by what is known; while it is the best, it is doubled."""
+        high, known = _FIRST_HIGH, self.memo.searches
+        while high < self.most:
+            numbers = self.low, high
+            best = self.rated(known[numbers])[1] if numbers in known else 0
+            if self.low <= high and best != high:
+                return high
+            high *= 2
+        return self.most
 
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.
@@ -83,7 +99,8 @@ class PartCountSearch:
         2. If the parts of a symmetric shape are not symmetric for the smallest such k,
            prefer the first with symmetric parts, up to 1.5k. Its psi may be a little
            lower.
-        3. Cut along closed loops of creases, too, or only there, if what that saves in
+        3. If the last number that was tried is the best, try more, up to `most`.
+        4. Cut along closed loops of creases, too, or only there, if what that saves in
            seams outweighs what is lost in psi. Or leave the shape whole, if that is
            better than any of these and Fewest Parts does not ask for more.
 
@@ -95,7 +112,7 @@ class PartCountSearch:
         psi_by_k, best_k = self.rated(tried)
         seams = yield from within(self.seams.cut(tried[best_k].parts), 0.9, 1.0)
         low = self.low if self.low > Parameters.min_parts else 1
-        parts = self.creases.better(seams.parts, low, self.high)
+        parts = self.creases.better(seams.parts, low, self.most)
         if parts is not seams.parts:
             seams, best_k = Seams(parts), count_parts(parts)
             psi_by_k |= {best_k: self.partitioner.psi_seen(parts)}
@@ -103,7 +120,7 @@ class PartCountSearch:
 
     @property
     def searched(self) -> bool:
-        """Whether all numbers were tried before."""
+        """Whether all numbers to try were tried before."""
         return (self.low, self.high) in self.memo.searches
 
     def tried(self, low: int | None = None) -> Steps[dict[int, Candidate]]:
@@ -114,8 +131,15 @@ class PartCountSearch:
         low : int, optional
             First number, in place of the search's own.
         """
-        numbers = self.low if low is None else low, self.high
-        return self.memo.searches.recall_steps(numbers, partial(self._try, *numbers))
+        share = 0.0  # the last number is seldom doubled, and in little time
+        while True:
+            numbers = self.low if low is None else low, self.high
+            steps = partial(self._try, *numbers)
+            known = self.memo.searches.recall_steps(numbers, steps)
+            found = yield from within(known, share, 1.0)
+            if numbers[1] == self.high:
+                return found
+            share = 1.0
 
     def alone(self, n_parts: int) -> Steps[Candidate]:
         """Return the candidate for a number of parts, found without the others."""
@@ -145,8 +169,9 @@ class PartCountSearch:
 
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
         """Return each k whose gain lacks at most a share, or the sampling error."""
-        most, by = max(psi_by_k.values()), self.partitioner
-        share = tolerance * _strictness(by.parameters.alpha)
+        best, by = max(psi_by_k, key=psi_by_k.__getitem__), self.partitioner
+        most = psi_by_k[best]
+        share = min(tolerance, _OF_ONE_PART / best) * _strictness(by.parameters.alpha)
         enough = most - max(2 * by.negligible, share * (most - psi_by_k[1]))
         return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
 

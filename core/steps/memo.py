@@ -76,6 +76,10 @@ class Memo(Generic[Key, Value]):
         """Return whether the value of a key is stored."""
         return key in self._values
 
+    def __getitem__(self, key: Key) -> Value:
+        """Return the value of a key that is stored."""
+        return self._values[key]
+
     def recall(self, key: Key, make: Callable[[], Value]) -> Value:
         """Return the value of a key, and compute it if it is not stored.
 

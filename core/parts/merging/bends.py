@@ -28,7 +28,7 @@ def with_bends_kept(search: PartCountSearch) -> Steps[Search]:
     found = yield from within(search.best(), 0.0, 0.5)
     merged = yield from merger.merge(found.seams.parts)
     best_k = left = count_parts(merged)
-    tried = range(n_parts, parameters.max_parts + 1) if n_parts else ()
+    tried = range(n_parts, search.high + 1) if n_parts else ()
     for turn, k in enumerate(tried):
         if left == n_parts or (turn and left > n_parts):
             break

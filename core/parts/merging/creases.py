@@ -25,8 +25,10 @@ from .pieces import connected_parts
 # Least concave angle of a crease, in radians, and of the corners of an outline.
 _CREASED = 0.25
 _CORNER = 0.15
-# Pieces with a smaller share of the area are not counted.
+# Pieces with a smaller share of the area are not counted. Nor is less of a part: less
+# than this share of it, as few nodes may be exchanged where small pieces join others.
 _LEAST_PIECE = 0.01
+_ALL = 0.99
 # Pieces whose mean normal is longer than this are flat.
 _FLAT = 0.85
 # What a seam as long as the square root of the area costs, in psi. From 0.17 to 0.25
@@ -61,8 +63,7 @@ class CreaseParts:
         pieces = connected_parts(graph, pieces_between(graph, seams), least)
         if count_parts(pieces) == 1:
             return pieces
-        areas = np.where(_flat(graph, pieces)[pieces], 0.0, graph.areas)
-        return connected_parts(replace(graph, areas=areas), pieces, least / 2)
+        return _joined(graph, pieces, _flat(graph, pieces))
 
     def _between_corners(self, graph: FaceGraph) -> NDArray[np.int64]:
         """Return the pieces (P,) of a flat shape between its concave corners.
@@ -120,6 +121,7 @@ class CreaseParts:
         finer = connected_parts(
             by.graph, parts * n_pieces + self.parts, by.smallest_area
         )
+        finer = _joined(by.graph, finer, _slivers(by.graph, finer, parts))
         if count_parts(finer) <= most:
             return finer
         return by.merged(finer, most, self._costs, 1.0)
@@ -153,6 +155,27 @@ def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
     areas = graph.areas_of(pieces)
     normals = sums_by_label(graph.areas[:, None] * graph.normals, pieces, len(areas))
     return np.linalg.norm(normals, axis=1) > _FLAT * areas
+
+
+def _slivers(
+    graph: FaceGraph, finer: NDArray[np.int64], parts: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """Return which pieces, (K,), are what lies between a seam and a loop beside it.
+
+    `finer` (P,) are pieces of `parts` (P,).
+    """
+    areas, of_parts = graph.areas_of(finer), np.empty(count_parts(finer))
+    of_parts[finer] = graph.areas_of(parts)[parts]
+    return areas < np.minimum(_LEAST_PIECE * graph.areas.sum(), _ALL * of_parts)
+
+
+def _joined(
+    graph: FaceGraph, pieces: NDArray[np.int64], small: NDArray[np.bool_]
+) -> NDArray[np.int64]:
+    """Return pieces (P,), of which the `small` ones, (K,) bool, join a neighbor."""
+    areas = np.where(small[pieces], 0.0, graph.areas)
+    least = areas[areas > 0].min(initial=np.inf)
+    return connected_parts(replace(graph, areas=areas), pieces, least)
 
 
 def pieces_between(graph: FaceGraph, seams: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -99,7 +99,7 @@ def test_other_settings_wait_for_the_next_cut(suzanne, settings):
 
 def test_settings_that_contradict_each_other_change_nothing(suzanne, settings):
     before = snapshot(suzanne)
-    settings.min_parts = 20
+    settings.min_parts = 120
     assert snapshot(suzanne) == before
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of
+from computed import decompose, graph_of, part_count_search, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.merging.creases import pieces_between
 from weak_convex_decomposition.core.parts.merging.flush import flush_seams
@@ -97,6 +97,22 @@ def test_parts_follow_loops_that_cost_little_psi(seed):
 def test_other_numbers_and_limits_are_kept(number):
     assert decompose(pins(), Parameters(parts=number)).n_parts == number
     assert decompose(pins(), Parameters(min_parts=4, max_parts=6)).n_parts >= 4
+
+
+def test_what_lies_between_a_seam_and_a_loop_is_no_part():
+    """Two balls without a loop between them, and a tail behind a step."""
+    heights = np.array([*np.linspace(-4, 2, 73), 2.0, 2.05, *np.linspace(2.1, 4, 8)])
+    radii = 0.5 + 0.5 * np.sin(np.pi * (heights + 4) / 3) ** 2
+    radii[73:], radii[[0, -1]] = 0.25, 0.0
+    parameters = Parameters(samples=300, smallest_part=0.002)
+    memo = see(shapes.turned(radii, heights, 32), parameters)
+    creases = part_count_search(memo, parameters, 2, 9).creases
+    along = memo.transfer.graph.centers[:, 2]
+    step = along[creases.parts == creases.parts[along.argmax()]].min()
+    beside = np.digitize(along, [(along.min() + step) / 2, step + 0.01])
+    found = creases.better(beside, 1, 9)
+    assert found is not beside
+    assert len(set(found)) == 3
 
 
 def ears():

@@ -93,6 +93,29 @@ def test_parts_given_are_those_chosen_split_or_merged(number):
     assert len(both) == max(3, number)
 
 
+def cubes(number):
+    """Return cubes in a row, apart from each other."""
+    return shapes.joined(
+        *(shapes.box((2 * x, 0, 0), (2 * x + 1, 1, 1)) for x in range(number))
+    )
+
+
+@pytest.mark.parametrize(
+    ("number", "most", "expected"), [(12, 100, 12), (24, 100, 24), (24, 17, 17)]
+)
+def test_more_are_tried_while_the_last_number_is_the_best(number, most, expected):
+    found = decompose(cubes(number), Parameters(samples=600, max_parts=most))
+    assert (found.n_parts, found.best_k) == (expected, expected)
+    assert max(found.psi_by_k) == max(expected, 13)
+
+
+def test_fewest_parts_may_be_more_than_are_tried_at_first():
+    found = decompose(cubes(16), Parameters(samples=600, min_parts=14))
+    assert found.n_parts == 16
+    given = decompose(cubes(16), Parameters(samples=600, parts=15))
+    assert (given.n_parts, given.best_k) == (15, 16)
+
+
 @pytest.fixture(scope="module")
 def comb():
     """Return the visibility of a comb."""
