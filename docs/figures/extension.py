@@ -108,7 +108,7 @@ def parts_of_faces(obj: bpy.types.Object) -> np.ndarray:
 
 def splats(obj: bpy.types.Object) -> bpy.types.Mesh:
     """Return the splats of a decomposed cloud as a mesh in the colors of its parts."""
-    return _load("operators.headless.write.splat_mesh").splat_mesh(obj)
+    return _load("operators.headless.write.picture_scene").splat_mesh(obj)
 
 
 def seen_from(

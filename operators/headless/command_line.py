@@ -14,7 +14,7 @@ from ...core.errors import DecompositionError
 from ...core.steps.progress import run
 from ..bridge.work.libraries import load_libraries
 from ..bridge.work.session_cache import results_kept
-from .files.goals import Goals
+from .files.claims import Goals
 from .interrupts import Interrupts, interruptible
 from .report import save_report
 from .request.options import Request, parse

@@ -1,11 +1,15 @@
-"""What an output writes beside itself, and what it must not be written over."""
+"""What an output writes beside itself, and what it must not be written over.
+
+These are inputs and the files that they refer to: libraries, materials and textures,
+which are known when an input is loaded, not before.
+"""
 
 from __future__ import annotations
 
 import os
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from ....core.errors import DecompositionError
@@ -31,7 +35,9 @@ def companion_of(path: Path, is_model: bool) -> Path | None:
 def check_companion(path: Path, companion: Path) -> None:
     """Check that what is at the place of a companion of `path` is ours to replace.
 
-    An .mtl file is, if the .obj file that is replaced with it names it.
+    An .mtl file is, if the .obj file that is replaced with it names it. A simulator
+    file has to name the folder of its meshes, which is called like it: XML does not
+    hold all characters.
 
     Raises
     ------
@@ -39,7 +45,11 @@ def check_companion(path: Path, companion: Path) -> None:
         If something of the user's would be lost, or `path` cannot name its companion.
     """
     if path.suffix.lower() in SIMULATOR_ENDINGS:
-        _check_name(path)
+        if _CONTROL.search(path.name):
+            raise DecompositionError(
+                f"{path} has a name with control characters, or bytes that are no"
+                f" Unicode, which {path.suffix} files cannot hold; rename it."
+            )
         owned_names(path)
         return
     if not companion.exists():
@@ -49,21 +59,6 @@ def check_companion(path: Path, companion: Path) -> None:
         raise DecompositionError(
             f"{companion} does not belong to {path.name}, whose materials would replace"
             " it; rename one of them."
-        )
-
-
-def _check_name(path: Path) -> None:
-    """Check that a file can name the folder of its meshes, which is called like it.
-
-    Raises
-    ------
-    DecompositionError
-        If the name has characters that XML does not hold.
-    """
-    if _CONTROL.search(path.name):
-        raise DecompositionError(
-            f"{path} has a name with control characters, or bytes that are no Unicode,"
-            f" which {path.suffix} files cannot hold; rename it."
         )
 
 
@@ -125,3 +120,42 @@ def _twice(output: Path, other: Path) -> str:
         f"{output} and {other} differ in upper and lower case alone, and are one file"
         " on some disks; give them distinct names."
     )
+
+
+class Goals:
+    """Refuses outputs in place of files that inputs refer to.
+
+    The `places` are all files of the run, with their companions.
+    """
+
+    def __init__(self, places: Iterable[Path]) -> None:
+        self._places = {place_key(place_of(path)): path for path in places}
+        self._refused: dict[str, str] = {}
+
+    def keep(self, files: Iterable[Path], user: Path) -> None:
+        """Keep the files that an input, `user`, refers to: none is written from now on.
+
+        Raises
+        ------
+        DecompositionError
+            If any output of the run would be in the place of one of them.
+        """
+        found = {}
+        for file in files:
+            place = place_of(file)
+            for each in map(place_key, (place, *place.parents)):
+                if each in self._places:
+                    found[each] = (
+                        f"{self._places[each]} is read as well: {user.name} refers to"
+                        " it; give the output another name."
+                    )
+        self._refused |= found
+        if found:
+            raise DecompositionError(next(iter(found.values())))
+
+    def check(self, places: Iterable[Path]) -> None:
+        """Raise if an input so far refers to what is in one of these places."""
+        for path in places if self._refused else ():
+            sentence = self._refused.get(place_key(place_of(path)))
+            if sentence:
+                raise DecompositionError(sentence)

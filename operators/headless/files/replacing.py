@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ....core.errors import DecompositionError
 from ..formats import SIMULATOR_ENDINGS
-from .swap import Move, swap
+from .swap import swap
 from .whole import check_whole, raise_cause
 
 # Paths that stand for an open stream, whatever they are when they are looked at.
@@ -62,9 +62,8 @@ def replacing(
         made = [_unfinished(stage, each, has_folder) for each in companions]
         made.append(unfinished)
         _check_all(unfinished, made)
-        pairs = [pair for pair in zip(made, goals, strict=False) if pair[0].exists()]
-        names = owned()
-        swap([Move(new, goal, names) for new, goal in pairs])
+        moves = [each for each in zip(made, goals, strict=False) if each[0].exists()]
+        swap(moves, owned())
         if stream:
             with unfinished.open("rb") as new, path.open("wb") as old:
                 shutil.copyfileobj(new, old)

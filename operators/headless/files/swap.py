@@ -8,32 +8,22 @@ import shutil
 import tempfile
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 
 
-@dataclass(frozen=True)
-class Move:
-    """A new file or folder, and the path that it is to have.
-
-    Attributes
-    ----------
-    new, goal : Path
-        The new one is whole and on the disk. What is at the goal is replaced.
-    owned : frozenset of str
-        Names in an old folder that are ours. All others go to the new folder.
-    """
-
-    new: Path
-    goal: Path
-    owned: frozenset[str] = frozenset()
-
-
-def swap(moves: Sequence[Move]) -> None:
-    """Make all moves; if one fails, take back those before it.
+def swap(moves: Sequence[tuple[Path, Path]], owned: frozenset[str]) -> None:
+    """Put new files and folders where they belong; if one fails, take all back.
 
     The system replaces one file in one step. Of several, the last is the one that
     refers to the others. A file is never missing, a folder for a moment.
+
+    Parameters
+    ----------
+    moves : sequence of (Path, Path)
+        A new file or folder, which is whole and on the disk, and its goal. What is at
+        the goal is replaced.
+    owned : frozenset of str
+        Names in an old folder that are ours. All others go to the new folder.
 
     Raises
     ------
@@ -43,10 +33,10 @@ def swap(moves: Sequence[Move]) -> None:
     rooms: list[Path] = []
     back: list[tuple[Path, Path]] = []  # renames that undo what was done, oldest first
     try:
-        for move in moves:
-            rooms.append(_room_for(move))
-        for move, room in zip(moves, rooms, strict=True):
-            _replace(move.goal, room, move.owned, back)
+        for new, goal in moves:
+            rooms.append(_room_for(new, goal))
+        for (_, goal), room in zip(moves, rooms, strict=True):
+            _replace(goal, room, owned, back)
     except BaseException:
         for now, before in reversed(back):
             with suppress(FileNotFoundError):  # it was not renamed yet
@@ -56,19 +46,19 @@ def swap(moves: Sequence[Move]) -> None:
     _remove(rooms)
 
 
-def _room_for(move: Move) -> Path:
+def _room_for(new: Path, goal: Path) -> Path:
     """Make a folder beside the goal, on its disk, and bring the new one there."""
-    room = Path(tempfile.mkdtemp(prefix=".wcd-", dir=move.goal.parent))
-    new = room / "new"
+    room = Path(tempfile.mkdtemp(prefix=".wcd-", dir=goal.parent))
+    there = room / "new"
     try:
         try:
-            os.rename(move.new, new)
+            os.rename(new, there)
         except OSError as error:
             if error.errno != errno.EXDEV:
                 raise
-            _copy(move.new, new)
-        if move.goal.exists():
-            shutil.copymode(move.goal, new)
+            _copy(new, there)
+        if goal.exists():
+            shutil.copymode(goal, there)
     except BaseException:
         _remove([room])
         raise

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import dataclass, fields
 from itertools import chain
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from ....core.errors import DecompositionError
 from ....core.parameters.bodies import BodyParameters
@@ -16,7 +16,7 @@ from ....core.parameters.parts import Parameters
 from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ....core.steps.processes import available
 from ...bridge.stored.notes import version
-from ..files.goals import Goals
+from ..files.claims import Goals
 from .asked_hulls import hull_file, useless_options
 from .file_options import add_files
 from .help_text import DESCRIPTION, EPILOG
@@ -138,20 +138,16 @@ def _settings(
 ) -> tuple[Parameters, HullParameters, BodyParameters]:
     """Return the settings: those of the preset, and what the user gives."""
     chosen = preset(getattr(options, "preset", _DEFAULT_PRESET))
-    return (
-        chosen.parameters(**_given(options, Parameters)),
-        HullParameters(**_given(options, HullParameters)),
-        BodyParameters(**_given(options, BodyParameters)),
+    given = vars(options)
+    of_parts, of_hulls, of_bodies = (
+        {each.name: given[each.name] for each in fields(kind) if each.name in given}
+        for kind in SETTINGS
     )
-
-
-def _given(
-    options: argparse.Namespace,
-    kind: type[Parameters | HullParameters | BodyParameters],
-) -> dict[str, Any]:
-    """Return the parameters of a kind that the user gives."""
-    names = [field.name for field in fields(kind)]
-    return {name: getattr(options, name) for name in names if hasattr(options, name)}
+    return (
+        chosen.parameters(**of_parts),
+        HullParameters(**of_hulls),
+        BodyParameters(**of_bodies),
+    )
 
 
 def _parser(program: str) -> _Parser:

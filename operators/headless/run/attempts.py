@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
 
 from ....core.errors import DecompositionError
 from ..screen import Screen
-
-T = TypeVar("T")
 
 
 class Attempts:
@@ -30,14 +27,6 @@ class Attempts:
         self._screen = screen
         self.errors: list[str] = []
 
-    def value(self, make: Callable[[], T]) -> T | None:
-        """Return the value of `make`, None if that fails."""
-        try:
-            return make()
-        except DecompositionError as error:
-            self.failed(str(error))
-            return None
-
     def failed(self, text: str) -> None:
         """Show and note an error."""
         self._screen.error(text)
@@ -47,9 +36,9 @@ class Attempts:
         """Write to `path`; return it, or None if there is none or writing fails."""
         if path is None:
             return None
-
-        def write_it() -> Path:
+        try:
             write(path)
-            return path
-
-        return self.value(write_it)
+        except DecompositionError as error:
+            self.failed(str(error))
+            return None
+        return path

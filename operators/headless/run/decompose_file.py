@@ -9,8 +9,9 @@ from pathlib import Path
 
 import bpy
 
+from ....core.errors import DecompositionError
 from ..current_file import has_shape
-from ..files.goals import Goals
+from ..files.claims import Goals
 from ..formats import USUAL_UP
 from ..read.load import LoadedFile, load_file
 from ..request.options import Request
@@ -89,14 +90,14 @@ def _load(
     path: Path, targets: Targets, request: Request, goals: Goals, attempts: Attempts
 ) -> LoadedFile:
     """Load an input, unless its targets would replace what an input refers to."""
-
-    def load() -> LoadedFile:
+    try:
         goals.check(targets.places())
         loaded = load_file(path, request.up, request.apply_modifiers)
         goals.keep(loaded.refers_to, path)
-        return loaded
-
-    return attempts.value(load) or LoadedFile([], {})
+    except DecompositionError as error:
+        attempts.failed(str(error))
+        return LoadedFile([], {})
+    return loaded
 
 
 def _parts_of(

@@ -11,11 +11,14 @@ import numpy as np
 from mathutils import Euler, Matrix, Vector
 from numpy.typing import NDArray
 
+from .... import core
+from ...bridge.mesh.attributes import write_ints
 from ...bridge.mesh.known import corner_vertices
-from ...bridge.mesh.points import is_cloud, positions_of
-from ...bridge.parts.materials import discard_unused, our_materials
+from ...bridge.mesh.points import is_cloud, normals_of, positions_of, read_vectors
+from ...bridge.parts.materials import discard_unused, our_materials, own_materials
+from ...bridge.parts.read import find_parts_on
+from ...bridge.stored.names import NORMAL_LAYER
 from .render_engine import RenderEngine
-from .splat_mesh import splat_mesh
 
 # Angle of the camera above the horizon.
 _ELEVATION = radians(22.0)
@@ -58,6 +61,27 @@ def picture_scene(objects: Sequence[bpy.types.Object]) -> Iterator[bpy.types.Sce
         bpy.data.batch_remove(ours)
         discard_unused(our_materials())
         bpy.data.scenes.remove(scene)
+
+
+def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
+    """Return a new mesh with the splats of a point cloud, in the colors of its parts.
+
+    The mesh is empty if the cloud was not decomposed.
+    """
+    points = positions_of(obj).astype(np.float64)
+    normals = read_vectors(obj, NORMAL_LAYER)
+    if normals is None:
+        normals = normals_of(obj)
+    mesh = bpy.data.meshes.new(obj.name)
+    found = find_parts_on(obj)
+    if normals is None or found is None:
+        return mesh
+    kept, _, targets = core.thinned_splats(points, normals.astype(np.float64))
+    mesh.from_pydata(targets.vertices, [], targets.triangles.tolist())
+    for material in own_materials(found.identities, [None] * len(found.identities)):
+        mesh.materials.append(material)
+    write_ints(mesh.polygons, "material_index", found.labels[kept])
+    return mesh
 
 
 def set_up_engine(scene: bpy.types.Scene, engine: RenderEngine) -> None:

@@ -12,7 +12,7 @@ from headless.command import content
 from headless.full_disk import file_limit, full_disk
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.files.replacing import replacing
-from weak_convex_decomposition.operators.headless.files.swap import Move, swap
+from weak_convex_decomposition.operators.headless.files.swap import swap
 from weak_convex_decomposition.operators.headless.files.whole import check_whole
 from weak_convex_decomposition.operators.headless.formats import (
     HULL_ENDINGS,
@@ -126,15 +126,11 @@ def test_several_moves_are_taken_back_together(tmp_path):
     (goals / "b").unlink()
     before = content(goals)
     owned = frozenset({"a", "b"})
-    moves = [
-        Move(new / "meshes", goals / "meshes", owned),
-        Move(new / "a", goals / "a"),
-        Move(new / "b", goals / "b"),
-    ]
+    moves = [(new / name, goals / name) for name in ("meshes", "a", "b")]
     (goals / "b").mkdir()  # a file does not replace a folder
     (goals / "b" / "mine").write_text("mine")
     with pytest.raises(OSError, match="b"):
-        swap(moves)
+        swap(moves, owned)
     shutil.rmtree(goals / "b")
     assert content(goals) == before
     assert sorted(os.listdir(goals)) == ["a", "meshes"]
