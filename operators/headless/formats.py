@@ -1,4 +1,4 @@
-"""The formats of files: the endings that are read and written, and the axis up.
+"""The formats of files: endings, the axis up, and the add-ons of Blender for them.
 
 Readers, writers and the options of the command line all take these from here.
 """
@@ -46,6 +46,10 @@ USUAL_UP = {
     **dict.fromkeys((".ply", ".stl", ".xyz", ".pwn", ".pts"), "Z"),
 }
 
+# Add-ons that come with Blender, and that users may have switched off: their modules.
+GLTF = "io_scene_gltf2"
+FBX = "io_scene_fbx"
+
 # Characters that names in files do not have, within brackets of a regular expression:
 # control characters, halves of characters, and what is none.
 CONTROL_CHARACTERS = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
@@ -60,3 +64,23 @@ def axes(up: str) -> dict[str, str]:
     """Return the options of Blender's importers and exporters for Y or Z up."""
     forward = {"Y": "NEGATIVE_Z", "Z": "Y"}[up]
     return {"forward_axis": forward, "up_axis": up}
+
+
+def enable(addon: str) -> None:
+    """Enable an add-on that comes with Blender, for this session only.
+
+    Parameters
+    ----------
+    addon : str
+        Name of its module.
+
+    Raises
+    ------
+    RuntimeError
+        If Blender lacks it; the errors of Blender's operators are of this type, too.
+    """
+    import addon_utils  # Blender provides it; endings are known without Blender
+
+    _, is_enabled = addon_utils.check(addon)
+    if not is_enabled and addon_utils.enable(addon) is None:
+        raise RuntimeError(f"Blender's add-on {addon} is missing")

@@ -14,8 +14,7 @@ import bpy
 
 from ...bridge.mesh.points import set_points
 from ...bridge.stored.names import COLOR_LAYER
-from ..addons import FBX, GLTF, enable
-from ..formats import axes
+from ..formats import FBX, GLTF, axes, enable
 from .numbering import number_in_order
 from .off_files import read_off
 from .xyz_files import read_points

@@ -14,7 +14,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
 from ...bridge.hulls.fitting_names import names_that_fit
 from ...bridge.stored.noted_hulls import figures_on
-from ..addons import FBX, enable
+from ..formats import FBX, enable
 from ..shear import in_their_places, shear_in_meshes, without_parents
 from .names import hulls_by_owner
 from .one_scene import one_scene

@@ -8,10 +8,9 @@ from pathlib import Path
 import bpy
 
 from ....core.parameters.bodies import BodyParameters
-from ..addons import GLTF, enable
 from ..files.output_folders import replacing_with_folder
 from ..files.replacing import explaining, replacing
-from ..formats import SIMULATOR_ENDINGS, axes, up_in
+from ..formats import GLTF, SIMULATOR_ENDINGS, axes, enable, up_in
 from ..quiet import quiet_blender
 from ..shear import shear_in_meshes, without_parents
 from .collider_marks import mark_glb

@@ -10,11 +10,10 @@ from pathlib import Path
 import bpy
 
 from ...bridge.refusals import CONVERTIBLE
-from ..addons import GLTF, enable
 from ..files.claims import check_companion, companion_of
 from ..files.replacing import explaining, replacing
 from ..files.whole import check_obj
-from ..formats import axes, up_in
+from ..formats import GLTF, axes, enable, up_in
 from ..quiet import quiet_blender
 from ..shear import in_their_places
 from .collider_marks import mark_glb

@@ -5,7 +5,7 @@ import json
 import bpy
 import pytest
 from headless.loading import load
-from weak_convex_decomposition.operators.headless.addons import GLTF, enable
+from weak_convex_decomposition.operators.headless.formats import GLTF, enable
 
 
 @pytest.fixture

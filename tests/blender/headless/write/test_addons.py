@@ -5,7 +5,7 @@ import bpy
 import pytest
 from hand_made import add_ring, build_hulls
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
-from weak_convex_decomposition.operators.headless import addons
+from weak_convex_decomposition.operators.headless.formats import FBX, GLTF, enable
 from weak_convex_decomposition.operators.headless.write.hull_files import save_hulls
 from weak_convex_decomposition.operators.headless.write.model_files import save
 
@@ -13,10 +13,10 @@ from weak_convex_decomposition.operators.headless.write.model_files import save
 @pytest.fixture
 def switched_off():
     """Switch the add-ons off for a test."""
-    for addon in (addons.GLTF, addons.FBX):
+    for addon in (GLTF, FBX):
         addon_utils.disable(addon)
     yield
-    for addon in (addons.GLTF, addons.FBX):
+    for addon in (GLTF, FBX):
         addon_utils.enable(addon)
 
 
@@ -41,4 +41,4 @@ def test_settings_of_the_user_stay(tmp_path, suzanne, switched_off):
 
 def test_an_addon_that_is_missing_is_a_reason():
     with pytest.raises(RuntimeError, match="add-on io_nothing is missing"):
-        addons.enable("io_nothing")
+        enable("io_nothing")
