@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from typing import Any, ClassVar
 
 import bpy
@@ -115,8 +114,7 @@ class WCD_OT_tell_quality(bpy.types.Operator):
 
 def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:
     """Return the parameters that a measurement was made with."""
-    values = asdict(parameters)
-    return {name: values[name] for name in names}
+    return {name: getattr(parameters, name) for name in names}
 
 
 def _figures(value: Measurement) -> str:

@@ -29,6 +29,11 @@ LEAVE_EDIT_MODE = "Edit Mode could not undo this; switch to Object Mode"
 _ENTER_EDIT_MODE = "Faces are selected in Edit Mode; switch the mode"
 
 
+def _unless(fits: object, reason: str) -> str | None:
+    """Return a reason, None if an object fits."""
+    return None if fits else reason
+
+
 def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
     """Return why an object cannot be worked on at all."""
     if obj is None:
@@ -87,18 +92,14 @@ def decompose_refusal(obj: Candidate) -> str | None:
 
 def recut_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be replaced by others."""
-    reason = refusal(obj)
-    if reason is None and not noted_parameters(obj):
-        return f"{obj.name} has no parts to replace; press Decompose"
-    return reason
+    return refusal(obj) or _unless(
+        noted_parameters(obj), f"{obj.name} has no parts to replace; press Decompose"
+    )
 
 
 def selection_refusal(obj: Candidate) -> str | None:
     """Return why the selected faces of an object cannot be measured."""
-    reason = measure_refusal(obj)
-    if reason is None and obj.mode != "EDIT":
-        return _ENTER_EDIT_MODE
-    return reason
+    return measure_refusal(obj) or _unless(obj.mode == "EDIT", _ENTER_EDIT_MODE)
 
 
 # The parts of an object, to be used.
@@ -106,10 +107,9 @@ def selection_refusal(obj: Candidate) -> str | None:
 
 def decomposed_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be used."""
-    reason = refusal(obj)
-    if reason is None and not has_parts(obj):
-        return f"{obj.name} has no parts; press Decompose first"
-    return reason
+    return refusal(obj) or _unless(
+        has_parts(obj), f"{obj.name} has no parts; press Decompose first"
+    )
 
 
 def rough_refusal(obj: Candidate) -> str | None:
@@ -121,26 +121,19 @@ def rough_refusal(obj: Candidate) -> str | None:
 
 def picture_refusal(obj: Candidate) -> str | None:
     """Return why no picture of an object's parts can be made."""
-    reason = decomposed_refusal(obj)
-    if reason is None and obj.mode != "OBJECT":
-        return LEAVE_EDIT_MODE
-    return reason
+    return decomposed_refusal(obj) or _unless(obj.mode == "OBJECT", LEAVE_EDIT_MODE)
 
 
 def parts_refusal(obj: Candidate) -> str | None:
     """Return why parts that consist of faces cannot be used."""
-    reason = decomposed_refusal(obj)
-    if reason is None and is_cloud(obj):
-        return f"{obj.name} has no faces; give it a surface first"
-    return reason
+    return decomposed_refusal(obj) or _unless(
+        not is_cloud(obj), f"{obj.name} has no faces; give it a surface first"
+    )
 
 
 def object_mode_refusal(obj: Candidate) -> str | None:
     """Return why parts cannot be used for what undo in Edit Mode cannot take back."""
-    reason = parts_refusal(obj)
-    if reason is None and obj.mode != "OBJECT":
-        return LEAVE_EDIT_MODE
-    return reason
+    return parts_refusal(obj) or _unless(obj.mode == "OBJECT", LEAVE_EDIT_MODE)
 
 
 # The parts of an object, to be edited by hand.
@@ -149,20 +142,17 @@ def object_mode_refusal(obj: Candidate) -> str | None:
 @or_not_ours
 def edit_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be edited."""
-    reason = refusal(obj)
-    if reason is None and not (
-        read_restore(obj.data) and record_of(obj).get("parts") and obj.wcd_parts
-    ):
-        return f"{obj.name} has no parts yet; press Decompose first"
-    return reason
+    return refusal(obj) or _unless(
+        read_restore(obj.data) and record_of(obj).get("parts") and obj.wcd_parts,
+        f"{obj.name} has no parts yet; press Decompose first",
+    )
 
 
 def merge_refusal(obj: Candidate, n_chosen: int) -> str | None:
     """Return why the chosen parts of an object cannot be merged."""
-    reason = edit_refusal(obj)
-    if reason is None and n_chosen < 2:
-        return "Tick two or more parts in the list to merge them"
-    return reason
+    return edit_refusal(obj) or _unless(
+        n_chosen >= 2, "Tick two or more parts in the list to merge them"
+    )
 
 
 def name_refusal(name: str, part: str, taken: Iterable[str]) -> str | None:
@@ -181,26 +171,21 @@ def name_refusal(name: str, part: str, taken: Iterable[str]) -> str | None:
 
 def faces_refusal(obj: Candidate) -> str | None:
     """Return why the faces of parts cannot be selected."""
-    reason = edit_refusal(obj)
-    if reason is None and is_cloud(obj):
-        return f"{obj.name} has no faces, only points"
-    return reason
+    return edit_refusal(obj) or _unless(
+        not is_cloud(obj), f"{obj.name} has no faces, only points"
+    )
 
 
 def seams_refusal(obj: Candidate) -> str | None:
     """Return why there are no seams of ours to take back."""
-    reason = faces_refusal(obj)
-    if reason is None and not has_marked_seams(obj.data):
-        return "No seams were marked here; press Mark first"
-    return reason
+    return faces_refusal(obj) or _unless(
+        has_marked_seams(obj.data), "No seams were marked here; press Mark first"
+    )
 
 
 def assign_refusal(obj: Candidate) -> str | None:
     """Return why selected faces cannot be given to a part."""
-    reason = faces_refusal(obj)
-    if reason is None and obj.mode != "EDIT":
-        return _ENTER_EDIT_MODE
-    return reason
+    return faces_refusal(obj) or _unless(obj.mode == "EDIT", _ENTER_EDIT_MODE)
 
 
 # Hulls.
@@ -220,7 +205,7 @@ def no_hulls_refusal(
     obj: Candidate, owners: Container[Candidate] | None = None
 ) -> str | None:
     """Return why the hulls of an object cannot be used; only `owners` have hulls."""
-    reason = hull_refusal(obj)
-    if reason is None and obj not in (owners_of_hulls() if owners is None else owners):
-        return f"{obj.name} has no hulls; build them first"
-    return reason
+    return hull_refusal(obj) or _unless(
+        obj in (owners_of_hulls() if owners is None else owners),
+        f"{obj.name} has no hulls; build them first",
+    )

@@ -13,7 +13,13 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bridge.mesh.attributes import IntArray, read_flags, read_ints, read_labels
+from ..bridge.mesh.attributes import (
+    IntArray,
+    read_flags,
+    read_ints,
+    read_labels,
+    whole_numbers,
+)
 from ..bridge.mesh.corners import edge_sides
 from ..bridge.mesh.known import triangles_of
 from ..bridge.mesh.layers import layers_of
@@ -109,10 +115,9 @@ def _read(obj: bpy.types.Object, graph: bpy.types.Depsgraph) -> ShownParts | Non
     evaluated = obj.evaluated_get(graph)
     mesh = evaluated.to_mesh()
     try:
-        layer = mesh.attributes.get(PART_LAYER)
-        if layer is None or layer.domain != "FACE" or layer.data_type != "INT":
+        numbers = whole_numbers(mesh, PART_LAYER, "FACE")
+        if numbers is None:
             return None
-        numbers = read_ints(layer.data, "value")
         if not found.in_step:
             numbers = _told_apart(obj, found, mesh)
         hidden = np.zeros(len(numbers), dtype=bool)

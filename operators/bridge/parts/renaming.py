@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -42,11 +42,10 @@ def rename_part(
     reason : str or None
         Why it is not the name asked for.
     """
-    identities, restore = identities_of(record_of(obj)), read_restore(obj.data)
-    part = next((each for each in identities if each.number == number), None)
+    part, restore = _noted(obj, number), read_restore(obj.data)
     if restore is None or part is None or name == part.name:
         return name, None
-    reason = _refusal(obj, identities, part, name)
+    reason = _refusal(obj, part, name)
     if reason:
         return part.name, reason
     group = obj.type == "MESH" and obj.vertex_groups.get(part.name)
@@ -97,13 +96,12 @@ def noted_refusal(obj: bpy.types.Object, number: int) -> str | None:
     """Return why a part has not the name that was typed latest, while that holds."""
     if refused is None or refused[:2] != (obj.session_uid, number):
         return None
-    name, identities = refused[2], identities_of(record_of(obj))
-    part = next((each for each in identities if each.number == number), None)
+    name, part = refused[2], _noted(obj, number)
     if part is None or part.name == name:
         return None
     taken = obj.type == "MESH" and name in obj.vertex_groups
     clash = _clash(name, part.name) if taken else None
-    return _refusal(obj, identities, part, name) or clash
+    return _refusal(obj, part, name) or clash
 
 
 @bpy.app.handlers.persistent
@@ -121,11 +119,15 @@ HANDLERS = {
 }
 
 
-def _refusal(
-    obj: bpy.types.Object, identities: Iterable[Identity], part: Identity, name: str
-) -> str | None:
+def _noted(obj: bpy.types.Object, number: int) -> Identity | None:
+    """Return who a part is by the record of an object, None if it is not there."""
+    identities = identities_of(record_of(obj))
+    return next((each for each in identities if each.number == number), None)
+
+
+def _refusal(obj: bpy.types.Object, part: Identity, name: str) -> str | None:
     """Return why a part of an object cannot have a name."""
-    taken = {each.name for each in identities if each != part}
+    taken = {each.name for each in identities_of(record_of(obj)) if each != part}
     return library_refusal(obj) or name_refusal(name, part.name, taken)
 
 
@@ -140,10 +142,8 @@ def color_of_part(obj: bpy.types.Object, number: int) -> Color:
         slots = part_slots(obj.data).get(number)
         if slots:
             return color_of(obj.data.materials[slots[0]])
-    for each in identities_of(record_of(obj)):
-        if each.number == number:
-            return each.color
-    return 0.0, 0.0, 0.0
+    part = _noted(obj, number)
+    return part.color if part else (0.0, 0.0, 0.0)
 
 
 def recolor_part(obj: bpy.types.Object, number: int, color: Color) -> None:
@@ -151,10 +151,10 @@ def recolor_part(obj: bpy.types.Object, number: int, color: Color) -> None:
 
     Parts of a mesh that is linked from a library keep theirs.
     """
-    for each in () if library_refusal(obj) else identities_of(record_of(obj)):
-        if each.number == number:
-            _change(obj, replace(each, color=color))
-            show_colors(obj)
+    part = None if library_refusal(obj) else _noted(obj, number)
+    if part:
+        _change(obj, replace(part, color=color))
+        show_colors(obj)
 
 
 def _change(obj: bpy.types.Object, identity: Identity) -> None:

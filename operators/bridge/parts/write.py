@@ -68,7 +68,9 @@ def write_parts(
     _check_fits(obj, decomposition, faces)
     overlaid, also_shown, before = is_overlaid(obj), shown(obj), BeforeWriting.of(obj)
     identities = kept or before.continued_by(obj, decomposition, faces)
-    former = _made_bare(obj, faces)
+    former = erase_parts(obj)
+    if faces is not None:
+        faces.put_on(obj)
     decomposition, ready, identities = by_number(obj, decomposition, ready, identities)
     restore, identities, materials = _write_mesh(
         obj, decomposition, ready, identities, before.materials
@@ -92,16 +94,6 @@ def _check_fits(
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
-
-
-def _made_bare(
-    obj: bpy.types.Object, faces: NewFaces | None
-) -> list[bpy.types.Material]:
-    """Take the parts off an object and give it new faces; return their materials."""
-    former = erase_parts(obj)
-    if faces is not None:
-        faces.put_on(obj)
-    return former
 
 
 def _note(
@@ -189,7 +181,10 @@ def _write_mesh(
     groups = []
     if obj.type == "MESH":  # point cloud objects have no groups
         groups = _add_groups(obj, identities, active_group)
-        identities = _named(identities, groups)
+        identities = [  # taken names get a number
+            replace(each, name=group)
+            for each, group in zip(identities, groups, strict=True)
+        ]
     slots = [material.name if material else "" for material in mesh.materials]
     materials = _materials(obj, identities, sources, slots)
     before = put_in_slots(obj, materials, decomposition.labels)
@@ -214,11 +209,6 @@ def _add_groups(
     names = [groups.new(name=identity.name).name for identity in identities]
     groups.active_index = groups[active].index if active else 0
     return names
-
-
-def _named(identities: Sequence[Identity], groups: Sequence[str]) -> list[Identity]:
-    """Return identities with their groups' names: taken names get a number."""
-    return [replace(each, name=g) for each, g in zip(identities, groups, strict=True)]
 
 
 def _materials(

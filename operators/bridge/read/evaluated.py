@@ -18,7 +18,7 @@ from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.results.parts import Decomposition
-from ..mesh.attributes import read_floats, read_ints, write_ints
+from ..mesh.attributes import read_floats, read_labels, write_ints
 from ..mesh.known import triangles_of
 from ..stored.record import EVALUATED, ORIGINAL
 from .shape import stretch
@@ -203,10 +203,8 @@ def _nearest(
 
 def _origins(mesh: bpy.types.Mesh, name: str) -> NDArray[np.int64]:
     """Return the face that each face comes from, (E,); −1 where that is not known."""
-    layer = mesh.attributes.get(name)
-    if layer is None or (layer.domain, layer.data_type) != ("FACE", "INT"):
-        return np.full(len(mesh.polygons), -1, dtype=np.int64)
-    return read_ints(layer.data, "value").astype(np.int64) - 1
+    numbers = read_labels(mesh, name, "FACE", len(mesh.polygons), missing=0)
+    return numbers.astype(np.int64) - 1
 
 
 @contextmanager

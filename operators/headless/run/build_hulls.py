@@ -46,8 +46,26 @@ def build_hulls(
         for obj, result in zip(objects, results, strict=True)
         if result.record is not None
     ]
+    known: dict[bpy.types.ID, list[_Built]] = {}
+    hulls: list[bpy.types.Object] = []
+    told, n_begun = [], 0
     with closing(HullsAhead(asked, request)) as ahead:
-        hulls, told = _build_each(objects, results, request, screen, ahead)
+        for obj, result in zip(objects, results, strict=True):
+            if result.record is None:
+                told.append(result)
+                continue
+            started = time.perf_counter()
+            n_begun += 1
+            try:
+                built, place = known.setdefault(obj.data, []), (n_begun, len(asked))
+                new, figures = _hulls_of(obj, built, request, screen, place, ahead)
+                hulls += new
+                result = replace(result, record=record_of(obj), hulls=figures)
+            except DecompositionError as error:
+                screen.error(str(error), _title(obj))
+                result = replace(result, error=str(error))
+            seconds = result.seconds + time.perf_counter() - started
+            told.append(replace(result, seconds=seconds))
     _show(hulls)
     return hulls, _named_as_in_file(told, hulls, request)
 
@@ -71,38 +89,6 @@ def _named_as_in_file(
         )
         for result in results
     )
-
-
-def _build_each(
-    objects: Sequence[bpy.types.Object],
-    results: Sequence[ObjectResult],
-    request: Request,
-    screen: Screen,
-    ahead: HullsAhead,
-) -> tuple[list[bpy.types.Object], tuple[ObjectResult, ...]]:
-    """Build the hulls of one object after the other."""
-    n_objects, n_begun = sum(result.record is not None for result in results), 0
-    known: dict[bpy.types.ID, list[_Built]] = {}
-    hulls: list[bpy.types.Object] = []
-    told = []
-    for obj, result in zip(objects, results, strict=True):
-        if result.record is None:
-            told.append(result)
-            continue
-        started = time.perf_counter()
-        n_begun += 1
-        try:
-            built = known.setdefault(obj.data, [])
-            place = n_begun, n_objects
-            new, figures = _hulls_of(obj, built, request, screen, place, ahead)
-            hulls += new
-            result = replace(result, record=record_of(obj), hulls=figures)
-        except DecompositionError as error:
-            screen.error(str(error), _title(obj))
-            result = replace(result, error=str(error))
-        seconds = result.seconds + time.perf_counter() - started
-        told.append(replace(result, seconds=seconds))
-    return hulls, tuple(told)
 
 
 def _show(hulls: Sequence[bpy.types.Object]) -> None:

@@ -101,9 +101,9 @@ def _save_bodies(
     write_meshes(folder, bodies)
     if urdf:
         each = parameters.bodies == "EACH"
-        write_urdf(path, path.stem, bodies, folder.name, each)
+        write_urdf(path, bodies, folder.name, each)
     else:
-        write_mjcf(path, path.stem, bodies, folder.name)
+        write_mjcf(path, bodies, folder.name)
     return (*notes, *small_hull_notes(bodies, urdf))
 
 

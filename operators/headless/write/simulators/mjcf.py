@@ -19,20 +19,18 @@ _VISUAL = {"group": "2", "contype": "0", "conaffinity": "0"}
 _COLLISION = {"group": "3"}
 
 
-def write_mjcf(path: Path, model: str, bodies: Sequence[Body], folder: str) -> None:
+def write_mjcf(path: Path, bodies: Sequence[Body], folder: str) -> None:
     """Write bodies with their masses, hulls and visible meshes.
 
     Parameters
     ----------
     path : Path
-        The file to write.
-    model : str
-        Name of the model.
+        The file to write. The model is called like it, without the ending.
     bodies : sequence of Body
     folder : str
         The folder of the meshes, relative to `path`.
     """
-    root = ET.Element("mujoco", model=model)
+    root = ET.Element("mujoco", model=path.stem)
     defaults = ET.SubElement(root, "default")
     for name, settings in (("visual", _VISUAL), ("collision", _COLLISION)):
         ET.SubElement(

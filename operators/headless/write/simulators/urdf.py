@@ -14,9 +14,7 @@ from ..placed_meshes import DOUBLE, Float64Array, digits_of
 from .bodies import GROUND, Body, Geometry
 
 
-def write_urdf(
-    path: Path, model: str, bodies: Sequence[Body], folder: str, each: bool
-) -> None:
+def write_urdf(path: Path, bodies: Sequence[Body], folder: str, each: bool) -> None:
     """Write a robot.
 
     Robots are trees of links. One body is a robot of one link. Several are links that
@@ -25,16 +23,14 @@ def write_urdf(
     Parameters
     ----------
     path : Path
-        The file to write.
-    model : str
-        Name of the model.
+        The file to write. The robot is called like it, without the ending.
     bodies : sequence of Body
     folder : str
         The folder of the meshes, relative to `path`.
     each : bool
         Whether the bodies hang on joints.
     """
-    robot = ET.Element("robot", name=model)
+    robot = ET.Element("robot", name=path.stem)
     # For MuJoCo: find the folder of the meshes, and keep a link that has no joint as a
     # body of its own. Other programs skip it.
     ET.SubElement(
