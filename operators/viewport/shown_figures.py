@@ -73,8 +73,9 @@ def _counted(obj: bpy.types.Object | None) -> _Counted:
     if _kept is not None and _kept.state == state and not bpy.app.background:
         wait = _due(_kept, obj) - now
         if wait > 0.0:
-            if wait < math.inf and not bpy.app.timers.is_registered(_draw_again):
-                bpy.app.timers.register(_draw_again, first_interval=wait)
+            # Panels that are drawn again count what has changed.
+            if wait < math.inf and not bpy.app.timers.is_registered(redraw):
+                bpy.app.timers.register(redraw, first_interval=wait)
             return _kept.counted
     counted, ended = _count(obj), time.perf_counter()
     until = ended + max(_PAUSE, _REST * (ended - now))
@@ -90,11 +91,6 @@ def _due(kept: _Kept, obj: bpy.types.Object) -> float:
     if obj.mode == "EDIT" and len(obj.data.polygons) > _MANY:
         return max(kept.until, (_changed or 0.0) + _LULL)
     return kept.until if same_mode else 0.0
-
-
-def _draw_again() -> None:
-    """Draw the panels, as a timer does: they count what has changed."""
-    redraw()
 
 
 def _count(obj: bpy.types.Object) -> _Counted:
@@ -128,7 +124,7 @@ def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
 def stop() -> None:
     """Forget all figures."""
     global _kept
-    stop_timer(_draw_again)
+    stop_timer(redraw)
     _kept = None
 
 

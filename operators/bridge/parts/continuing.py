@@ -15,7 +15,7 @@ from ..mesh.by_label import ByLabel, areas_of
 from ..mesh.points import is_cloud
 from ..stored.identity import Identity
 from ..stored.restore import sharers
-from .identities import Newcomers, identities_of_run
+from .identities import identities_of_run
 from .kept_materials import kept_materials
 from .materials import part_slots
 from .read import FoundParts, find_parts_on, part_materials
@@ -67,18 +67,17 @@ class BeforeWriting:
         `faces` are those that the object is going to get.
         """
         former: list[Identity | None] = [None] * decomposition.n_parts
-        gone: tuple[Identity, ...] = ()
+        before: tuple[Identity, ...] = ()
         if self.found is not None:
-            gone = self.found.identities
+            before = self.found.identities
             labels = self.found.labels
             if faces is None:
                 areas = areas_of(obj, len(decomposition.labels))
             else:
                 labels, areas = faces.former_labels(obj, labels), faces.areas
             places = core.match_parts(labels, decomposition.labels, areas)
-            former = [gone[place] if place >= 0 else None for place in places]
-        stay = [each for each in former if each is not None]
-        return identities_of_run(Newcomers(stay, gone), former, decomposition.pairs)
+            former = [before[place] if place >= 0 else None for place in places]
+        return identities_of_run(former, before, decomposition.pairs)
 
 
 def by_number(

@@ -66,22 +66,23 @@ class Newcomers:
 
 
 def identities_of_run(
-    newcomers: Newcomers,
     former: Sequence[Identity | None],
+    before: Iterable[Identity],
     pairs: Iterable[tuple[int, int]],
 ) -> tuple[Identity, ...]:
     """Return who the parts of a new run are.
 
     Parameters
     ----------
-    newcomers : Newcomers
-        Knows the parts that stay.
     former : sequence of Identity or None
         For each part, the one that it continues; None for a new part.
+    before : iterable of Identity
+        All parts that were there.
     pairs : iterable of (int, int)
         The left and the right part of each pair of mirror images.
     """
     found = list(former)
+    newcomers = Newcomers((each for each in found if each is not None), before)
     of_left = dict(pairs)
     partners = of_left | {right: left for left, right in of_left.items()}
     for part, identity in enumerate(found):

@@ -82,7 +82,7 @@ def test_what_changes_soon_is_counted_and_drawn_later(suzanne, clock):
     move(suzanne)
     assert not clock.counted(suzanne, after=0.1)
     ((draw, then),) = clock.timers.items()
-    assert draw == shown_figures._draw_again
+    assert draw == shown_figures.redraw
     assert clock.counted(suzanne, after=then - clock.now)
 
 
