@@ -29,7 +29,7 @@ LEAVE_EDIT_MODE = "Edit Mode could not undo this; switch to Object Mode"
 _ENTER_EDIT_MODE = "Faces are selected in Edit Mode; switch the mode"
 
 
-def _unless(fits: object, reason: str) -> str | None:
+def unless(fits: object, reason: str) -> str | None:
     """Return a reason, None if an object fits."""
     return None if fits else reason
 
@@ -83,23 +83,22 @@ def decompose_refusal(obj: Candidate) -> str | None:
     """Return why an object, or a mesh made of it, cannot be decomposed."""
     if obj is None or obj.type not in CONVERTIBLE:
         return refusal(obj)
-    if reason := library_refusal(obj, writes_mesh=False):
-        return reason
-    if obj.mode != "OBJECT":
-        return f"{obj.name} is decomposed in Object Mode; leave Edit Mode"
-    return None
+    return library_refusal(obj, writes_mesh=False) or unless(
+        obj.mode == "OBJECT",
+        f"{obj.name} is decomposed in Object Mode; leave Edit Mode",
+    )
 
 
 def recut_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be replaced by others."""
-    return refusal(obj) or _unless(
+    return refusal(obj) or unless(
         noted_parameters(obj), f"{obj.name} has no parts to replace; press Decompose"
     )
 
 
 def selection_refusal(obj: Candidate) -> str | None:
     """Return why the selected faces of an object cannot be measured."""
-    return measure_refusal(obj) or _unless(obj.mode == "EDIT", _ENTER_EDIT_MODE)
+    return measure_refusal(obj) or unless(obj.mode == "EDIT", _ENTER_EDIT_MODE)
 
 
 # The parts of an object, to be used.
@@ -107,7 +106,7 @@ def selection_refusal(obj: Candidate) -> str | None:
 
 def decomposed_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be used."""
-    return refusal(obj) or _unless(
+    return refusal(obj) or unless(
         has_parts(obj), f"{obj.name} has no parts; press Decompose first"
     )
 
@@ -121,19 +120,19 @@ def rough_refusal(obj: Candidate) -> str | None:
 
 def picture_refusal(obj: Candidate) -> str | None:
     """Return why no picture of an object's parts can be made."""
-    return decomposed_refusal(obj) or _unless(obj.mode == "OBJECT", LEAVE_EDIT_MODE)
+    return decomposed_refusal(obj) or unless(obj.mode == "OBJECT", LEAVE_EDIT_MODE)
 
 
 def parts_refusal(obj: Candidate) -> str | None:
     """Return why parts that consist of faces cannot be used."""
-    return decomposed_refusal(obj) or _unless(
+    return decomposed_refusal(obj) or unless(
         not is_cloud(obj), f"{obj.name} has no faces; give it a surface first"
     )
 
 
 def object_mode_refusal(obj: Candidate) -> str | None:
     """Return why parts cannot be used for what undo in Edit Mode cannot take back."""
-    return parts_refusal(obj) or _unless(obj.mode == "OBJECT", LEAVE_EDIT_MODE)
+    return parts_refusal(obj) or unless(obj.mode == "OBJECT", LEAVE_EDIT_MODE)
 
 
 # The parts of an object, to be edited by hand.
@@ -142,7 +141,7 @@ def object_mode_refusal(obj: Candidate) -> str | None:
 @or_not_ours
 def edit_refusal(obj: Candidate) -> str | None:
     """Return why the parts of an object cannot be edited."""
-    return refusal(obj) or _unless(
+    return refusal(obj) or unless(
         read_restore(obj.data) and record_of(obj).get("parts") and obj.wcd_parts,
         f"{obj.name} has no parts yet; press Decompose first",
     )
@@ -150,7 +149,7 @@ def edit_refusal(obj: Candidate) -> str | None:
 
 def merge_refusal(obj: Candidate, n_chosen: int) -> str | None:
     """Return why the chosen parts of an object cannot be merged."""
-    return edit_refusal(obj) or _unless(
+    return edit_refusal(obj) or unless(
         n_chosen >= 2, "Tick two or more parts in the list to merge them"
     )
 
@@ -171,21 +170,21 @@ def name_refusal(name: str, part: str, taken: Iterable[str]) -> str | None:
 
 def faces_refusal(obj: Candidate) -> str | None:
     """Return why the faces of parts cannot be selected."""
-    return edit_refusal(obj) or _unless(
+    return edit_refusal(obj) or unless(
         not is_cloud(obj), f"{obj.name} has no faces, only points"
     )
 
 
 def seams_refusal(obj: Candidate) -> str | None:
     """Return why there are no seams of ours to take back."""
-    return faces_refusal(obj) or _unless(
+    return faces_refusal(obj) or unless(
         has_marked_seams(obj.data), "No seams were marked here; press Mark first"
     )
 
 
 def assign_refusal(obj: Candidate) -> str | None:
     """Return why selected faces cannot be given to a part."""
-    return faces_refusal(obj) or _unless(obj.mode == "EDIT", _ENTER_EDIT_MODE)
+    return faces_refusal(obj) or unless(obj.mode == "EDIT", _ENTER_EDIT_MODE)
 
 
 # Hulls.
@@ -205,7 +204,7 @@ def no_hulls_refusal(
     obj: Candidate, owners: Container[Candidate] | None = None
 ) -> str | None:
     """Return why the hulls of an object cannot be used; only `owners` have hulls."""
-    return hull_refusal(obj) or _unless(
+    return hull_refusal(obj) or unless(
         obj in (owners_of_hulls() if owners is None else owners),
         f"{obj.name} has no hulls; build them first",
     )

@@ -17,6 +17,7 @@ from .refusals import (
     library_refusal,
     no_hulls_refusal,
     refusal,
+    unless,
 )
 from .stored.names import CARRIER_TAG, WHOLE_MESH
 from .stored.notes import or_not_ours
@@ -65,7 +66,6 @@ def _has_ours(obj: Candidate) -> bool:
 
 def _object_refusal(obj: Candidate) -> str | None:
     """Return why an object cannot be changed, whatever its data are."""
-    reason = library_refusal(obj, writes_mesh=False)
-    if reason is None and obj.mode != "OBJECT":
-        return LEAVE_EDIT_MODE
-    return reason
+    return library_refusal(obj, writes_mesh=False) or unless(
+        obj.mode == "OBJECT", LEAVE_EDIT_MODE
+    )
