@@ -41,23 +41,15 @@ def build_hulls(
     results : tuple of ObjectResult
         With the hulls, or the error, of each object.
     """
-    asked = [
-        obj
-        for obj, result in zip(objects, results, strict=True)
-        if result.record is not None
-    ]
+    rows = [row for row, result in enumerate(results) if result.record is not None]
     known: dict[bpy.types.ID, list[_Built]] = {}
     hulls: list[bpy.types.Object] = []
-    told, n_begun = [], 0
-    with closing(HullsAhead(asked, request)) as ahead:
-        for obj, result in zip(objects, results, strict=True):
-            if result.record is None:
-                told.append(result)
-                continue
-            started = time.perf_counter()
-            n_begun += 1
+    told = list(results)
+    with closing(HullsAhead([objects[row] for row in rows], request)) as ahead:
+        for number, row in enumerate(rows, start=1):
+            obj, result, started = objects[row], results[row], time.perf_counter()
+            built, place = known.setdefault(obj.data, []), (number, len(rows))
             try:
-                built, place = known.setdefault(obj.data, []), (n_begun, len(asked))
                 new, figures = _hulls_of(obj, built, request, screen, place, ahead)
                 hulls += new
                 result = replace(result, record=record_of(obj), hulls=figures)
@@ -65,7 +57,7 @@ def build_hulls(
                 screen.error(str(error), _title(obj))
                 result = replace(result, error=str(error))
             seconds = result.seconds + time.perf_counter() - started
-            told.append(replace(result, seconds=seconds))
+            told[row] = replace(result, seconds=seconds)
     _show(hulls)
     return hulls, _named_as_in_file(told, hulls, request)
 
