@@ -14,9 +14,6 @@ from ...bridge.read.shown_mesh import new_mesh_of, shown_modifiers
 from ...bridge.stored.restore import has_parts
 from ...bridge.views.node_modifiers import remove_views
 
-# A view layer and what Blender evaluates for it.
-Layer = tuple[bpy.types.ViewLayer, bpy.types.Depsgraph]
-
 
 class EvaluatedMeshes:
     """Makes meshes of evaluated objects; equal ones are made once and shared."""
@@ -44,7 +41,7 @@ class EvaluatedMeshes:
 
 
 @contextmanager
-def everything_shown() -> Iterator[list[Layer]]:
+def everything_shown() -> Iterator[list[bpy.types.ViewLayer]]:
     """Show all that is hidden, and give the view layers; hide it again at the end.
 
     Blender evaluates neither modifiers nor instances of what is hidden.
@@ -75,7 +72,7 @@ def everything_shown() -> Iterator[list[Layer]]:
     for layer in layers:
         layer.update()
     try:
-        yield [(layer, layer.depsgraph) for layer in layers]
+        yield layers
     finally:
         for obj, layer in by_eye:
             obj.hide_set(True, view_layer=layer)
@@ -108,12 +105,12 @@ def apply_modifiers(objects: Iterable[bpy.types.Object]) -> dict[str, str]:
             chosen.append(obj)
     made, meshes = EvaluatedMeshes(), {}
     with everything_shown() as layers:
-        for layer, depsgraph in layers:
+        for layer in layers:
             there = objects_in(layer)
             for obj in chosen:
                 if obj in there and obj not in meshes:
-                    evaluated = obj.evaluated_get(depsgraph)
-                    meshes[obj] = made.of(evaluated, depsgraph)
+                    evaluated = obj.evaluated_get(layer.depsgraph)
+                    meshes[obj] = made.of(evaluated, layer.depsgraph)
     return {obj.name_full: give_mesh(obj, mesh) for obj, mesh in meshes.items()}
 
 

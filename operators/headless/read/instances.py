@@ -67,7 +67,8 @@ def realize_instances(with_modifiers: bool) -> dict[str, str]:
     instancers: dict[bpy.types.Object, _Own] = {}
     made = EvaluatedMeshes()
     with everything_shown() as layers:
-        for _, depsgraph in layers:
+        for layer in layers:
+            depsgraph = layer.depsgraph
             new = [
                 each
                 for each in _instances(depsgraph, made, with_modifiers)
