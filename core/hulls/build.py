@@ -200,9 +200,11 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
             yield Progress("Solid", 0.0)
             start.append(piece_of_part(solid, fit.of_part(row), parts, row))
         return (yield from join_pieces(start, most, {}, close=False))
-    if not fit.has_room:  # cuts cannot make up for the margin
-        fit = replace(fit, parameters=replace(fit.parameters, margin=0.0))
-    return (yield from close_pieces(whole(solid, fit), most))
+    cell = whole(solid, fit)
+    if not fit.has_room(cell.hull):  # cuts cannot make up for the margin
+        no_margin = replace(fit.parameters, margin=0.0)
+        cell = replace(cell, fit=replace(fit, parameters=no_margin))
+    return (yield from close_pieces(cell, most))
 
 
 def _parts_of_triangles(

@@ -48,10 +48,16 @@ class Fit:
         """Distance by which surfaces move outwards, where the longest side is 2."""
         return self.parameters.margin / self.unit
 
-    @property
-    def has_room(self) -> bool:
-        """Whether the margin alone is within the largest error."""
-        return abs(self.margin) < self.max_error
+    def has_room(self, hull: Hull) -> bool:
+        """Return whether the margin alone is within the largest error, at corners too.
+
+        Cuts leave corners of a hull as sharp as they are, or make them sharper.
+        """
+        if abs(self.margin) >= self.max_error or self.parameters.shape != "HULL":
+            return abs(self.margin) < self.max_error
+        pair = _as_shape(hull), _as_shape(offset(hull, self.margin))
+        inner, outer = pair if self.margin > 0 else pair[::-1]
+        return self.margin == 0 or uncovered(inner, outer.hull) < self.max_error
 
     def shape(self, hull: Hull) -> CollisionShape:
         """Fit the kind of shape that the parameters ask for around a hull.

@@ -64,7 +64,7 @@ def _kept(shape: CollisionShape, hull: Hull, fit: Fit) -> bool:
 def _reason(n_shapes: int, fit: Fit, worst: CollisionShape, hull: Hull) -> str:
     """Return why the error of the worst shape is too large, and what to do."""
     parameters = fit.parameters
-    if not fit.has_room and not _kept(worst, hull, fit):
+    if not fit.has_room(hull) and not _kept(worst, hull, fit):
         return (
             f"because Margin = {parameters.margin:g} alone uses up Largest Error;"
             " choose a margin nearer to 0."

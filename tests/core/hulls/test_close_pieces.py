@@ -111,3 +111,12 @@ def test_more_hulls_make_up_for_few_vertices(max_vertices):
 def test_a_solid_cut_for_lack_of_vertices_is_told_of_no_flat_faces():
     found = build_hulls(shapes.l_shape(), HullParameters(max_vertices=4, max_hulls=8))
     assert "because Most Vertices = 4 leaves out corners" in found.notes[-1]
+
+
+@pytest.mark.parametrize("margin", [-0.03, 0.03])
+def test_nothing_is_cut_for_a_margin_that_is_too_much_at_corners_alone(margin):
+    cube = shapes.box((-1, -1, -1), (1, 1, 1))
+    found = build_hulls(cube, HullParameters(margin=margin, max_error=0.05))
+    assert found.n_hulls == 1
+    assert "alone uses up Largest Error" in found.notes[0]
+    assert build_hulls(cube, HullParameters(margin=-0.028)).notes == ()
