@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from .hulls.listed import owners_of_hulls
 from .mesh.points import is_cloud
 from .mesh.seams import has_marked_seams
-from .stored.names import LONGEST_NAME
+from .stored.names import LAYERS, LONGEST_NAME
 from .stored.notes import or_not_ours
 from .stored.record import is_rough, noted_parameters, record_of
 from .stored.restore import has_parts, read_restore
@@ -165,6 +165,8 @@ def name_refusal(name: str, part: str, taken: Iterable[str]) -> str | None:
         )
     if name in taken:
         return f"Another part is called {name}; this one is still {part}"
+    if name in LAYERS:  # Blender drops attributes that have the name of a group
+        return f"{name} is an attribute of the parts; this one is still {part}"
     return None
 
 

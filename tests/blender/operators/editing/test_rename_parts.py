@@ -35,6 +35,7 @@ def pair(suzanne):
     [
         ("Jaw", "Another part is called Jaw"),
         (" ", "needs a name"),
+        ("wcd_part", "an attribute of the parts"),
         (LONG, "at most 63"),
     ],
 )
