@@ -15,12 +15,13 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..homes import hand_over, within_parent
+from ..mesh.attributes import read_floats
 from ..parts.materials import discard, hull_material, none_missing
 from ..parts.palette import usual_color
 from ..parts.read import FoundParts, find_parts_on, part_materials
 from ..read.shape import stretch
 from ..read.stretching import unstretched
-from ..stored.names import HULL_TAG, MARGIN_TAG, PIECE_TAG
+from ..stored.names import CORNERS_TAG, HULL_TAG, MARGIN_TAG, PIECE_TAG
 from ..stored.noted_hulls import write_hull_record
 from .fitting_names import names_that_fit
 from .hull_collections import collection_for, own_collection, remove_empty_collections
@@ -95,6 +96,7 @@ def tag_hull(
 def keep_piece(hull: bpy.types.Object, points: np.ndarray, has_margin: bool) -> None:
     """Keep the points of the piece that a hull is around, (N, 3), in object space."""
     hull[PIECE_TAG] = points.ravel().tolist()
+    hull[CORNERS_TAG] = read_floats(hull.data.vertices, "co", 3).ravel().tolist()
     if has_margin:
         hull[MARGIN_TAG] = True
 

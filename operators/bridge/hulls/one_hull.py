@@ -18,10 +18,11 @@ from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
 from ..homes import hand_over, within_parent
+from ..mesh.attributes import read_floats
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
 from ..read.stretching import stretched
-from ..stored.names import MARGIN_TAG, PIECE_TAG
+from ..stored.names import CORNERS_TAG, MARGIN_TAG, PIECE_TAG
 from ..stored.noted_hulls import (
     forget_hulls,
     noted_hull_parameters,
@@ -34,6 +35,9 @@ from ..work.libraries import with_libraries
 from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, keep_piece, tag_hull
 from .listed import hulls_of, listed_hulls
 from .looks import look_like, look_of
+
+# Corners that one matrix moved are this near to where it puts them, as a share.
+_SAME = 1e-4
 
 
 def refit(
@@ -123,10 +127,24 @@ def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
     with its own vertices.
     """
     has_margin = PIECE_TAG not in hull or MARGIN_TAG in hull
-    kept = hull.get(PIECE_TAG) or [x for v in hull.data.vertices for x in v.co]
-    points = np.array(kept, dtype=np.float64).reshape(-1, 3)
+    points = corners = read_floats(hull.data.vertices, "co", 3).astype(float)
+    if PIECE_TAG in hull:
+        then = np.reshape(hull.get(CORNERS_TAG, ()), (-1, 3))
+        points = _moved(np.reshape(hull[PIECE_TAG], (-1, 3)), then, corners)
     matrix = np.array(within_parent(hull))
     return points @ matrix[:3, :3].T + matrix[:3, 3], has_margin
+
+
+def _moved(
+    points: NDArray[np.float64], then: NDArray[np.float64], now: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return points, moved as one matrix moved corners, if one did."""
+    if then.shape != now.shape or (then == now).all():
+        return points
+    before = np.c_[then, np.ones(len(then))]
+    matrix = np.linalg.lstsq(before, now, rcond=None)[0]
+    is_one = np.allclose(before @ matrix, now, atol=_SAME * np.ptp(now, axis=0).max())
+    return np.c_[points, np.ones(len(points))] @ matrix if is_one else points
 
 
 def _bring_to_object(hull: bpy.types.Object) -> None:

@@ -61,6 +61,8 @@ FORMER_SLOTS = "wcd_slots"
 HULL_TAG = "wcd_hull"
 # Custom property of hulls: the points of the piece that it is around.
 PIECE_TAG = "wcd_piece"
+# And where the vertices of the hull were then: Blender's Apply moves these alone.
+CORNERS_TAG = "wcd_corners"
 # And there if these points have the margin already, as those of a convex hull have.
 MARGIN_TAG = "wcd_margin"
 # Custom property of objects that we made rigid bodies, and of our collection of bodies.

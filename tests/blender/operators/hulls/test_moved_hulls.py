@@ -47,10 +47,15 @@ def sides(corners):
 
 @pytest.mark.parametrize("shape", ["SPHERE", "BOX", "HULL"])
 @pytest.mark.parametrize("applied", ["scale", "location", "everything"])
-def test_shapes_are_right_after_a_transform_was_applied(placed, shape, applied):
+@pytest.mark.parametrize("with_hulls", [False, True])
+def test_shapes_are_right_after_a_transform_was_applied(
+    placed, shape, applied, with_hulls
+):
     corners, error = refit(placed, shape)
-    bpy.ops.wcd.build_hulls(**BUILT)
+    if not with_hulls:
+        bpy.ops.wcd.build_hulls(**BUILT)
     activate(placed)
+    hulls_of(placed)[0].select_set(with_hulls)
     every = {"location": True, "rotation": True, "scale": True}
     chosen = {name: name == applied for name in every}
     bpy.ops.object.transform_apply(**(every if applied == "everything" else chosen))
