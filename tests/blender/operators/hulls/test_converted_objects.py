@@ -100,3 +100,10 @@ def test_the_parts_of_a_curve_that_became_a_curve_are_the_users(command):
     assert mine.type == "CURVE"
     assert mine.name in bpy.data.objects
     assert "wcd_parts_of" not in mine
+
+
+def test_hulls_of_a_mesh_that_lost_its_faces_can_be_removed(suzanne):
+    bpy.ops.wcd.build_hulls(max_hulls=1, max_error=1.0)
+    suzanne.data.clear_geometry()
+    assert bpy.ops.wcd.remove_hulls() == {"FINISHED"}
+    assert bpy.data.objects[:] == [suzanne]
