@@ -129,3 +129,14 @@ def test_hulls_of_a_copy_get_a_collection_of_their_own(owner, home):
     build_again()
     assert home.objects[:] == hulls_of(owner)
     assert bpy.data.collections["Suzanne.001 hulls"].objects[:] == hulls_of(copy)
+
+
+def test_another_shape_of_a_hull_leaves_what_the_user_gave_it(owner):
+    hull = hulls_of(owner)[0]
+    hull.constraints.new("COPY_SCALE").name = "mine"
+    hull.driver_add("pass_index").driver.expression = "3"
+    hull["mine"], hull.modifiers.new("mine", "BEVEL").width = 1, 0.2
+    bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
+    assert hull in hulls_of(owner)
+    assert hull.constraints.keys() == hull.modifiers.keys() == ["mine"]
+    assert hull["mine"] == len(hull.animation_data.drivers) == 1
