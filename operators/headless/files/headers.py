@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 # Bytes of binary .stl: before the triangles, and of each of them.
 STL_HEADER = 84
 _STL_TRIANGLE = 50
+# UTF-8 text may begin with it.
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 # No file has as many rows as a number with more digits; Python refuses thousands.
 MOST_DIGITS = 18
 # Codes of the types in .ply, as in `struct`.

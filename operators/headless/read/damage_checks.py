@@ -11,9 +11,15 @@ import zipfile
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..files.headers import MOST_DIGITS, n_stl_triangles, read_header
+from ..files.headers import (
+    BYTE_ORDER_MARK,
+    MOST_DIGITS,
+    n_stl_triangles,
+    read_header,
+)
 from ..formats import READ_ENDINGS
 from .ply_faces import refers_to_missing
+from .usd_faces import mesh_without_its_points
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {
@@ -26,6 +32,8 @@ _SIGNATURES = {
     ".usdz": (b"PK",),
     ".blend": (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b"),
 }
+# What Blender does not read, but we.
+_READ_BY_US = (".off", ".xyz", ".pwn", ".pts")
 # Characters that no number has, not even "1e-5" or "-inf".
 _NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
 # A line of an .obj file that goes on in the next one.
@@ -45,7 +53,7 @@ _OBJ_WORD = re.compile(
 # A vertex without three numbers; Blender takes 0 for what it cannot read.
 _STL_WORD = re.compile(rb"\n[ \t]*vertex(?!(?:\s++%b){3})" % _NUMBER)
 # The mark with a line behind it that Blender then does not know.
-_OBJ_MARKED = re.compile(rb"\xef\xbb\xbf[ \t]*[vf]")
+_MARKED = re.compile(BYTE_ORDER_MARK + rb"[ \t]*[^#\s]")
 # Numbers on a line of an .obj file, by keyword, at least.
 _N_OBJ_NUMBERS = {"v": 3, "vn": 3, "vt": 1, "f": 3}
 
@@ -76,6 +84,7 @@ def _check_content(path: Path, ending: str) -> None:
     head, tail, size = _ends_of(path)
     if size == 0:
         raise DecompositionError(f"{path.name} is empty.")
+    _check_mark(path, head)
     if ending in _SIGNATURES and not head.startswith(_SIGNATURES[ending]):
         raise _mislabelled(path)
     if ending in (".obj", ".off", ".gltf") and b"\0" in head:
@@ -84,13 +93,11 @@ def _check_content(path: Path, ending: str) -> None:
         _check_stl(path, head, tail, size)
     if ending == ".ply":
         _check_ply(path)
-    if ending == ".usdz" and not zipfile.is_zipfile(path):
-        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+    if ending.startswith(".usd"):
+        _check_usd(path)
     if ending == ".obj":
         _check_last_line(path, tail)
-        data = _OBJ_CONTINUED.sub(b" ", path.read_bytes())
-        _check_obj_numbers(path, data)
-        _check_obj_corners(path, data)
+        _check_obj(path)
 
 
 def _mislabelled(path: Path) -> DecompositionError:
@@ -98,6 +105,15 @@ def _mislabelled(path: Path) -> DecompositionError:
     return DecompositionError(
         f"{path.name} is not a {path.suffix.lower()} file inside, or is damaged."
     )
+
+
+def _check_mark(path: Path, head: bytes) -> None:
+    """Raise for text that begins with a mark, unless we read it ourselves."""
+    if path.suffix.lower() not in _READ_BY_US and _MARKED.match(head):
+        raise DecompositionError(
+            f"{path.name} begins with a byte order mark, which hides its first line;"
+            " save it as UTF-8 without that."
+        )
 
 
 def _ends_of(path: Path) -> tuple[bytes, bytes, int]:
@@ -120,7 +136,9 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
         )
     if b"endsolid" not in tail.lower():
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
-    if _STL_WORD.search(path.read_bytes()):
+    data = path.read_bytes()
+    _check_line_ends(path, data)
+    if _STL_WORD.search(data):
         raise _wordy(path)
 
 
@@ -132,6 +150,7 @@ def _check_ply(path: Path) -> None:
         raise DecompositionError(
             f"{path.name} cannot be read: its header is not one of a .ply file."
         )
+    _check_line_ends(path, data[: header.size])
     if not header.is_whole(data):
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if not header.order and _NO_NUMBER.search(data, header.size):
@@ -143,11 +162,32 @@ def _check_ply(path: Path) -> None:
         )
 
 
+def _check_usd(path: Path) -> None:
+    """Raise for USD that Blender would misread or crash on."""
+    if path.suffix.lower() == ".usdz" and not zipfile.is_zipfile(path):
+        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+    name = mesh_without_its_points(path)
+    if name:
+        raise DecompositionError(
+            f"{path.name} has a mesh, {name}, with faces that refer to missing points,"
+            " or have too few or too many corners; export it again."
+        )
+
+
 def _wordy(path: Path) -> DecompositionError:
     """Return the error for a file that has other words among its numbers."""
     return DecompositionError(
         f"{path.name} has words where numbers should be; it is damaged."
     )
+
+
+def _check_line_ends(path: Path, data: bytes) -> None:
+    """Raise for text that is one long line to Blender."""
+    if b"\r" in data and b"\n" not in data:
+        raise DecompositionError(
+            f"{path.name} has line ends of old Macs, which Blender cannot read; save it"
+            " with those of Unix or Windows."
+        )
 
 
 def _check_last_line(path: Path, tail: bytes) -> None:
@@ -162,16 +202,15 @@ def _check_last_line(path: Path, tail: bytes) -> None:
         raise DecompositionError(f"{path.name} is truncated: it stops within a line.")
 
 
-def _check_obj_numbers(path: Path, data: bytes) -> None:
-    """Raise for an OBJ file with vertices that Blender would misread or leave out."""
-    if _OBJ_MARKED.match(data):
-        raise DecompositionError(
-            f"{path.name} begins with a byte order mark, which hides its first vertex;"
-            " save it as UTF-8 without that."
-        )
+def _check_obj(path: Path) -> None:
+    """Raise for an OBJ file with vertices or faces that Blender would misread."""
+    data = path.read_bytes()
+    _check_line_ends(path, data)
+    data = _OBJ_CONTINUED.sub(b" ", data)
     # A line break is found sooner than the beginning of a line.
     if _OBJ_WORD.search(b"\n" + data):
         raise _wordy(path)
+    _check_obj_corners(path, data)
 
 
 def _check_obj_corners(path: Path, data: bytes) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import bpy
 
+from ...bridge.mesh.attributes import read_ints
 from ...bridge.mesh.points import set_points
 from ...bridge.stored.names import COLOR_LAYER
 from ..formats import FBX, GLTF, axes, enable
@@ -107,9 +108,13 @@ def _usd(path: Path, _up: str) -> set[str]:
     """Import .usd, .usda, .usdc or .usdz.
 
     Blender numbers objects of one name in any order, and keeps the prototypes of
-    instances in a hidden collection.
+    instances in a hidden collection. Older ones keep faces of one or two corners, and
+    crash on them.
     """
     result = set(bpy.ops.wm.usd_import(filepath=str(path)))
+    for mesh in bpy.data.meshes:
+        if read_ints(mesh.polygons, "loop_total").min(initial=3) < 3:
+            mesh.validate()
     bpy.context.view_layer.update()
     for child in bpy.context.view_layer.layer_collection.children:
         child.exclude = child.collection.hide_viewport

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from ..files.headers import whole_number
+from ..files.headers import BYTE_ORDER_MARK, whole_number
 from .finite_checks import all_finite, not_finite
 
 # STOFF, COFF and NOFF add columns after the coordinates. Some writers put no space
@@ -27,8 +27,7 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
     DecompositionError
         If the file is not OFF, is cut short or has a face without its vertices.
     """
-    text = path.read_bytes().decode("latin-1")
-    lines = [line for line in map(_without_comment, text.splitlines()) if line]
+    lines = lines_of(path)
     n_vertices, n_faces, body = _header(lines, path.name)
     if len(body) < n_vertices + n_faces:
         raise DecompositionError(
@@ -42,9 +41,14 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
     return vertices, [_polygon(row, n_vertices, path.name) for row in rows]
 
 
-def _without_comment(line: str) -> str:
-    """Return `line` without its comment and the spaces around it."""
-    return line.partition("#")[0].strip()
+def lines_of(path: Path) -> list[str]:
+    """Return the lines of a text file, without comments, spaces around and blank ones.
+
+    A byte order mark counts for nothing, and lines may end as on old Macs.
+    """
+    lines = path.read_bytes().removeprefix(BYTE_ORDER_MARK).splitlines()
+    texts = (line.partition(b"#")[0].strip().decode("latin-1") for line in lines)
+    return [text for text in texts if text]
 
 
 def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ....core.errors import DecompositionError
 from ..files.headers import whole_number
 from .finite_checks import all_finite, not_finite
+from .off_files import lines_of
 
 # A line that begins with two numbers with commas in place of decimal points.
 _COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"
@@ -35,18 +36,18 @@ def read_points(path: Path) -> Points:
     DecompositionError
         If the rows are not numbers or differ in length, or the file is cut short.
     """
-    text = path.read_bytes().decode("latin-1")
+    text = "\n".join(lines_of(path))
     if _DECIMAL_COMMAS.search(text):
         raise DecompositionError(
             f"{path.name} has commas in its numbers; write decimal points instead."
         )
-    text = text.replace(",", " ")
-    if not text.strip():
+    if not text:
         raise DecompositionError(f"{path.name} has no points; it is empty.")
     first, _, rest = text.partition("\n")
     n_points = whole_number(first)
+    rows = (text if n_points is None else rest).replace(",", " ")
     try:
-        table = np.loadtxt(StringIO(text if n_points is None else rest), ndmin=2)
+        table = np.loadtxt(StringIO(rows), ndmin=2)
     except ValueError as error:
         raise DecompositionError(
             f"{path.name} does not have numbers, the same count on each line; it is"

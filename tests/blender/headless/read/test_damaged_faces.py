@@ -9,7 +9,10 @@ import pytest
 from hand_made import add_ring, decompose_by_hand
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.files.headers import read_header
+from weak_convex_decomposition.operators.headless.files.headers import (
+    BYTE_ORDER_MARK,
+    read_header,
+)
 from weak_convex_decomposition.operators.headless.read.ply_faces import (
     refers_to_missing,
 )
@@ -195,13 +198,19 @@ def test_obj_with_unusual_numbers(tmp_path):
     assert found == pytest.approx(np.array(expected), abs=1e-5)
 
 
-def test_obj_with_a_byte_order_mark(tmp_path, unexpected):
-    mark = b"\xef\xbb\xbf"
-    for text in (TRIANGLE, f"vn 0 0 1\n{TRIANGLE}"):
-        case = mark + text.encode(), "begins with a byte order mark"
-        assert unexpected({"a.obj": case}) == {}
+def test_text_that_blender_cannot_read(tmp_path, unexpected):
+    texts = {
+        ".obj": [TRIANGLE, f"vn 0 0 1\n{TRIANGLE}", f"mtllib a.mtl\n{TRIANGLE}"],
+        ".stl": [SOLID],
+        ".ply": [ply("ascii", TRIANGLES).decode()],
+    }
+    for ending, contents in texts.items():
+        for text in contents:
+            marked = BYTE_ORDER_MARK + text.encode(), "begins with a byte order mark"
+            old = text.replace("\n", "\r").encode(), "has line ends of old Macs"
+            assert unexpected({f"a{ending}": marked, f"b{ending}": old}) == {}
     path = tmp_path / "b.obj"
-    path.write_bytes(mark + f"# of another program\n{TRIANGLE}".encode())
+    path.write_bytes(BYTE_ORDER_MARK + f"# of another program\n{TRIANGLE}".encode())
     assert len(load(path)[0].data.polygons) == 1
 
 

@@ -81,8 +81,8 @@ def test_off_headers(tmp_path):
     for header in (
         "OFF 6 5 0",
         "OFF6 5 0",
-        "# a\n\nOFF # b\n6 5",
-        "COFF\n6 5 0",
+        "# Å\n\nOFF # b\n6 5",
+        "\ufeffCOFF\n6 5 0",
         "NOFF\n6 5 0",
     ):
         write_off(tmp_path / "wedge.off", header)

@@ -79,6 +79,25 @@ def test_coordinates_that_are_not_numbers_have_an_error_each(tmp_path):
         bpy.ops.wcd.decompose()
 
 
+def test_faces_that_blender_crashes_on(tmp_path, unexpected):
+    changes = [
+        ("3, 2]", "3, 4]"),
+        ("3, 2]", "3, -1]"),
+        ("[3, 3, 3, 3]", "[3, 3, 3]"),
+        ("[3, 3, 3, 3]", "[3, 3, 3, 3, 3, 3, 3]"),
+        ("[3, 3, 3, 3]", "[3, 3, 3, -3, 3, 3]"),
+        ("points = ", "normals = "),
+    ]
+    for place in (POINT_INSTANCER, MESH, PLACED.format(name="A", x=5)):
+        for change in changes:
+            text = stage(tmp_path / "a.usda", place).read_text().replace(*change)
+            case = text.encode(), "a mesh, Rock, with faces that refer to missing"
+            assert unexpected({"a.usda": case}) == {}, change
+    text = MESH.replace("[3, 3, 3, 3]", "[3, 3, 3, 1, 2]")
+    (obj,) = load(stage(tmp_path / "a.usda", text))
+    assert len(obj.data.polygons) == 3
+
+
 @pytest.mark.parametrize("share", [0.9, 0.98])
 def test_an_archive_without_its_end_is_truncated(tmp_path, unexpected, share):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)

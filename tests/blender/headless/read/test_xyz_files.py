@@ -37,6 +37,8 @@ WITH_NORMALS = {
     "rows.pwn": f"600\n{rows(TABLE)}".encode(),
     "blocks.pwn": f"600\n{rows(POINTS)}{rows(NORMALS)}".encode(),
     "comment.xyz": f"# a scan\n{rows(TABLE)}\n\n".encode(),
+    "marked.xyz": f"\ufeff{rows(TABLE)}".encode(),
+    "old_mac.pts": f"\n600\n{rows(TABLE)}".replace("\n", "\r").encode(),
     "ascii.ply": ply(TABLE),
     "little.ply": ply(TABLE, "binary_little_endian"),
     "big.ply": ply(TABLE, "binary_big_endian"),
