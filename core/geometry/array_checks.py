@@ -35,8 +35,13 @@ def real_numbers(values: object) -> NDArray[Any] | None:
     Raises
     ------
     DecompositionError
-        If a whole number has more than 64 bits.
+        If a whole number has more than 64 bits, or numbers are masked.
     """
+    if np.ma.is_masked(values):
+        raise DecompositionError(
+            "Some numbers of an array are masked, and masks are not read; leave those"
+            " points or faces out."
+        )
     if values is None or isinstance(values, str | bytes):
         return None
     try:

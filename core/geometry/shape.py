@@ -90,10 +90,10 @@ def check_members(members: object, shape: Shape) -> None:
             f"`members` must be an array of bool, not {described(members)}."
         )
     size = shape.n_polygons if isinstance(shape, TriangleMesh) else len(shape)
-    if members.shape != (size,) or not members.any():
+    if members.shape != (size,) or not members.any() or np.ma.is_masked(members):
         raise DecompositionError(
-            f"`members` must be {size} values, one for each face or point, and at least"
-            " one of them True."
+            f"`members` must be {size} values, one for each face or point, none of"
+            " them masked, and at least one True."
         )
 
 

@@ -192,7 +192,7 @@ def _meet(
 
     Those are within the width of a gap between shells.
     """
-    triangles, distances = marcher.caster.first_hit(
+    triangles, distances = marcher.first_hit(
         points,
         np.broadcast_to(direction, points.shape),
         np.full(len(points), 2 * marcher.diagonal),

@@ -77,7 +77,7 @@ class PointViewer:
         # Ray casters work in single precision: start shortly before the shape.
         origin = origin + direction * max(-float(origin @ direction) - 1.0, 0.0)
         reach = np.linalg.norm(origin) + 1.0
-        triangles, distances = marcher.caster.first_hit(
+        triangles, distances = marcher.first_hit(
             origin[None], direction[None], np.array([reach])
         )
         if triangles[0] >= 0:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import DecompositionError
+from ..geometry.array_checks import real_numbers
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps
 
@@ -95,6 +97,54 @@ def _slice(mesh: TriangleMesh, rows: NDArray[np.int64]) -> TriangleMesh:
     return TriangleMesh(mesh.vertices[used], places[triangles], np.arange(len(rows)))
 
 
+def checked_hits(
+    caster: RayCaster, n_triangles: int, *rays: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Ask a ray caster, and check what it answers: scripts may bring their own.
+
+    Parameters
+    ----------
+    caster : RayCaster
+    n_triangles : int
+        How many it has.
+    *rays : (M, 3) float, (M, 3) float and (M,) float
+        Origins, directions and reach.
+
+    Returns
+    -------
+    triangles : (M,) int
+    distances : (M,) float
+
+    Raises
+    ------
+    DecompositionError
+        If it answers with something else.
+    """
+    found = caster.first_hit(*rays)
+    if isinstance(found, Sequence) and len(found) == 2:
+        triangles, distances = map(real_numbers, found)
+        if _fit(triangles, distances, len(rays[0]), n_triangles):
+            return triangles.astype(np.int64, copy=False), distances
+    raise DecompositionError(
+        "The ray caster answers with something else than two arrays of one number for"
+        f" each ray: a triangle below {n_triangles}, or -1 for a miss, and a finite"
+        " distance; correct its method `first_hit`."
+    )
+
+
+def _fit(triangles: Any, distances: Any, n_rays: int, n_triangles: int) -> bool:
+    """Return whether arrays, or None, are triangles and distances of rays."""
+    if triangles is None or distances is None:
+        return False
+    if triangles.size and triangles.dtype.kind == "f":
+        return False
+    if not triangles.shape == distances.shape == (n_rays,):
+        return False
+    lengths = distances[triangles >= 0]
+    far = np.isfinite(lengths) & (lengths >= 0)
+    return bool((triangles < n_triangles).all() and far.all())
+
+
 class _Trees:
     """Casts each ray at several trees, and takes the nearest hit."""
 
@@ -112,7 +162,9 @@ class _Trees:
         distances = np.full(len(origins), np.inf)
         for rows, caster in self._trees:
             nearest = np.minimum(reach, distances)
-            hits, lengths = caster.first_hit(origins, directions, nearest)
+            hits, lengths = checked_hits(
+                caster, len(rows), origins, directions, nearest
+            )
             nearer = (hits >= 0) & (lengths < distances)
             triangles[nearer] = rows[hits[nearer]]
             distances[nearer] = lengths[nearer]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..steps.memo import kept
 from ..steps.progress import Steps, run
-from .ray_caster import MakeCaster, RayCaster, caster_in_steps
+from .ray_caster import MakeCaster, RayCaster, caster_in_steps, checked_hits
 
 # Rays between two reports of progress, about 20 ms.
 RAYS_PER_STEP = 4096
@@ -125,7 +125,8 @@ class RayMarcher:
         for _ in range(_MOST_CROSSINGS):
             ahead, gone = directions[going], travelled[going]
             starts = origins[going] + gone[:, None] * ahead
-            triangles, lengths = self._first_hit(starts, ahead, reach[going] - gone)
+            self.n_cast += len(starts)
+            triangles, lengths = self.first_hit(starts, ahead, reach[going] - gone)
             met = triangles >= 0
             going, triangles, lengths = going[met], triangles[met], lengths[met]
             facing = np.einsum("md,md->m", self.normals[triangles], ahead[met])
@@ -141,12 +142,11 @@ class RayMarcher:
                 break
         return exits, distances, depths
 
-    def _first_hit(
+    def first_hit(
         self, *rays: NDArray[np.float64]
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Cast rays, as `RayCaster.first_hit` does, and count them."""
-        self.n_cast += len(rays[0])
-        return self.caster.first_hit(*rays)
+        """Cast rays, as `RayCaster.first_hit` does."""
+        return checked_hits(self.caster, len(self.mesh.triangles), *rays)
 
     def in_turns(self, n_rows: int) -> Iterator[slice]:
         """Yield slices of rows, each a step's worth of work.

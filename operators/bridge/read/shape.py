@@ -154,8 +154,8 @@ def _scale_of(obj: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.fl
     scale, axes = sheared_scale(matrix) or (scale, axes)
     if not scale.all():
         raise DecompositionError(
-            "The object's scale is zero along an axis; give it a scale in Sidebar >"
-            " Item."
+            "The object's scale is zero along an axis, or too near to it; give it"
+            " another in Sidebar > Item."
         )
     return scale, axes
 

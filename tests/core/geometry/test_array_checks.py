@@ -10,6 +10,8 @@ from weak_convex_decomposition.core.geometry.array_checks import (
     rows_of_three,
 )
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
+from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+from weak_convex_decomposition.core.geometry.shape import check_members, checked_labels
 from weak_convex_decomposition.operators.bridge.read.arrays import shape_of
 
 CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
@@ -64,3 +66,32 @@ def test_a_mesh_of_arrays_of_objects_is_that_of_plain_ones():
 def test_numbers_of_vertices_that_are_too_large_are_told(call):
     with pytest.raises(DecompositionError, match=r"too large: numbers of vertices"):
         call()
+
+
+def masked(values):
+    """Return values of which the last row is masked."""
+    rows = np.ma.array(values)
+    rows[-1] = np.ma.masked
+    return rows
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: shape_of(masked(CORNERS * 8), None),
+        lambda: shape_of(masked(CORNERS), FACES),
+        lambda: shape_of(CORNERS, masked(FACES)),
+        lambda: shape_of(CORNERS, [*FACES[:3], masked([1, 2, 3, 0])]),
+        lambda: TriangleMesh(CORNERS, FACES, masked(range(4))),
+        lambda: PointCloud(np.eye(20, 3), masked(np.ones((20, 3)))),
+        lambda: checked_labels(masked(range(4)), shape_of(CORNERS, FACES), True),
+        lambda: check_members(masked([True] * 4), shape_of(CORNERS, FACES)),
+    ],
+)
+def test_masked_numbers_are_refused(call):
+    with pytest.raises(DecompositionError, match="masked"):
+        call()
+
+
+def test_arrays_that_could_have_a_mask_are_read():
+    assert shape_of(np.ma.array(CORNERS), np.ma.array(FACES)).n_polygons == 4
