@@ -13,6 +13,12 @@ from ..steps.progress import Progress, Steps, within
 from .normals import estimate_normals, face_inwards, seem_wrong
 from .splats import nearest_points, smoothed, thinned_splats
 
+_ESTIMATED = ("The points have no normals; they were estimated.",)
+_FLAT = (
+    "The points lie in a plane, and no line of sight runs within it; add faces to have"
+    " their outline cut into parts.",
+)
+
 
 @dataclass(frozen=True, eq=False)
 class SplatSurface:
@@ -80,9 +86,13 @@ def _surface_of(cloud: PointCloud) -> Steps[SplatSurface]:
     """Build the splats of a cloud whose points are all different."""
     points, normals, tilt = cloud.points, cloud.normals, 0.0
     notes: tuple[str, ...] = ()
-    if normals is None:
+    plane = cloud.plane
+    if normals is None and plane is not None:
+        normals = np.tile(plane, (len(points), 1))
+        notes = _ESTIMATED
+    elif normals is None:
         normals, tilt = yield from within(estimate_normals(points), 0.0, 0.6)
-        notes = ("The points have no normals; they were estimated.",)
+        notes = _ESTIMATED
     elif face_inwards(points, normals):
         normals = -normals
         notes = (
@@ -90,6 +100,8 @@ def _surface_of(cloud: PointCloud) -> Steps[SplatSurface]:
             " computation only.",
         )
     found = normals if notes else None
+    if plane is not None:
+        notes += _FLAT
     yield Progress("Splats", 0.6)
     points = smoothed(points, normals)
     kept, areas, mesh = thinned_splats(points, normals)

@@ -13,8 +13,8 @@ from .mesh import SAME_PLACE
 
 # Least number of points of a cloud. Fewer do not show a surface.
 _FEWEST = 16
-# Points lie in a line if they spread less than this across it: a root mean square
-# distance, in diagonals.
+# Points lie in a line, or plane, if they spread less than this across it: a root mean
+# square distance, in diagonals.
 _LEAST_WIDTH = 1e-4
 # Least diagonal of half of the points, those in the middle, in diagonals of all. Sight
 # starts as far below the surface.
@@ -86,6 +86,12 @@ class PointCloud:
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal, in the units of the object."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
+
+    @property
+    def plane(self) -> NDArray[np.float64] | None:
+        """Unit normal of the plane that all points lie in, (3,), None without."""
+        widths, axes = _spread(self.points)
+        return axes[2] if widths[2] < _LEAST_WIDTH else None
 
     def normalized(self) -> PointCloud:
         """Return the cloud centered at the origin, with a bounding box of diagonal 1.
@@ -175,11 +181,18 @@ def _middle_half(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _is_line(points: NDArray[np.float64]) -> bool:
     """Return whether points spread next to nothing across their longest direction."""
+    return bool(_spread(points)[0][1] < _LEAST_WIDTH)
+
+
+def _spread(
+    points: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return how far points spread, in diagonals, and along which rows: most first."""
     spread = points - points.mean(axis=0)
     diagonal = np.linalg.norm(np.ptp(points, axis=0))
     scaled = spread / diagonal if diagonal > 0 else spread
-    _, widths, _ = np.linalg.svd(scaled.T @ scaled / len(points))
-    return bool(np.sqrt(widths[1]) < _LEAST_WIDTH)
+    _, squares, axes = np.linalg.svd(scaled.T @ scaled / len(points))
+    return np.sqrt(squares), axes
 
 
 def _unit_normals(normals: NDArray[np.float64], n_points: int) -> NDArray[np.float64]:

@@ -122,8 +122,12 @@ def checked_hits(
     """
     found = caster.first_hit(*rays)
     if isinstance(found, Sequence) and len(found) == 2:
-        triangles, distances = map(real_numbers, found)
-        if _fit(triangles, distances, len(rays[0]), n_triangles):
+        triangles, distances = (real_numbers(each) for each in found)
+        if (
+            triangles is not None
+            and distances is not None
+            and _fit(triangles, distances, len(rays[0]), n_triangles)
+        ):
             return triangles.astype(np.int64, copy=False), distances
     raise DecompositionError(
         "The ray caster answers with something else than two arrays of one number for"
@@ -132,10 +136,10 @@ def checked_hits(
     )
 
 
-def _fit(triangles: Any, distances: Any, n_rays: int, n_triangles: int) -> bool:
-    """Return whether arrays, or None, are triangles and distances of rays."""
-    if triangles is None or distances is None:
-        return False
+def _fit(
+    triangles: NDArray[Any], distances: NDArray[Any], n_rays: int, n_triangles: int
+) -> bool:
+    """Return whether arrays are triangles and distances of rays."""
     if triangles.size and triangles.dtype.kind == "f":
         return False
     if not triangles.shape == distances.shape == (n_rays,):

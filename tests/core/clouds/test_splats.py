@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
+from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.clouds import splats as splats_module
 from weak_convex_decomposition.core.clouds.splat_surface import splat_surface
 from weak_convex_decomposition.core.clouds.splats import (
@@ -13,7 +14,9 @@ from weak_convex_decomposition.core.clouds.splats import (
     splats,
     thinned_splats,
 )
+from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.point_cloud import PointCloud
+from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -113,3 +116,16 @@ def test_copies_of_points_change_nothing(with_normals, rounding):
     if not with_normals:
         found, expected = copied.found_normals, alone.found_normals[order]
         assert found == pytest.approx(expected, **close)
+
+
+@pytest.mark.parametrize("n_points", [16, 100, 600])
+@pytest.mark.parametrize("with_normals", [True, False])
+def test_a_flat_cloud_is_one_part_and_says_so(n_points, with_normals):
+    random = np.random.default_rng(0)
+    turned = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    points = random.random((n_points, 3)) * (2, 1, 1e-5) @ turned
+    normals = [np.tile(turned[2], (n_points, 1))] * with_normals
+    cloud, cache = PointCloud(points, *normals), ShapeCache(BruteCaster)
+    found = run(decompose_in_steps(cloud, Parameters(samples=100), cache))
+    assert found.n_parts == 1
+    assert [note for note in found.notes if "lie in a plane" in note]
