@@ -27,7 +27,7 @@ from ...bridge.mesh.attributes import (
 from ...bridge.mesh.known import corner_faces, corner_vertices
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
 from ...bridge.parts.palette import UNPAINTED
-from ...bridge.stored.names import PART_LAYER
+from ...bridge.parts.read import find_parts_on
 from ...bridge.views.face_sets_and_colors import point_colors
 from .one_scene import written_meshes
 
@@ -143,20 +143,25 @@ def _painted_points(
     obj: bpy.types.Object, number: str, with_colors: bool = True
 ) -> bpy.types.Mesh:
     """Return a new mesh of a cloud's points, painted by part."""
-    parts = read_labels(obj.data, PART_LAYER, "POINT", count_points(obj))
     mesh = bpy.data.meshes.new(obj.data.name)
     mesh.from_pydata(positions_of(obj), [], [])
     if with_colors:
         _paint(mesh, point_colors(obj))
-    _number(mesh, parts, number)
+    _number(mesh, _part_numbers(obj, count_points(obj)), number)
     return mesh
+
+
+def _part_numbers(obj: bpy.types.Object, n_rows: int) -> IntArray:
+    """Return the number of the part of each face or point, -1 without parts of ours."""
+    found = find_parts_on(obj)
+    return np.full(n_rows, -1, np.int32) if found is None else found.numbers
 
 
 def _painted_faces(obj: bpy.types.Object) -> bpy.types.Mesh:
     """Return a new mesh with the faces of an object's, split at seams and painted."""
     mesh = obj.data
     n_faces = len(mesh.polygons)
-    parts = read_labels(mesh, PART_LAYER, "FACE", n_faces)
+    parts = _part_numbers(obj, n_faces)
     slots = read_labels(mesh, "material_index", "FACE", n_faces, missing=0)
     origins, corners = _split_at_seams(mesh, parts)
     faces = corner_faces(mesh)

@@ -109,6 +109,18 @@ def test_ply_of_a_mesh_without_parts(tmp_path, suzanne):
     assert {d.value for d in obj.data.attributes["part"].data} == {-1}
 
 
+@pytest.mark.parametrize("domain", ["FACE", "POINT"])
+def test_an_attribute_of_the_user_is_not_parts(tmp_path, suzanne, domain):
+    if domain == "POINT":
+        suzanne.data = bpy.data.meshes.new("points")
+        suzanne.data.from_pydata(np.eye(30, 3), [], [])
+    mine = suzanne.data.attributes.new("wcd_part", "INT", domain)
+    mine.data.foreach_set("value", np.arange(len(mine.data)))
+    save(tmp_path / "a.ply", None)
+    (obj,) = load(tmp_path / "a.ply")
+    assert {d.value for d in obj.data.attributes["part"].data} == {-1}
+
+
 def test_obj_has_materials_and_groups(tmp_path, parted):
     _, labels = parted
     save(tmp_path / "a.obj", None)
