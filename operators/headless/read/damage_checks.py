@@ -40,7 +40,7 @@ _NO_NUMBER = re.compile(rb"[^\d\s.+\-eEnaifNAIF]")
 _OBJ_CONTINUED = re.compile(rb"\\[^\S\n]*\n")
 # A vertex or a face in an .obj file, and the numbers of the vertices of a face.
 _OBJ_LINE = re.compile(rb"^[ \t]*([vf])[ \t]([^#\n]*)", re.MULTILINE)
-_OBJ_CORNER = re.compile(rb"(?<!\S)-?\d+")
+_OBJ_CORNER = re.compile(rb"(?<!\S)[+-]?\d+(?![^\s/.])")
 # A number in .obj and .stl files. Here, "nan" and "inf" are some.
 _NUMBER = (
     rb"[+-]?(?:(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?+(?![^\s#])"
@@ -220,7 +220,10 @@ def _check_obj_corners(path: Path, data: bytes) -> None:
         if line[1] == b"v":
             n_vertices += 1
             continue
-        for corner in _OBJ_CORNER.findall(line[2]):
+        corners = _OBJ_CORNER.findall(line[2])
+        if len(corners) != len(line[2].split()):
+            raise _wordy(path)
+        for corner in corners:
             # Vertices count from 1, or from -1 back from the face.
             too_long = len(corner) > MOST_DIGITS
             if too_long or not 1 <= abs(int(corner)) <= n_vertices:

@@ -75,13 +75,16 @@ def _equal_rows(rows: Sequence[bytes]) -> NDArray[np.int64] | None:
 
 
 def _listed_last(words: list[bytes], kinds: Sequence[str]) -> list[bytes]:
-    """Return the members of a list, the last of several properties on a line."""
+    """Return the members of a list, the last of several properties on a line.
+
+    If the line ends before, it is one that no file has.
+    """
     start = end = 0
     for codes in kinds:
         start = end + 1
         length = words[end] if len(codes) > 1 and end < len(words) else b""
         end = start + (whole_number(length.decode("latin-1")) or 0)
-    return words[start:end]
+    return words[start:end] if end <= len(words) else [b"-1"]
 
 
 def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:

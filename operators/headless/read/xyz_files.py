@@ -22,14 +22,17 @@ from .off_files import lines_of
 _COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"
 _DECIMAL_COMMAS = re.compile(rf"^\s*{_COMMA}[ \t;]+{_COMMA}(?!\S)", re.MULTILINE)
 
+# Normals differ from length 1 by less, in most of their rows.
+_NOT_UNIT = 0.01
+
 Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 
 
 def read_points(path: Path) -> Points:
     """Return the points (N, 3) of a file, and their normals (N, 3) or None.
 
-    Three more columns are normals, unless they are whole numbers from 0 to 255 as of
-    colors. Colors and any other number of columns are ignored.
+    Three more columns are normals, unless they look like colors. Colors and any other
+    number of columns are ignored.
 
     Raises
     ------
@@ -80,6 +83,13 @@ def _split(table: NDArray[np.float64], n_points: int | None) -> Points:
 
 
 def _are_colors(values: NDArray[np.float64]) -> bool:
-    """Return whether values (N, 3) are red, green and blue in bytes, not normals."""
-    are_bytes = (values >= 0) & (values <= 255) & (values == np.floor(values))
-    return bool(are_bytes.all() and values.max() > 1)
+    """Return whether values (N, 3) are red, green and blue, not normals.
+
+    These are bytes, or shares from 0 to 1 where most do not have the length of normals.
+    """
+    if not ((values >= 0) & (values <= 255)).all():
+        return False
+    if values.max() > 1:
+        return bool((values == np.floor(values)).all())
+    off = np.abs(np.linalg.norm(values, axis=1) - 1)
+    return bool(values.any() and np.median(off) > _NOT_UNIT)

@@ -145,8 +145,9 @@ def test_lists_whose_lengths_are_no_whole_numbers(unexpected, form):
 
 
 def test_other_numbers_in_text(tmp_path, unexpected):
-    for index, message in (("3.0", "no error"), ("4.0", MISSING), ("9" * 40, MISSING)):
-        text = ply("ascii", [(0, 1, 3)]).decode().replace("3 0 1 3", f"3 0 1 {index}")
+    cases = ("3.0", "no error"), ("4.0", MISSING), ("9" * 40, MISSING), ("", MISSING)
+    for index, message in cases:
+        text = ply("ascii", TRIANGLES).decode().replace("3 0 1 3", f"3 0 1 {index}")
         assert unexpected({"a.ply": (text.encode(), message)}) == {}
 
 
@@ -158,6 +159,21 @@ def test_obj_with_words_where_numbers_should_be(unexpected, word):
     text = TRIANGLE.replace("v 1 0 0", f"v 1 \t{word} 0")
     sentence = "has words where numbers should be"
     assert unexpected({"a.obj": (text.encode(), sentence)}) == {}
+
+
+@pytest.mark.parametrize("corners", ["a b c", "1 2 x", "1 2 3,5", "1 2 0x3", "1 2 -"])
+def test_obj_with_words_for_corners(unexpected, corners):
+    text = f"{TRIANGLE}f {corners}\n{TRIANGLE}"
+    sentence = "has words where numbers should be"
+    assert unexpected({"a.obj": (text.encode(), sentence)}) == {}
+
+
+def test_obj_with_unusual_corners(tmp_path):
+    path = tmp_path / "a.obj"
+    rows = ["+1 2 4", "1/ 2// 3", "1.0 -2 -1 # x", "4//1 2//1\t3//1"]
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\n"
+    path.write_text(text + "".join(f"f {row}\n" for row in rows))
+    assert len(load(path)[0].data.polygons) == 4
 
 
 SOLID = (

@@ -62,8 +62,11 @@ def test_other_columns_are_no_normals(tmp_path):
         assert positions_of(obj) == pytest.approx(POINTS, abs=1e-5), extra
         assert normals_of(obj) is None, extra
     colors = np.random.default_rng(0).integers(0, 256, (600, 3))
-    path.write_text(rows(np.c_[POINTS, colors]))
-    assert normals_of(load(path, "Z")[0]) is None
+    for values in (colors, colors / 255):
+        path.write_text(rows(np.c_[POINTS, values]))
+        assert normals_of(load(path, "Z")[0]) is None
+    path.write_text(rows(np.c_[POINTS, np.abs(NORMALS)]))
+    assert normals_of(load(path, "Z")[0]) == pytest.approx(np.abs(NORMALS), abs=1e-5)
     along_axes = np.eye(3)[np.arange(600) % 3]
     path.write_text(rows(np.c_[POINTS, along_axes]))
     assert normals_of(load(path, "Z")[0]) == pytest.approx(along_axes)
