@@ -60,7 +60,7 @@ class RayMarcher:
     diagonal : float
         Diagonal of the bounding box of `mesh`.
     n_cast : int
-        Number of rays that `march` has cast: one for each surface that it meets.
+        Number of rays that were cast: `march` casts one for each surface that it meets.
     """
 
     def __init__(
@@ -125,7 +125,6 @@ class RayMarcher:
         for _ in range(_MOST_CROSSINGS):
             ahead, gone = directions[going], travelled[going]
             starts = origins[going] + gone[:, None] * ahead
-            self.n_cast += len(starts)
             triangles, lengths = self.first_hit(starts, ahead, reach[going] - gone)
             met = triangles >= 0
             going, triangles, lengths = going[met], triangles[met], lengths[met]
@@ -145,7 +144,8 @@ class RayMarcher:
     def first_hit(
         self, *rays: NDArray[np.float64]
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Cast rays, as `RayCaster.first_hit` does."""
+        """Cast rays, as `RayCaster.first_hit` does, and count them."""
+        self.n_cast += len(rays[0])
         return checked_hits(self.caster, len(self.mesh.triangles), *rays)
 
     def in_turns(self, n_rows: int) -> Iterator[slice]:
