@@ -17,6 +17,8 @@ from ..operators.bridge.stored.noted_parts import psi_by_k_of
 from .panels import WCD_PT_parts
 from .sidebar import Sidebar, paragraph, result_of
 
+# Most bars: of more numbers, those that are nearest to the best one.
+_MOST_BARS = 26
 # Share of the width for the number of parts, and height of a row, in usual rows.
 _NUMBER = 0.22
 _HEIGHT = 0.8
@@ -47,7 +49,9 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
                 paragraph(self.layout, text, context, icon="SOLO_ON")
         column = self.layout.column(align=True)
         column.scale_y = _HEIGHT
-        for k, gain in gains.items():
+        nearest = sorted(gains, key=lambda k: abs(k - best))[:_MOST_BARS]
+        for k in sorted(nearest):
+            gain = gains[k]
             split = column.split(factor=_NUMBER, align=True)
             icon = "SOLO_ON" if k == best else "SOLO_OFF" if k in good else "NONE"
             _draw_number(split, k, result, icon)

@@ -169,6 +169,14 @@ def test_the_star_is_on_the_best_number_and_says_why(suzanne, best, why):
     assert why is None or why in " ".join(layout.texts())
 
 
+def test_of_many_numbers_those_near_the_best_have_bars(suzanne):
+    found = decomposition_of(bands(suzanne, 7))
+    tried = {k: float(k) for k in range(1, 101)}
+    write_parts(suzanne, replace(found, best_k=90, psi_by_k=tried), Parameters())
+    shown = [int(text) for text in drawn(WCD_PT_chart).texts() if text.isdecimal()]
+    assert shown == [*range(75, 101)]
+
+
 def test_no_result_is_shown_where_there_is_nothing_to_say(suzanne):
     assert not WCD_PT_parts.poll(bpy.context)
     bpy.ops.wcd.build_hulls(shape="BOX", max_hulls=1, max_error=1.0)
