@@ -49,7 +49,8 @@ def clear_refusal(obj: Candidate, has_hulls: Callable[[Candidate], bool]) -> str
 
 def remove_hulls_refusal(obj: Candidate, owners: Container[Candidate]) -> str | None:
     """Return why hulls cannot be removed from an object, if it is among `owners`."""
-    if obj in owners:  # it may have been converted since, or have lost its faces
+    # It may have been converted since, or have lost its faces.
+    if obj in owners and (obj.type != "MESH" or not obj.data.polygons):
         return _object_refusal(obj)
     return no_hulls_refusal(obj, owners)
 
