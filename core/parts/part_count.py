@@ -6,6 +6,7 @@ from functools import partial
 from typing import NamedTuple
 
 from ..parameters.parts import Parameters
+from ..results.psi import still_rises
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
 from .part_memo import Candidate, CutMemo
@@ -26,7 +27,7 @@ _OF_ONE_PART = 0.5
 _ALL_OWN = 5
 # Symmetric parts are preferred up to this number, times k.
 _MORE = 1.5
-# Last number that is tried at first. While the best is the last, it is doubled.
+# Last number that is tried at first. It is doubled while psi still rises.
 _FIRST_HIGH = 13
 
 
@@ -80,12 +81,12 @@ class PartCountSearch:
 
     @property
     def high(self) -> int:
-        """Last number to try, by what is known; while it is the best, it is doubled."""
+        """Last number to try, by what is known: doubled while psi still rises."""
         high, known = _FIRST_HIGH, self.memo.searches
         while high < self.most:
             numbers = self.low, high
-            best = self.rated(known[numbers])[1] if numbers in known else 0
-            if self.low <= high and best != high:
+            rises = numbers in known and still_rises(*self.rated(known[numbers]), high)
+            if self.low <= high and not rises:
                 return high
             high *= 2
         return self.most
@@ -99,7 +100,7 @@ class PartCountSearch:
         2. If the parts of a symmetric shape are not symmetric for the smallest such k,
            prefer the first with symmetric parts, up to 1.5k. Its psi may be a little
            lower.
-        3. If the last number that was tried is the best, try more, up to `most`.
+        3. If psi still rises at the last number that was tried, try more, up to `most`.
         4. Cut along closed loops of creases, too, or only there, if what that saves in
            seams outweighs what is lost in psi. Or leave the shape whole, if that is
            better than any of these and Fewest Parts does not ask for more.

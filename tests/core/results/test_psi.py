@@ -2,7 +2,11 @@
 
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.results.psi import good_numbers, quality_word
+from weak_convex_decomposition.core.results.psi import (
+    good_numbers,
+    quality_word,
+    still_rises,
+)
 from weak_convex_decomposition.core.sight.pair_tally import PairTally
 
 # Two blobs of 10 samples that see nothing of each other: half of all pairs are visible.
@@ -50,3 +54,18 @@ def test_good_numbers_are_a_coarse_one_the_best_and_a_fine_one(best, expected):
 def test_one_part_is_good_only_where_more_gain_nothing():
     """Psi may fall with the number of parts below that of one: a small Detail."""
     assert good_numbers({1: 0.5, 2: 0.52, 12: 0.3}, 2) == (2,)
+
+
+@pytest.mark.parametrize(
+    ("by_part", "best", "expected"),
+    [
+        (0.1, 13, True),  # the last number is the best
+        (0.1, 12, True),  # each part gains the same
+        (0.01, 10, False),  # the last ones gain an eighth
+        (-0.1, 9, False),
+    ],
+)
+def test_psi_rises_where_the_last_parts_gain_like_others(by_part, best, expected):
+    psi_by_k = {k: 0.1 * min(k, 10) + by_part * max(k - 10, 0) for k in range(1, 14)}
+    assert still_rises(psi_by_k, best, 13) == expected
+    assert not still_rises(psi_by_k, best, 14)
