@@ -153,7 +153,7 @@ class Parameters:
         ),
     )
     max_parts: int = parameter(
-        100,
+        50,
         _searched(
             "Most Parts",
             "Largest number of parts that the search tries: 13 first, more if needed",
