@@ -82,14 +82,20 @@ class PartCountSearch:
     @property
     def high(self) -> int:
         """Last number to try, by what is known: doubled while psi still rises."""
-        high, known = _FIRST_HIGH, self.memo.searches
+        high = _FIRST_HIGH
         while high < self.most:
-            numbers = self.low, high
-            rises = numbers in known and still_rises(*self.rated(known[numbers]), high)
-            if self.low <= high and not rises:
+            if self.low <= high and not self._rises(high):
                 return high
             high *= 2
         return self.most
+
+    def _rises(self, high: int) -> bool:
+        """Return whether it is known that psi still rises at a last number."""
+        numbers = self.low, high
+        if numbers not in self.memo.searches:
+            return False
+        rated = partial(self.rated, self.memo.searches[numbers])
+        return self.memo.rising.recall(numbers, lambda: still_rises(*rated(), high))
 
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.
