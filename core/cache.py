@@ -20,7 +20,7 @@ from .sight.prepared import PreparedShape, prepare_in_steps
 from .sight.ray_caster import MakeCaster
 from .sight.visibility import see_in_steps
 from .steps.memo import Memo
-from .steps.progress import Steps, T, run
+from .steps.progress import Steps, T
 
 # The visibility of so many parts is kept, if they took at most so many samples.
 _DETAILS = 24
@@ -185,10 +185,10 @@ class ShapeCache:
             What they compute is kept with the visibility of the latest shape. None if
             no visibility is kept that was computed with these parameters.
         """
-        if self._shape is None or _sight_key(parameters) not in self._seen:
+        key = _sight_key(parameters)
+        if key not in self._seen:
             return None
-        memo = run(self.see(self._shape[1], parameters))  # it is known
-        return find_parts(memo, parameters, rough)
+        return find_parts(self._seen[key], parameters, rough)
 
 
 def _seen(shape: PreparedShape, parameters: Parameters) -> Steps[PartMemo]:

@@ -13,7 +13,6 @@ from ..steps.progress import Progress, Steps, within
 from .normals import estimate_normals, face_inwards, seem_wrong
 from .splats import nearest_points, smoothed, thinned_splats
 
-_ESTIMATED = ("The points have no normals; they were estimated.",)
 _FLAT = (
     "The points lie in a plane, and no line of sight runs within it; add faces to have"
     " their outline cut into parts.",
@@ -87,12 +86,12 @@ def _surface_of(cloud: PointCloud) -> Steps[SplatSurface]:
     points, normals, tilt = cloud.points, cloud.normals, 0.0
     notes: tuple[str, ...] = ()
     plane = cloud.plane
-    if normals is None and plane is not None:
-        normals = np.tile(plane, (len(points), 1))
-        notes = _ESTIMATED
-    elif normals is None:
-        normals, tilt = yield from within(estimate_normals(points), 0.0, 0.6)
-        notes = _ESTIMATED
+    if normals is None:
+        if plane is None:
+            normals, tilt = yield from within(estimate_normals(points), 0.0, 0.6)
+        else:
+            normals = np.tile(plane, (len(points), 1))
+        notes = ("The points have no normals; they were estimated.",)
     elif face_inwards(points, normals):
         normals = -normals
         notes = (

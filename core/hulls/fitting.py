@@ -53,11 +53,12 @@ class Fit:
 
         Cuts leave corners of a hull as sharp as they are, or make them sharper.
         """
-        if abs(self.margin) >= self.max_error or self.parameters.shape != "HULL":
-            return abs(self.margin) < self.max_error
-        pair = _as_shape(hull), _as_shape(offset(hull, self.margin))
-        inner, outer = pair if self.margin > 0 else pair[::-1]
-        return self.margin == 0 or uncovered(inner, outer.hull) < self.max_error
+        has_room = abs(self.margin) < self.max_error
+        if not has_room or self.margin == 0 or self.parameters.shape != "HULL":
+            return has_room
+        moved = offset(hull, self.margin)
+        inner, outer = (hull, moved) if self.margin > 0 else (moved, hull)
+        return uncovered(_as_shape(inner), outer) < self.max_error
 
     def shape(self, hull: Hull) -> CollisionShape:
         """Fit the kind of shape that the parameters ask for around a hull.

@@ -94,8 +94,10 @@ class PartCountSearch:
         numbers = self.low, high
         if numbers not in self.memo.searches:
             return False
-        rated = partial(self.rated, self.memo.searches[numbers])
-        return self.memo.rising.recall(numbers, lambda: still_rises(*rated(), high))
+        tried = self.memo.searches[numbers]
+        return self.memo.rising.recall(
+            numbers, lambda: still_rises(*self.rated(tried), high)
+        )
 
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.
