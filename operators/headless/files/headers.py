@@ -186,7 +186,7 @@ def read_header(data: bytes) -> Header | None:
                 case ["format", kind, _]:
                     order = orders[kind]
                 case ["element", name, n_rows]:
-                    elements.append(Element(name, int(n_rows), {}))
+                    elements.append(Element(name, _count(n_rows), {}))
                 case ["property", "list", length, member, *name]:
                     codes = _COUNTS[length] + _TYPES[member]
                     _add_property(elements[-1], name, codes)
@@ -194,10 +194,17 @@ def read_header(data: bytes) -> Header | None:
                     _add_property(elements[-1], name, _TYPES[kind])
     except (KeyError, ValueError, IndexError):
         return None
-    negative = any(element.n_rows < 0 for element in elements)
-    if not mark or order is None or negative:
+    if not mark or order is None:
         return None
     return Header(order, tuple(elements), len(text) + len(mark) + newline)
+
+
+def _count(word: str) -> int:
+    """Return the number of rows that a word states; raise if it states none."""
+    n_rows = whole_number(word)
+    if n_rows is None:
+        raise ValueError(word)
+    return n_rows
 
 
 def _add_property(element: Element, words: list[str], codes: str) -> None:

@@ -34,11 +34,15 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
             f"{path.name} is truncated: it promises {n_vertices} vertices and"
             f" {n_faces} faces, one a line, but has {len(body)} lines of them."
         )
-    vertices = _vertices(body[:n_vertices], path.name)
+    rows = body[: n_vertices + n_faces]
+    if any("_" in row for row in rows):  # Python reads 1_0 as 10
+        raise DecompositionError(
+            f"{path.name} has words where numbers should be; it is damaged."
+        )
+    vertices = _vertices(rows[:n_vertices], path.name)
     if not all_finite(vertices):
         raise not_finite(path)
-    rows = body[n_vertices : n_vertices + n_faces]
-    return vertices, [_polygon(row, n_vertices, path.name) for row in rows]
+    return vertices, [_polygon(row, n_vertices, path.name) for row in rows[n_vertices:]]
 
 
 def lines_of(path: Path) -> list[str]:

@@ -99,6 +99,7 @@ BAD_FILES = {
     "letters.ply": (ply(TABLE) + b"1 2 three 4 5 6\n", "words where numbers"),
     "format.ply": (headed("ascii", b"ascii", b"nonsense"), "header is not one"),
     "type.ply": (headed("ascii", b"float x", b"real x"), "header is not one"),
+    "grouped.ply": (headed("ascii", b"600", b"6_00"), "header is not one"),
     "negative.ply": (headed("ascii", b"vertex 6", b"vertex -6"), "header is not one"),
     "endless.ply": (headed("ascii", b"end_header", b""), "header is not one"),
     "places.ply": (headed("ascii", b"float x", b"float u"), "cannot be read"),
