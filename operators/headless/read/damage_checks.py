@@ -52,6 +52,8 @@ _OBJ_WORD = re.compile(
 )
 # A vertex without three numbers; Blender takes 0 for what it cannot read.
 _STL_WORD = re.compile(rb"\n[ \t]*vertex(?!(?:\s++%b){3})" % _NUMBER)
+# The same word in capitals; Blender knows it in small letters alone.
+_STL_CAPITALS = re.compile(rb"\n[ \t]*(?!vertex)(?i:vertex)\s")
 # The mark with a line behind it that Blender then does not know.
 _MARKED = re.compile(BYTE_ORDER_MARK + rb"[ \t]*[^#\s]")
 # Numbers on a line of an .obj file, by keyword, at least.
@@ -138,6 +140,11 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     data = path.read_bytes()
     _check_line_ends(path, data)
+    if _STL_CAPITALS.search(data):
+        raise DecompositionError(
+            f"{path.name} has its words in capital letters, which Blender cannot read;"
+            " write them in small letters."
+        )
     if _STL_WORD.search(data):
         raise _wordy(path)
 

@@ -189,16 +189,19 @@ def test_stl_with_words_where_numbers_should_be(unexpected, row):
     assert unexpected({"a.stl": (text.encode(), sentence)}) == {}
 
 
+def test_stl_in_capital_letters(unexpected):
+    texts = SOLID.upper(), SOLID.replace(" vertex 1", " Vertex 1")
+    cases = {f"{n}.stl": (text.encode(), "capital") for n, text in enumerate(texts)}
+    assert unexpected(cases) == {}
+
+
 def test_stl_with_unusual_numbers(tmp_path):
     path = tmp_path / "a.stl"
     text = SOLID.replace("vertex 1 0 0", "vertex\t1. -.0  +0e-5 ")
     path.write_bytes(text.replace("\n", "\r\n").encode())
     (obj,) = load(path, "Z")
-    assert sorted(tuple(v.co) for v in obj.data.vertices) == [
-        (0, 0, 0),
-        (0, 1, 0),
-        (1, 0, 0),
-    ]
+    corners = {tuple(vertex.co) for vertex in obj.data.vertices}
+    assert corners == {(0, 0, 0), (0, 1, 0), (1, 0, 0)}
 
 
 def test_obj_with_unusual_numbers(tmp_path):
