@@ -1,11 +1,45 @@
-"""Curves and their like in a file, which are left out, so that somebody says so."""
+"""What of a file is left out, so that somebody says so: faces, curves and texts."""
 
 from __future__ import annotations
+
+import re
+from pathlib import Path
 
 import bpy
 
 from ...bridge.refusals import CONVERTIBLE
 from ..current_file import objects_in_view_layers
+from ..files.headers import read_header
+from .off_files import n_faces_of_off
+
+_OBJ_FACE = re.compile(rb"^[ \t]*f[ \t]", re.MULTILINE)
+
+
+def faces_note(path: Path) -> str | None:
+    """Return a sentence about faces that the import of a file has left out.
+
+    None without, and for a format that does not state how many faces there are.
+    """
+    n_faces = _n_faces_in(path)
+    n_left_out = n_faces - sum(len(mesh.polygons) for mesh in bpy.data.meshes)
+    if n_left_out <= 0:
+        return None
+    return (
+        f"{n_left_out:,} of {n_faces:,} faces were left out: they have fewer than three"
+        " different corners, or those of another face."
+    )
+
+
+def _n_faces_in(path: Path) -> int:
+    """Return how many faces an .obj, .ply or .off file has, 0 for others."""
+    ending = path.suffix.lower()
+    if ending == ".off":
+        return n_faces_of_off(path)
+    if ending == ".obj":
+        return len(_OBJ_FACE.findall(path.read_bytes()))
+    header = read_header(path.read_bytes()) if ending == ".ply" else None
+    elements = header.elements if header else ()
+    return sum(each.n_rows for each in elements if each.name == "face")
 
 
 def convertible_note() -> str | None:

@@ -19,7 +19,7 @@ from .finite_checks import check_finite
 from .importers import IMPORTERS
 from .instances import check_libraries, make_all_local, realize_instances
 from .known_hulls import adopt_hulls, hull_note
-from .left_out import convertible_note
+from .left_out import convertible_note, faces_note
 from .referred import referred_files
 
 
@@ -89,7 +89,7 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())
     curves = convertible_note()
-    about = tuple(note for note in (hull_note(), curves) if note)
+    about = tuple(filter(None, (faces_note(path), hull_note(), curves)))
     return LoadedFile(_objects_with_shape(path, curves), notes, about, refers_to)
 
 

@@ -45,6 +45,11 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
     return vertices, [_polygon(row, n_vertices, path.name) for row in rows[n_vertices:]]
 
 
+def n_faces_of_off(path: Path) -> int:
+    """Return how many faces an .off file has, also those with too few corners."""
+    return _header(lines_of(path), path.name)[1]
+
+
 def lines_of(path: Path) -> list[str]:
     """Return the lines of a text file, without comments, spaces around and blank ones.
 

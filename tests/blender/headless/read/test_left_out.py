@@ -44,6 +44,39 @@ def test_curves_and_texts_that_are_seen_are_counted(tmp_path, capfd):
     assert json.loads(report.read_text())["inputs"][0]["notes"] == [note]
 
 
+SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+SHORT = [(0, 1, 2), (0, 2, 3), (0, 1), (2,)]
+
+
+def rows(table, first=""):
+    """Return the text of rows of numbers; the word comes first in each."""
+    return "".join(f"{first}{' '.join(map(str, row))}\n" for row in table)
+
+
+def in_formats(faces):
+    """Return the text of a file with these faces, by its name."""
+    lists = rows(SQUARE) + rows((len(face), *face) for face in faces)
+    ply = "ply\nformat ascii 1.0\nelement vertex 4\n"
+    ply += rows("xyz", "property float ") + f"element face {len(faces)}\n"
+    ply += "property list uchar int vertex_indices\nend_header\n"
+    return {
+        "a.obj": rows(SQUARE, "v ")
+        + rows(([corner + 1 for corner in face] for face in faces), "f "),
+        "a.off": f"OFF\n4 {len(faces)} 0\n{lists}",
+        "a.ply": ply + lists,
+    }
+
+
+@pytest.mark.parametrize("ending", ["obj", "off", "ply"])
+def test_faces_that_are_left_out_are_counted(tmp_path, ending):
+    cases = (SHORT[:2], None), (SHORT, "2 of 4 faces"), (SHORT[:2] * 2, "2 of 4 faces")
+    path = tmp_path / f"a.{ending}"
+    for faces, note in cases:
+        path.write_text(in_formats(faces)[path.name])
+        about = load_file(path, None, with_modifiers=False).about
+        assert (not about) if note is None else about[0].startswith(note)
+
+
 def test_a_file_of_nothing_else_says_what_to_do(tmp_path):
     add_curve("Ring", extrude=1.0)
     with pytest.raises(DecompositionError, match=r"clouds\. A curve, text"):
