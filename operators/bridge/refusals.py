@@ -10,7 +10,7 @@ from collections.abc import Container, Iterable
 from typing import Any, TypeAlias
 
 from .hulls.listed import owners_of_hulls
-from .mesh.points import is_cloud
+from .mesh.points import count_points, is_cloud
 from .mesh.seams import has_marked_seams
 from .stored.names import LAYERS, LONGEST_NAME
 from .stored.notes import or_not_ours
@@ -51,7 +51,11 @@ def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
     if obj.mode not in {"OBJECT", "EDIT"}:
         return "Parts are made in Object or Edit Mode; switch the mode"
     if obj.mode == "EDIT" and is_cloud(obj):
-        return "Parts of points are made in Object Mode; leave Edit Mode"
+        return (
+            "Parts of points are made in Object Mode; leave Edit Mode"
+            if count_points(obj)
+            else f"{obj.name} has no faces yet; add some and leave Edit Mode"
+        )
     if obj.mode != "EDIT" and obj.type == "MESH" and obj.data.is_editmode:
         return (
             f"The mesh of {obj.name} is edited on another object; leave Edit Mode there"

@@ -49,6 +49,13 @@ def test_another_mode(suzanne):
     refused(bpy.ops.wcd.decompose, "Object or Edit Mode")
 
 
+@pytest.mark.parametrize("name", ["decompose", "measure", "build_hulls"])
+def test_an_empty_mesh_in_edit_mode(name):
+    activate(mesh_object("Empty", [], []))
+    bpy.ops.object.mode_set(mode="EDIT")
+    refused(getattr(bpy.ops.wcd, name), "Empty has no faces yet; add some")
+
+
 TRIANGLE = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
 BAD_MESHES = {
     "no faces": ([(0, 0, 0)], [], "no faces"),
