@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Container, Iterable
 from typing import Any, TypeAlias
 
-from .hulls.listed import owners_of_hulls
+from .hulls.listed import is_hull, owners_of_hulls
+from .hulls.lost_hulls import has_more
 from .mesh.points import count_points, is_cloud
 from .mesh.seams import has_marked_seams
 from .stored.names import LAYERS, LONGEST_NAME
@@ -86,11 +87,18 @@ def measure_refusal(obj: Candidate) -> str | None:
 def decompose_refusal(obj: Candidate) -> str | None:
     """Return why an object, or a mesh made of it, cannot be decomposed."""
     if obj is None or obj.type not in CONVERTIBLE:
-        return refusal(obj)
+        return refusal(obj) or _own_hull_refusal(obj)
     return library_refusal(obj, writes_mesh=False) or unless(
         obj.mode == "OBJECT",
         f"{obj.name} is decomposed in Object Mode; leave Edit Mode",
     )
+
+
+def _own_hull_refusal(obj: Candidate) -> str | None:
+    """Return why nothing is made for a hull, unless the user joined something to it."""
+    if is_hull(obj) and not has_more(obj):
+        return f"{obj.name} is a hull of {obj.parent.name}; select that"
+    return None
 
 
 def recut_refusal(obj: Candidate) -> str | None:
@@ -198,7 +206,7 @@ def assign_refusal(obj: Candidate) -> str | None:
 
 def hull_refusal(obj: Candidate) -> str | None:
     """Return why hulls cannot be made for an object."""
-    reason = refusal(obj, writes_mesh=False)
+    reason = refusal(obj, writes_mesh=False) or _own_hull_refusal(obj)
     if reason is None and is_cloud(obj):
         return f"Hulls need faces, and {obj.name} has none; give it a surface first"
     if reason is None and obj.mode != "OBJECT":
