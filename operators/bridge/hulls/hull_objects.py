@@ -27,7 +27,7 @@ from .fitting_names import names_that_fit
 from .hull_collections import collection_for, own_collection, remove_empty_collections
 from .listed import hulls_of
 from .lost_hulls import has_more, leave_to_user, lost_hulls, noted_by
-from .placed import pose_of
+from .placed import moved_pose, pose_of
 from .rigid_bodies import remove_simulation, soften
 
 
@@ -89,16 +89,26 @@ def tag_hull(
     shape: CollisionShape,
     scale: np.ndarray,
 ) -> None:
-    """Note on a hull its figures and its pose."""
-    hull[HULL_TAG] = json.dumps(figures | pose_of(shape, scale))
+    """Note on a hull its figures, and its pose in its own space."""
+    pose = moved_pose(pose_of(shape, scale), _into(hull))
+    hull[HULL_TAG] = json.dumps(figures | pose)
 
 
 def keep_piece(hull: bpy.types.Object, points: np.ndarray, has_margin: bool) -> None:
-    """Keep the points of the piece that a hull is around, (N, 3), in object space."""
-    hull[PIECE_TAG] = points.ravel().tolist()
+    """Keep the points of the piece that a hull is around, (N, 3).
+
+    They are in the space of its object, and kept in the hull's own.
+    """
+    into = _into(hull)
+    hull[PIECE_TAG] = (points @ into[:3, :3].T + into[:3, 3]).ravel().tolist()
     hull[CORNERS_TAG] = read_floats(hull.data.vertices, "co", 3).ravel().tolist()
     if has_margin:
         hull[MARGIN_TAG] = True
+
+
+def _into(hull: bpy.types.Object) -> np.ndarray:
+    """Return the matrix, (4, 4), from the space of a hull's object to its own."""
+    return np.array(within_parent(hull).inverted_safe())
 
 
 def erase_hulls(

@@ -8,7 +8,6 @@ from typing import Any
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from .... import core
@@ -17,7 +16,7 @@ from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
-from ..homes import hand_over, within_parent
+from ..homes import within_parent
 from ..mesh.attributes import read_floats
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
@@ -87,10 +86,10 @@ def write_refit(
     scale, former, look = stretch(obj), hull.data, look_of(hull)
     material = former.materials[0] if former.materials else None
     hull.data = hull_mesh(former.name, shape, scale, material)
+    _bring_into(hull)
     if former.users == 0:  # else the user has linked copies of the hull
         bpy.data.meshes.remove(former)
     keep_piece(hull, *piece)
-    _bring_to_object(hull)
     record = record_of(obj)
     hulls = record[HULLS][HULLS]
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
@@ -126,12 +125,15 @@ def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
     the object's transform was applied. A convex hull that was built is around its piece
     with its own vertices.
     """
+    within = within_parent(hull)
+    if not within.determinant():
+        raise DecompositionError(f"{hull.name} has a scale of zero; change that first.")
     has_margin = PIECE_TAG not in hull or MARGIN_TAG in hull
     points = corners = read_floats(hull.data.vertices, "co", 3).astype(float)
     if PIECE_TAG in hull:
         then = np.reshape(hull.get(CORNERS_TAG, ()), (-1, 3))
         points = _moved(np.reshape(hull[PIECE_TAG], (-1, 3)), then, corners)
-    matrix = np.array(within_parent(hull))
+    matrix = np.array(within)
     return points @ matrix[:3, :3].T + matrix[:3, 3], has_margin
 
 
@@ -147,12 +149,15 @@ def _moved(
     return np.c_[points, np.ones(len(points))] @ matrix if is_one else points
 
 
-def _bring_to_object(hull: bpy.types.Object) -> None:
-    """Put a hull at the origin of its object; its children stay where they are."""
+def _bring_into(hull: bpy.types.Object) -> None:
+    """Bring the mesh of a hull from its object's space into the hull's own.
+
+    The hull keeps its place, which may be animated.
+    """
     within = within_parent(hull)
-    for child in hull.children:
-        hand_over(child, hull, within)
-    hull.matrix_parent_inverse = hull.matrix_basis = Matrix()
+    hull.data.transform(within.inverted_safe())
+    if within.is_negative:  # faces of a mirrored mesh point inward
+        hull.data.flip_normals()
 
 
 def hull_called(obj: bpy.types.Object, name: str) -> bpy.types.Object:

@@ -1,6 +1,6 @@
 """Where a collision shape of an object is, and how large it is there.
 
-The pose of a primitive is noted on its hull in the space of the object. Reports,
+The pose of a primitive is noted on its hull in the space of the hull. Reports,
 simulators and others bring it to the space that they need by a matrix.
 """
 
@@ -61,6 +61,15 @@ def pose_of(shape: CollisionShape, scale: NDArray[np.float64]) -> dict[str, Any]
         "axes": unstretched(shape.axes, scale).tolist(),
         "sizes": shape.sizes.tolist(),
     }
+
+
+def moved_pose(pose: dict[str, Any], matrix: NDArray[np.float64]) -> dict[str, Any]:
+    """Return a pose, moved by a matrix, which may distort its primitive."""
+    if "axes" not in pose:
+        return pose
+    turn, shift = matrix[:3, :3], matrix[:3, 3]
+    center, axes = turn @ pose["center"] + shift, pose["axes"] @ turn.T
+    return pose | {"center": center.tolist(), "axes": axes.tolist()}
 
 
 def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive | None:

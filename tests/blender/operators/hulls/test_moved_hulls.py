@@ -1,11 +1,13 @@
 """Other shapes for hulls that are not where their object's own space has them."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 from edited import record_of
 from hand_made import activate
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
+from weak_convex_decomposition.operators.bridge.hulls.placed import primitive_of
 
 BUILT = {"max_hulls": 1, "max_error": 1.0, "error_unit": "SCENE"}
 PLACE = (3, -2, 1)
@@ -79,3 +81,48 @@ def test_a_hull_that_the_user_moved_keeps_its_place_and_states_its_error(placed)
         assert found.mean(axis=0) == pytest.approx(before.mean(axis=0), abs=1e-3)
         assert error > near + 1.0
     assert np.array(lamp.matrix_world) == pytest.approx(place, abs=1e-5)
+
+
+def bounds_in_time(hull):
+    """Return the bounding box of a hull in the scene at three frames."""
+    boxes = []
+    for frame in (1, 6, 11):
+        bpy.context.scene.frame_set(frame)
+        corners = corners_of(hull)
+        boxes.append((corners.min(axis=0), corners.max(axis=0)))
+    return np.array(boxes)
+
+
+@pytest.mark.parametrize("scale", [(1, 1, 1), (-1, 1.5, 1)])
+def test_a_hull_that_is_animated_moves_as_before(placed, scale):
+    (hull,) = hulls_of(placed)
+    hull.rotation_euler, hull.scale = (0, 0.5, 1), scale
+    for frame in (1, 11):
+        hull.location.x = frame
+        hull.keyframe_insert("location", frame=frame)
+    before = bounds_in_time(hull)
+    for shape, frame in (("SPHERE", 6), ("HULL", 1)):
+        bpy.context.scene.frame_set(frame)
+        refit(placed, shape)
+    assert bounds_in_time(hull) == pytest.approx(before, abs=1e-3)
+
+
+def test_a_sphere_of_a_mirrored_hull_is_noted_where_it_is_and_faces_outward(placed):
+    (hull,) = hulls_of(placed)
+    hull.location, hull.rotation_euler, hull.scale = (1, 2, 0), (0, 0.5, 1), (-2, 1, 1)
+    corners, _ = refit(placed, "SPHERE")
+    found = primitive_of(hull, np.array(hull.matrix_world))
+    assert found.kind == "SPHERE"
+    away = np.linalg.norm(corners - found.center, axis=1)
+    assert away == pytest.approx(found.sizes[0], rel=1e-3)
+    mesh = bmesh.new()
+    mesh.from_mesh(hull.data)
+    assert mesh.calc_volume(signed=True) > 0
+    mesh.free()
+
+
+def test_a_hull_without_size_gets_no_other_shape(placed):
+    (hull,) = hulls_of(placed)
+    hull.scale.x = 0
+    with pytest.raises(RuntimeError, match="hull 01 has a scale of zero; change that"):
+        refit(placed, "BOX")
