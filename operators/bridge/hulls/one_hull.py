@@ -94,6 +94,10 @@ def write_refit(
     hulls = record[HULLS][HULLS]
     figures = figures_of_hull(found, 0) | {"part": hulls[row]["part"]}
     before = sum(each["volume"] for each in hulls)
+    ratio = record[HULLS]["volume_ratio"]
+    if ratio and np.isfinite(found.volume_ratio):
+        # In the unit of the others, which may be from before Apply scaled the mesh.
+        figures["volume"] = found.volume_ratio * before / ratio
     hull.name = hull.data.name = _name(obj, name, (hulls[row]["kind"], shape.kind))
     hulls[row] = {"name": hull.name, **figures}
     tag_hull(hull, figures, shape, scale)

@@ -126,3 +126,22 @@ def test_a_hull_without_size_gets_no_other_shape(placed):
     hull.scale.x = 0
     with pytest.raises(RuntimeError, match="hull 01 has a scale of zero; change that"):
         refit(placed, "BOX")
+
+
+def test_the_volume_ratio_is_right_after_the_scale_was_applied(suzanne):
+    suzanne.scale = (3, 3, 3)
+    bpy.context.view_layer.update()
+    bpy.ops.wcd.build_hulls(max_hulls=3, max_error=0.2)
+    names = [hull.name for hull in hulls_of(suzanne)]
+    for hull in hulls_of(suzanne):
+        hull.select_set(True)
+    bpy.ops.object.transform_apply(location=False, rotation=False)
+    before = record_of(suzanne)["hulls"]["volume_ratio"]
+    for shape in ("BOX", "HULL"):
+        for name in names[:2]:
+            bpy.ops.wcd.refit_hull(hull=name, shape=shape)
+        assert (record_of(suzanne)["hulls"]["volume_ratio"] > before) == (
+            shape == "BOX"
+        )
+    after = record_of(suzanne)["hulls"]["volume_ratio"]
+    assert after == pytest.approx(before, rel=1e-3)
