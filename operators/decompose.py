@@ -26,7 +26,7 @@ from .bridge.read.evaluated import read_as
 from .bridge.refusals import CONVERTIBLE, decompose_refusal
 from .bridge.removal_refusals import clear_refusal
 from .bridge.stored.names import CARRIER_TAG
-from .bridge.stored.record import EVALUATED
+from .bridge.stored.record import EVALUATED, check_records
 from .bridge.stored.restore import sharers
 from .bridge.views.colors import show_colors_as
 from .bridge.views.images import erase_images
@@ -148,6 +148,7 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
 
     def _clear(self, obj: bpy.types.Object) -> None:
         """Remove everything of ours from an object that is what it was."""
+        check_records(obj)  # it raises before anything is removed
         erase_hulls(obj)
         for each in sharers(obj) if obj.data.is_editable else (obj,):
             remove_views(each)  # of the same parts, which go

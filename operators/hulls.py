@@ -19,6 +19,7 @@ from .bridge.read.evaluated import read_as
 from .bridge.refusals import hull_refusal, no_hulls_refusal
 from .bridge.removal_refusals import remove_hulls_refusal
 from .bridge.stored.noted_hulls import forget_hulls, note_mesh_of_hulls
+from .bridge.stored.record import record_of
 from .bridge.work.computing_hulls import build_hulls_of, hull_summary
 from .running.computation import Computation
 from .running.on_objects import OnActive, OnEach
@@ -112,6 +113,7 @@ class WCD_OT_remove_hulls(_OnHulls, bpy.types.Operator):
     _refusal = staticmethod(remove_hulls_refusal)
 
     def _work(self, obj: bpy.types.Object) -> None:
+        record_of(obj)  # it raises before anything is removed
         erase_hulls(obj)
         forget_hulls(obj)
 

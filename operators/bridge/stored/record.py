@@ -13,6 +13,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition, Measurement
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of
+from .forms import RECORD, has_form
 from .identity import Identity
 from .names import RESULT
 from .noted_parts import entry_of
@@ -47,7 +48,7 @@ def has_record(obj: bpy.types.Object) -> bool:
 def parse_record(noted: object) -> dict[str, Any] | None:
     """Return the record that a custom property holds, None if it holds none of ours."""
     record = parse_json(noted)
-    return record if record and "version" in record else None
+    return record if has_form(record, RECORD) else None
 
 
 def record_if_ours(obj: bpy.types.Object | None) -> dict[str, Any]:

@@ -6,12 +6,24 @@ mesh's, too: several objects may share one.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 
 import bpy
 
+from .forms import NONE, has_form
 from .names import MATERIAL_NAME, MATERIAL_TAG, OWNER_LAYER, PART_LAYER, RESTORE
 from .notes import not_ours, read_note, write_note
+
+_FORM = {
+    "groups": [str],
+    "active_group": str,
+    "slots": [str],
+    "active_slot": int,
+    "material_index": (int, NONE),
+    "had_material_index": bool,
+    "user_groups": ([str], NONE),
+    "tagged": [str],
+}
 
 
 @dataclass(frozen=True)
@@ -67,7 +79,7 @@ def read_restore(mesh: bpy.types.Mesh) -> Restore | None:
     noted = read_note(mesh, RESTORE)
     if not noted:
         return _guessed(mesh)
-    if noted.keys() != {each.name for each in fields(Restore)}:
+    if noted.keys() != _FORM.keys() or not has_form(noted, _FORM):
         raise not_ours(mesh, RESTORE)
     return Restore(**noted)
 
