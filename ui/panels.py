@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 import bpy
 
 from ..core.results.psi import quality_word
+from ..operators.bridge.parts.read import loss_of
 from ..operators.bridge.parts.rows import noted_refusal
 from ..operators.bridge.read.shown_mesh import differs
 from ..operators.bridge.work.libraries import load_while_idle
@@ -31,16 +32,18 @@ def notes_of(obj: bpy.types.Object | None) -> list[str]:
     """Return the sentences that came with results on an object, each once.
 
     They are drawn because the status bar shows only the last report. A result of a mesh
-    that has changed since has none.
+    that has changed since has none. A sentence of its own says that parts were lost.
     """
     result, figures = result_of(obj), shown_figures(obj)
+    has_lost = figures is None and "k" in result  # which only parts have
+    lost = [loss_of(obj)] if obj and has_lost else []
     results = [result] if figures and not figures.problem else []
     if obj and is_of_now(obj, measured := result.get("measured", {})):
         results.append(measured)
     if obj and hull_rows_of_now(obj):
         results.append(result["hulls"])
     notes = [note for noted in results for note in noted.get("notes", ())]
-    return list(dict.fromkeys(notes))
+    return list(dict.fromkeys(lost + notes))
 
 
 class WCD_PT_main(Sidebar, bpy.types.Panel):

@@ -140,8 +140,13 @@ def parts_on(obj: bpy.types.Object) -> FoundParts:
     """Return the parts that an object has now; raise if it has none of ours."""
     found = find_parts_on(obj)
     if found is None:
-        raise DecompositionError(f"{obj.name} has lost its parts; decompose it again.")
+        raise DecompositionError(loss_of(obj))
     return found
+
+
+def loss_of(obj: bpy.types.Object) -> str:
+    """Return what to say of an object that notes parts and has none."""
+    return f"{obj.name} has lost its parts; decompose it again."
 
 
 def part_labels(obj: bpy.types.Object) -> NDArray[np.int64] | None:

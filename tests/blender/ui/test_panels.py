@@ -20,7 +20,7 @@ from weak_convex_decomposition.operators.measure import WCD_OT_tell_quality
 from weak_convex_decomposition.operators.settings import FRONT, is_used
 from weak_convex_decomposition.ui.chart import WCD_PT_chart
 from weak_convex_decomposition.ui.edit_panel import WCD_PT_edit, acted_on
-from weak_convex_decomposition.ui.panels import WCD_PT_main, WCD_PT_parts
+from weak_convex_decomposition.ui.panels import WCD_PT_main, WCD_PT_parts, notes_of
 from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
 
 # Of the edges of a list, in points.
@@ -184,6 +184,21 @@ def test_no_result_is_shown_where_there_is_nothing_to_say(suzanne):
         assert list(drawn(WCD_PT_parts).texts())
     bpy.ops.wcd.measure(samples=100)
     assert WCD_PT_parts.poll(bpy.context)
+
+
+@pytest.mark.parametrize("cause", ["removed", "joined"])
+def test_lost_parts_are_told(decomposed, cause):
+    attributes = decomposed.data.attributes
+    if cause == "removed" or bpy.app.version < (5, 0):  # which drops none at a join
+        attributes.remove(attributes["wcd_part"])
+    else:
+        bpy.ops.mesh.primitive_cube_add()
+        bpy.context.object.vertex_groups.new(name="wcd_part")
+        decomposed.select_set(True)
+        bpy.context.view_layer.objects.active = decomposed
+        bpy.ops.object.join()
+    assert WCD_PT_parts.poll(bpy.context)
+    assert notes_of(decomposed) == ["Suzanne has lost its parts; decompose it again."]
 
 
 def test_the_number_of_parts_is_auto_or_a_number(decomposed):
