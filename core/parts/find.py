@@ -15,7 +15,6 @@ from .part_count import PartCountSearch
 from .part_count_given import given, knows
 from .part_memo import PartMemo
 from .partition import Partitioner
-from .seams.cutter import SeamCutter
 from .seams.fine import labels_of_nodes, seams_take_long
 
 
@@ -41,26 +40,25 @@ def find_parts(
     -------
     Steps of Decomposition
     """
-    visibility, cut = memo.visibility, memo.cut(parameters)
     yield from within(memo.transfer_in_steps(), 0.0, 0.2)
     partitioner = Partitioner(memo, parameters)
-    cutter = SeamCutter(partitioner, cut.seams)
-    search = PartCountSearch(partitioner, cutter, cut)
+    search = PartCountSearch(partitioner)
     likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
     guesses = rough and likely_k > 0 and not _is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
         guesses, wanted = False, with_bends_kept(search)
     elif guesses:
-        wanted = guess(search, likely_k, cut.looks)
+        wanted = guess(search, likely_k)
     else:
         wanted = given(search, parameters.parts) if parameters.parts else search.best()
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.85)
     if not guesses:
         memo.tried = yield from search.tried()
-        seams = yield from within(cutter.smoothed(seams), 0.85, 0.9)
-    rough = rough and (guesses or seams_take_long(memo, parameters, seams))
-    finer = labels_of_nodes(memo, parameters, seams, rough)
+        seams = yield from within(search.seams.smoothed(seams), 0.85, 0.9)
+    rough = rough and (guesses or seams_take_long(partitioner, seams))
+    finer = labels_of_nodes(partitioner, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)
+    visibility = memo.visibility
     labels = by_size(nodes, visibility.shape)
     found = describe(visibility, labels, parameters, psi_by_k, best_k)
     notes = notes_on(found, visibility, memo.transfer, parameters)

@@ -5,13 +5,12 @@ While settings change in a window, these are shown until the parts themselves ar
 
 from __future__ import annotations
 
-from ..steps.memo import Memo
 from ..steps.progress import Steps, within
 from .part_count import PartCountSearch, Search
 from .part_count_given import least_psi, own_parts
-from .part_memo import Candidate, SeamsKey
+from .part_memo import Candidate
 from .part_psi import count_parts
-from .seams.cutter import SeamCutter, Seams
+from .seams.cutter import SeamCutter
 
 # One sweep of the cut brings seams near their places.
 _SWEEPS = 1
@@ -31,9 +30,7 @@ def likely_number(search: PartCountSearch, tried: dict[int, Candidate]) -> int:
     return min(max(search.rated(tried)[1], search.low), search.most)
 
 
-def guess(
-    search: PartCountSearch, n_parts: int, memo: Memo[SeamsKey, Seams]
-) -> Steps[Search]:
+def guess(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     """Return parts much like those that the search gives for a number of parts.
 
     Parameters
@@ -41,9 +38,6 @@ def guess(
     search : PartCountSearch
         Nothing is searched for. Numbers it has tried are known.
     n_parts : int
-    memo : Memo
-        Maps a smoothness, a least psi and the digest of parts to the parts with their
-        seams cut.
 
     Returns
     -------
@@ -54,7 +48,7 @@ def guess(
         parts = yield from within(own_parts(search, n_parts), 0.0, 0.6)
     else:
         parts = (yield from within(search.alone(n_parts), 0.0, 0.6)).parts
-    cutter = SeamCutter(search.partitioner, memo, _SWEEPS, even=False)
+    cutter = SeamCutter(search.partitioner, _SWEEPS, rough=True)
     seams = yield from within(cutter.cut(parts, least_psi(search, n_parts)), 0.6, 1.0)
     psi_by_k = {count_parts(parts): search.partitioner.psi_seen(parts)}
     return Search(seams, psi_by_k, 0)

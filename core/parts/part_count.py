@@ -9,7 +9,7 @@ from ..parameters.parts import Parameters
 from ..results.psi import still_rises
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
-from .part_memo import Candidate, CutMemo
+from .part_memo import Candidate
 from .part_psi import count_parts
 from .partition import Partitioner
 from .seams.cutter import SeamCutter, Seams
@@ -57,24 +57,23 @@ class PartCountSearch:
     ----------
     partitioner : Partitioner
         Finds the parts for each number. Its parameters tell which are tried.
-    seams : SeamCutter
-    memo : CutMemo
-        Keeps what is found.
 
     Attributes
     ----------
-    partitioner, seams, memo
+    partitioner : Partitioner
         As given.
+    memo : CutMemo
+        Keeps what is found.
+    seams : SeamCutter
     creases : CreaseParts
         Parts along creases, which compete with others.
     low, most : int
         Least and largest number of parts.
     """
 
-    def __init__(
-        self, partitioner: Partitioner, seams: SeamCutter, memo: CutMemo
-    ) -> None:
-        self.partitioner, self.seams, self.memo = partitioner, seams, memo
+    def __init__(self, partitioner: Partitioner) -> None:
+        self.partitioner, self.memo = partitioner, partitioner.found
+        self.seams = SeamCutter(partitioner)
         self.creases = CreaseParts(partitioner)
         self.low = partitioner.parameters.min_parts
         self.most = partitioner.parameters.max_parts

@@ -63,8 +63,8 @@ class CutMemo:
         Maps the first and last number tried to whether psi still rises there.
     seams, looks, fine : Memo
         Map a smoothness, a least psi and the digest of parts to the parts with their
-        seams cut, well or for a first look; a smoothness and parts of patches to those
-        of the nodes in them.
+        seams cut, well or for a first look, with the digest of ragged nodes behind, to
+        smooth ones; a smoothness and parts of patches to those of the nodes in them.
     """
 
     def __init__(self) -> None:

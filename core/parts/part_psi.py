@@ -27,7 +27,8 @@ class PartPsi:
 
     Attributes
     ----------
-    parameters : Parameters
+    memo, parameters
+        As given.
     visibility : Visibility
     transfer : Transfer
     negligible : float
@@ -35,11 +36,10 @@ class PartPsi:
     """
 
     def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
-        self.parameters = parameters
+        self.memo, self.parameters = memo, parameters
         self.visibility = memo.visibility
         self.transfer = memo.transfer
         self.negligible = _NEGLIGIBLE / np.sqrt(len(memo.visibility.samples))
-        self._memo = memo
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Count likely and known pairs of samples by parts (P,) of the nodes."""
@@ -49,7 +49,7 @@ class PartPsi:
         """Count pairs of samples by parts (P,) of the nodes, each kind once."""
         labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
         key = digest(labels), n_parts, pairs is self.visibility.psi_pairs
-        return self._memo.tallies.recall(key, lambda: pairs.tally(labels, n_parts))
+        return self.memo.tallies.recall(key, lambda: pairs.tally(labels, n_parts))
 
     def psi(self, parts: NDArray[np.int64]) -> float:
         """Return psi (eq. 5) of parts (P,) of the nodes, from likely pairs."""

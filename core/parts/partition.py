@@ -42,6 +42,8 @@ class Partitioner(PartPsi):
         Whether parts and seams are refined by psi.
     smallest_area : float
         Connected pieces below this area, in squared diagonals, join a neighbor.
+    found : CutMemo
+        What is found with these parameters.
     """
 
     def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
@@ -49,7 +51,7 @@ class Partitioner(PartPsi):
         self.graph = self.transfer.graph
         self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.graph.areas.sum()
-        self._cut = memo.cut(parameters)
+        self.found = memo.cut(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts and their psi; fewer parts if no more are possible."""
@@ -58,7 +60,7 @@ class Partitioner(PartPsi):
             parts = self.partition(n_parts)
             return Candidate(parts, self.psi(parts))
 
-        return self._cut.candidates.recall(n_parts, make)
+        return self.found.candidates.recall(n_parts, make)
 
     def symmetric(
         self, parts: NDArray[np.int64], wanted: Container[int]
@@ -76,12 +78,12 @@ class Partitioner(PartPsi):
         Steps of list of Candidate
             At most two, none if the shape has no mirror plane.
         """
-        sides = yield from self._memo.sides()
+        sides = yield from self.memo.sides()
         found, key = [], digest(parts) if sides else b""
         for number, side in enumerate(sides):
             yield Progress("Symmetry", 0.0)
             make = partial(self._mirrored, parts, side)
-            even = self._cut.even.recall((number, key), make)
+            even = self.found.even.recall((number, key), make)
             if count_parts(even) in wanted:
                 found.append(Candidate(even, self.psi(even), True))
         return found
@@ -122,7 +124,7 @@ class Partitioner(PartPsi):
             return plain
         n_clusters, labels = self._clusters(n_parts, n_parts)
         pairs, alpha = self.visibility.likely_pairs, self.parameters.alpha
-        raised = self._memo.moves.recall(
+        raised = self.memo.moves.recall(
             (digest(labels), n_clusters, alpha),
             lambda: raise_psi(pairs, labels, n_clusters, alpha),
         )
@@ -140,7 +142,7 @@ class Partitioner(PartPsi):
     def plain_in_steps(self, n_parts: int) -> Steps[NDArray[np.int64]]:
         """Return the steps that end in `plain`."""
         whole = np.zeros(self.graph.n_polygons, dtype=np.int64)
-        return self._cut.plain.recall_steps(
+        return self.found.plain.recall_steps(
             n_parts, lambda: self._split_in_steps(whole, n_parts)
         )
 
@@ -158,7 +160,7 @@ class Partitioner(PartPsi):
             n_clusters, labels = self._clusters(n_parts + more, n_parts)
             clusters = self._on_nodes(labels, n_clusters)
             finer = parts * n_clusters + clusters
-            pieces = self._memo.pieces.recall(
+            pieces = self.memo.pieces.recall(
                 (self.smallest_area, digest(finer)), partial(self._pieces, finer)
             )
             split = self._at_most(n_parts, pieces)
@@ -168,7 +170,7 @@ class Partitioner(PartPsi):
 
     def _on_nodes(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.int64]:
         """Return labels (N,) of the samples carried to the nodes, (P,)."""
-        return self._memo.on_nodes.recall(
+        return self.memo.on_nodes.recall(
             (digest(labels), n_labels),
             lambda: self.transfer.to_polygons(labels, n_labels),
         )
@@ -186,11 +188,11 @@ class Partitioner(PartPsi):
 
         seed, kind = self.parameters.seed, self.parameters.normalization
         key = kind, seed, n_clusters, embedding.shape[1]
-        return n_clusters, self._memo.clusters.recall(key, make)
+        return n_clusters, self.memo.clusters.recall(key, make)
 
     def embedding(self, n_parts: int) -> NDArray[np.float64]:
         """Return the embedding of the samples for `n_parts` parts, (N, n) float."""
-        return self._memo.embedding(n_parts, self.parameters)
+        return self.memo.embedding(n_parts, self.parameters)
 
     def tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
         """Return connected parts (P,), merged down to `n_parts` if there are more."""

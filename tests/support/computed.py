@@ -86,17 +86,15 @@ def marcher_of(mesh):
     return RayMarcher(mesh, BruteCaster, shells.closed[shells.of_triangle])
 
 
-def cut_seams_of(partitioner, memo, parts):
+def cut_seams_of(partitioner, parts):
     """Return parts of a partitioner with their seams cut."""
-    cutter = SeamCutter(partitioner, memo.cut(partitioner.parameters).seams)
-    return run(cutter.cut(parts)).parts
+    return run(SeamCutter(partitioner).cut(parts)).parts
 
 
 def part_count_search(memo, parameters, low, high):
     """Return a search for the number of parts."""
     parameters = replace(parameters, min_parts=low, max_parts=high)
-    partitioner, cut = Partitioner(memo, parameters), memo.cut(parameters)
-    return PartCountSearch(partitioner, SeamCutter(partitioner, cut.seams), cut)
+    return PartCountSearch(Partitioner(memo, parameters))
 
 
 def search_part_count(memo, parameters, low, high):

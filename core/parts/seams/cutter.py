@@ -55,28 +55,25 @@ class SeamCutter:
     ----------
     partitioner : Partitioner
         The partitioner that made the parts; its parameters are used.
-    memo : Memo
-        Maps a smoothness, a least psi and the digest of parts to the parts with their
-        seams cut, and with the digest of ragged nodes behind, to those parts with
-        smooth seams.
     sweeps : int, optional
         Largest number of sweeps of a cut over all parts.
-    even : bool, optional
-        Whether seams are made symmetric to the mirror plane.
+    rough : bool, optional
+        Whether a first look is enough: seams are not made symmetric to the mirror
+        plane.
     """
 
     def __init__(
         self,
         partitioner: Partitioner,
-        memo: Memo[SeamsKey, Seams],
         sweeps: int = SWEEPS,
         *,
-        even: bool = True,
+        rough: bool = False,
     ) -> None:
         self._partitioner, self._sweeps = partitioner, sweeps
-        self._even = even and partitioner.by_psi
+        self._even = partitioner.by_psi and not rough
         self._smoothness = partitioner.parameters.smoothness
-        self._memo = memo
+        found = partitioner.found
+        self._memo: Memo[SeamsKey, Seams] = found.looks if rough else found.seams
 
     def cut(
         self, parts: NDArray[np.int64], enough: float | None = None

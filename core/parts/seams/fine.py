@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.patches import Patches
-from ...parameters.parts import Parameters
-from ...steps.memo import Memo, digest
+from ...steps.memo import digest
 from ...steps.progress import Progress, Steps, within
-from ..part_memo import PartMemo
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .cutter import SeamCutter, Seams
@@ -30,16 +28,14 @@ _SWEEPS = 2
 
 
 def labels_of_nodes(
-    memo: PartMemo, parameters: Parameters, seams: Seams, rough: bool = False
+    by: Partitioner, seams: Seams, rough: bool = False
 ) -> Steps[NDArray[np.int64]]:
     """Return the part of each node of a shape's graph.
 
     Parameters
     ----------
-    memo : PartMemo
-        The visibility, and the patches of a large graph.
-    parameters : Parameters
-        That the parts were found with.
+    by : Partitioner
+        What found the parts.
     seams : Seams
         Parts of the patches, or of the nodes if there are no patches.
     rough : bool, optional
@@ -49,22 +45,19 @@ def labels_of_nodes(
     -------
     Steps of (P,) int
     """
-    patches, parts = memo.patches, seams.parts
+    patches, parts = by.memo.patches, seams.parts
     if patches is None:
         return parts
     if rough or count_parts(parts) == 1:
         return parts[patches.of_nodes]
-    steps = memo.cut(parameters).fine.recall_steps(
-        _key(seams), lambda: _cut(memo, patches, parameters, seams)
-    )
+    steps = by.found.fine.recall_steps(_key(seams), lambda: _cut(by, patches, seams))
     return (yield from steps).astype(np.int64)
 
 
-def seams_take_long(memo: PartMemo, parameters: Parameters, seams: Seams) -> bool:
+def seams_take_long(by: Partitioner, seams: Seams) -> bool:
     """Return whether `labels_of_nodes` has seams to cut; it takes the same values."""
-    known = memo.cut(parameters).fine
-    several = memo.patches is not None and count_parts(seams.parts) > 1
-    return several and _key(seams) not in known
+    several = by.memo.patches is not None and count_parts(seams.parts) > 1
+    return several and _key(seams) not in by.found.fine
 
 
 def _key(seams: Seams) -> tuple[float, bytes]:
@@ -72,9 +65,7 @@ def _key(seams: Seams) -> tuple[float, bytes]:
     return seams.smoothness, digest(seams.parts)
 
 
-def _cut(
-    memo: PartMemo, patches: Patches, parameters: Parameters, seams: Seams
-) -> Steps[NDArray[np.uint16]]:
+def _cut(by: Partitioner, patches: Patches, seams: Seams) -> Steps[NDArray[np.uint16]]:
     """Cut the seams where the nodes of the patches along them count on their own.
 
     The labels take little room: many are kept.
@@ -87,19 +78,18 @@ def _cut(
         chosen[coarse.neighbors[beside]] = True
     graph, places = yield from within(patches.opened(chosen), 0.0, 0.1)
     yield Progress("Seams", 0.1)
-    nodes = places[memo.visibility.nodes]
+    nodes = places[by.visibility.nodes]
     opened = np.flatnonzero(chosen[patches.of_nodes])
     numbers = np.concatenate([len(places) + np.flatnonzero(~chosen), opened])
-    on_nodes = yield from within(memo.on(graph, nodes, numbers), 0.1, 0.3)
+    on_nodes = yield from within(by.memo.on(graph, nodes, numbers), 0.1, 0.3)
     yield Progress("Seams", 0.3)
     start = np.zeros(graph.n_polygons, dtype=np.int64)
     start[places] = parts[patches.of_nodes]
     yield Progress("Seams", 0.3)
-    by = Partitioner(memo, parameters)
     enough = by.psi(parts) - by.negligible
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)
-    finer = Partitioner(on_nodes, replace(parameters, smoothness=smoothness))
-    cutter = SeamCutter(finer, Memo(), _SWEEPS)
+    finer = Partitioner(on_nodes, replace(by.parameters, smoothness=smoothness))
+    cutter = SeamCutter(finer, _SWEEPS)
     cut = yield from within(cutter.cut(start, enough), 0.3, 0.9)
     smooth = yield from within(cutter.smoothed(cut), 0.9, 1.0)
     return smooth.parts[places].astype(np.uint16)

@@ -13,7 +13,6 @@ from weak_convex_decomposition.core.parts.part_count import PartCountSearch
 from weak_convex_decomposition.core.parts.part_count_given import given, own_parts
 from weak_convex_decomposition.core.parts.part_memo import Candidate, CutMemo
 from weak_convex_decomposition.core.parts.part_psi import count_parts
-from weak_convex_decomposition.core.parts.seams.cutter import Seams
 from weak_convex_decomposition.core.steps.progress import run
 
 # Psi of 1 to 6 parts: 3 to 6 are good enough.
@@ -21,25 +20,23 @@ PSI = (0.3, 0.9, 1.49, 1.492, 1.495, 1.5)
 
 
 class KnownParts:
-    """Stands for the partitioner and the seam cutter: psi is known, seams stay."""
+    """Stands for the partitioner: psi is known, seams stay."""
 
     by_psi, negligible = True, 0.003
     graph = graph_of(shapes.box())  # no loop of creases divides it
 
-    def __init__(self, alpha, guessed):
+    def __init__(self, tried, alpha, guessed):
+        self.found = CutMemo()
+        self.found.searches.recall((2, 6), lambda: tried)
         self.visibility = SimpleNamespace(
             is_guessed=guessed, shows_all_of_solid=guessed
         )
-        self.parameters = Parameters(alpha=alpha, max_parts=len(PSI))
+        self.parameters = Parameters(alpha=alpha, max_parts=len(PSI), smoothness=0.0)
 
     def psi(self, parts):
         return PSI[parts.max()]
 
     psi_seen = psi
-
-    def cut(self, parts):
-        yield from ()
-        return Seams(parts)
 
 
 def chosen(even, alpha=2.0, guessed=False):
@@ -47,10 +44,7 @@ def chosen(even, alpha=2.0, guessed=False):
     tried = {
         k: Candidate(np.arange(k), psi, k in even) for k, psi in enumerate(PSI, start=1)
     }
-    memo = CutMemo()
-    memo.searches.recall((2, 6), lambda: tried)
-    known = KnownParts(alpha, guessed)
-    return run(PartCountSearch(known, known, memo).best()).best_k
+    return run(PartCountSearch(KnownParts(tried, alpha, guessed)).best()).best_k
 
 
 @pytest.mark.parametrize(
@@ -76,10 +70,7 @@ def test_psi_of_sight_decides_on_the_number():
             return self.psi(parts) if parts.max() < 4 else 0.0
 
     tried = {k: Candidate(np.arange(k), psi) for k, psi in enumerate(PSI, start=1)}
-    memo = CutMemo()
-    memo.searches.recall((2, 6), lambda: tried)
-    known = Guessed(10.0, True)
-    found = run(PartCountSearch(known, known, memo).best())
+    found = run(PartCountSearch(Guessed(tried, 10.0, True)).best())
     assert (found.best_k, found.psi_by_k[5]) == (3, 0.0)
 
 

@@ -9,7 +9,6 @@ from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_psi import count_parts
 from weak_convex_decomposition.core.parts.partition import Partitioner
 from weak_convex_decomposition.core.parts.seams.cutter import SeamCutter
-from weak_convex_decomposition.core.steps.memo import Memo
 from weak_convex_decomposition.core.steps.progress import run
 
 
@@ -30,20 +29,18 @@ def by_name(make):
 @pytest.mark.parametrize("n_parts", range(1, 9))
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 def test_exactly_as_many_parts_as_asked_for(seen, make, n_parts):
-    memo = seen(make)
-    partitioner = Partitioner(memo, PARAMETERS)
+    partitioner = Partitioner(seen(make), PARAMETERS)
     parts = partitioner.partition(n_parts)
     assert set(parts) == set(range(n_parts))
-    cut = cut_seams_of(partitioner, memo, parts)
+    cut = cut_seams_of(partitioner, parts)
     assert set(cut) == set(range(n_parts))
 
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 5])
 def test_parts_are_connected_and_not_too_small(seen, make, n_parts):
-    memo = seen(make)
-    partitioner = Partitioner(memo, PARAMETERS)
-    parts = cut_seams_of(partitioner, memo, partitioner.partition(n_parts))
+    partitioner = Partitioner(seen(make), PARAMETERS)
+    parts = cut_seams_of(partitioner, partitioner.partition(n_parts))
     surface = partitioner.graph
     assert surface.areas_of(parts).min() >= partitioner.smallest_area
     assert count_parts(surface.pieces(parts, 0.0)) == n_parts
@@ -63,26 +60,23 @@ def test_the_same_partition_every_time(seen):
 
 
 def test_no_seams_are_cut_without_smoothness(seen):
-    memo = seen(shapes.comb)
     partitioner = Partitioner(
-        memo, replace(PARAMETERS, smoothness=0.0, smallest_part=0.0)
+        seen(shapes.comb), replace(PARAMETERS, smoothness=0.0, smallest_part=0.0)
     )
     parts = partitioner.partition(5)
-    assert (cut_seams_of(partitioner, memo, parts) == parts).all()
+    assert (cut_seams_of(partitioner, parts) == parts).all()
 
 
 def test_heavy_seams_swallow_no_part(seen):
-    memo = seen(shapes.comb)
-    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=100.0))
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=100.0))
     parts = partitioner.partition(5)
-    assert count_parts(cut_seams_of(partitioner, memo, parts)) == 5
+    assert count_parts(cut_seams_of(partitioner, parts)) == 5
 
 
 def test_seams_are_short_beside_parts_that_they_would_swallow(seen):
-    memo = seen(shapes.comb)
-    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=30.0))
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=30.0))
     parts = partitioner.partition(9)
-    cut = cut_seams_of(partitioner, memo, parts)
+    cut = cut_seams_of(partitioner, parts)
     assert count_parts(cut) == 9
     before, after = (
         partitioner.graph.borders(labels, 9).sum() for labels in (parts, cut)
@@ -92,18 +86,16 @@ def test_seams_are_short_beside_parts_that_they_would_swallow(seen):
 
 @pytest.mark.parametrize("n_parts", [5, 9])
 def test_parts_that_seams_would_swallow_do_not_soften_other_seams(seen, n_parts):
-    memo = seen(shapes.comb)
-    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=30.0))
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=30.0))
     parts = partitioner.partition(n_parts)
-    seams = run(SeamCutter(partitioner, Memo()).cut(parts, -np.inf))
+    seams = run(SeamCutter(partitioner).cut(parts, -np.inf))
     assert seams.smoothness == 30.0
     assert count_parts(seams.parts) == n_parts
 
 
 def test_parts_that_seams_would_swallow_get_short_ones_at_the_end(seen):
-    memo = seen(shapes.comb)
-    partitioner = Partitioner(memo, replace(PARAMETERS, smoothness=30.0))
-    cutter = SeamCutter(partitioner, Memo())
+    partitioner = Partitioner(seen(shapes.comb), replace(PARAMETERS, smoothness=30.0))
+    cutter = SeamCutter(partitioner)
     cut = run(cutter.cut(partitioner.partition(9), -np.inf))
     assert cut.ragged.any()
     smooth = run(cutter.smoothed(cut))
@@ -120,7 +112,7 @@ def test_parts_that_seams_would_swallow_get_short_ones_at_the_end(seen):
 
 def test_seams_get_short_at_the_end_if_all_cuts_cost_too_much_psi(seen):
     partitioner = Partitioner(seen(two_ls), PARAMETERS)
-    cutter, parts = SeamCutter(partitioner, Memo()), partitioner.partition(5)
+    cutter, parts = SeamCutter(partitioner), partitioner.partition(5)
     cut = run(cutter.cut(parts, np.inf))
     assert (cut.parts == parts).all()
     smooth = run(cutter.smoothed(cut))
@@ -139,7 +131,7 @@ def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
     parts = partitioner.partition(n_parts)
     plain = Partitioner(seen(make), replace(heavy, refinement="EMBEDDING"))
     won = min(partitioner.psi(parts), plain.psi(plain.partition(n_parts)))
-    assert partitioner.psi(cut_seams_of(partitioner, memo, parts)) >= won
+    assert partitioner.psi(cut_seams_of(partitioner, parts)) >= won
 
 
 def test_a_large_smallest_part_leaves_few(seen):
