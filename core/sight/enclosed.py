@@ -83,8 +83,8 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     centers = low + (np.indices(shape).reshape(3, -1).T + 0.5) * size
     # Try every second cell of each row first: most shapes enclose nothing.
     some = (np.indices(shape) % 2 == (shape // 2 % 2)[:, None, None, None]).all(axis=0)
-    hits, some = _Hits(marcher, centers), some.ravel()
-    yield from within(hits.cast(some, _TURNS % _FIRST == 0), 0, 0.1)
+    hits = _Hits(marcher, centers)
+    yield from within(hits.cast(some.ravel(), _TURNS % _FIRST == 0), 0, 0.1)
     nothing = Grid(low - size, size, np.full(shape + 2, OPEN))
     likely = hits.hidden(_MAY_ENCLOSE).reshape(shape)
     if not likely.any():
@@ -92,20 +92,18 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     near = _grown(hits.hidden(_OPENING).reshape(shape))
     # A few rays of one cell say little: look around such cells first.
     likely = _grown(likely).ravel()
-    steps = hits.cast_around(likely, likely, some, np.zeros_like(some))
-    yield from within(steps, 0.1, 0.2)
+    yield from within(hits.cast_around(likely, likely), 0.1, 0.2)
     shares = np.where(likely, hits.shares, 0.0).reshape(shape)
     if not _enclosed((likely & hits.outside).reshape(shape), shares).any():
         return nothing
     # What is enclosed is decided near hidden cells; averages need others around them.
     around, near = _grown(near).ravel(), near.ravel()
-    yield from within(hits.cast_around(near, around, some, likely), 0.2, 0.8)
+    yield from within(hits.cast_around(near, around), 0.2, 0.8)
     shares = np.where(near, hits.shares, 0.0).reshape(shape)
     enclosed = _enclosed(hits.outside.reshape(shape), shares)
     if not enclosed.any():
         return nothing
-    others = ~(some | likely | around)
-    yield from within(hits.cast(others, _TURNS % _FEW == 0), 0.8, 1.0)
+    yield from within(hits.cast(hits.n_cast == 0, _TURNS % _FEW == 0), 0.8, 1.0)
     kinds = np.where(hits.outside.reshape(shape), OPEN, INSIDE)
     kinds[enclosed] = ENCLOSED_OUTSIDE
     return Grid(low - size, size, np.pad(kinds, 1, constant_values=OPEN))
@@ -152,22 +150,18 @@ class _Hits:
         return self.outside & (self.shares >= share)
 
     def cast_around(
-        self,
-        cells: NDArray[np.bool_],
-        around: NDArray[np.bool_],
-        begun: NDArray[np.bool_],
-        done: NDArray[np.bool_],
+        self, cells: NDArray[np.bool_], around: NDArray[np.bool_]
     ) -> Steps[None]:
         """Cast few rays around some cells, more from them, and all that may matter.
 
-        The first rays of `begun` cells are cast already, and all rays of `done` ones.
+        Cells that rays were cast from have had their first ones.
         """
         few, first = _TURNS % _FEW == 0, _TURNS % _FIRST == 0
-        fresh = ~(begun | done)
+        fresh = self.n_cast == 0
         yield from within(self.cast(around & fresh, few), 0.0, 0.2)
         yield from within(self.cast(cells & fresh, first & ~few), 0.2, 0.5)
         # Most cells are decided by now: they are inside, or clearly open.
-        doubtful = cells & ~done & self.hidden(_CLEARLY_OPEN)
+        doubtful = cells & self.hidden(_CLEARLY_OPEN) & (self.n_cast < _DIRECTIONS)
         yield from within(self.cast(doubtful, ~first), 0.5, 1.0)
 
     def cast(self, chosen: NDArray[np.bool_], turns: NDArray[np.bool_]) -> Steps[None]:
