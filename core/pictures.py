@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from .geometry.labels import sums_by_label
 from .parameters.parts import Parameters
 from .parts.part_memo import PartMemo
 from .results.views import Picture
@@ -122,7 +123,7 @@ def _scatter(
     The plane is spanned by the principal axes of the parts' centers.
     """
     sizes = np.bincount(labels)
-    totals = np.stack([np.bincount(labels, axis) for axis in places.T], axis=1)
+    totals = sums_by_label(places, labels, len(sizes))
     middles = totals[sizes > 0] / sizes[sizes > 0, None]
     _, _, axes = np.linalg.svd(middles - middles.mean(axis=0))
     flat = np.zeros((len(places), 2))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..sight.pair_visibility import Matrix, PairVisibility, members_of, sums_by_label
+from ..geometry.labels import members_of, sums_by_label
+from ..sight.pair_visibility import Matrix, PairVisibility
 
 # Most sweeps over all samples. For most shapes, no sample moves after five.
 _SWEEPS = 10

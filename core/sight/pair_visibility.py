@@ -3,52 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from ..geometry.labels import members_of, sums_by_label
 from .pair_tally import PairTally
 
 Matrix: TypeAlias = NDArray[np.float32] | sparse.csr_array
-
-
-def members_of(labels: NDArray[np.int64], n_labels: int) -> NDArray[np.float32]:
-    """Return which of K labels each sample has: 1 for its label, 0 for others.
-
-    Parameters
-    ----------
-    labels : (N,) int in 0…K − 1
-    n_labels : int
-
-    Returns
-    -------
-    members : (N, K) float32
-    """
-    return np.eye(n_labels, dtype=np.float32)[labels]
-
-
-def sums_by_label(
-    matrix: Matrix | NDArray[np.float64], labels: NDArray[np.int64], n_labels: int
-) -> NDArray[Any]:
-    """Return the sum of the rows of each of K labels. Every row is read only once.
-
-    Parameters
-    ----------
-    matrix : (N, C) float or sparse
-    labels : (N,) int in 0…K − 1
-    n_labels : int
-
-    Returns
-    -------
-    sums : (K, C) float
-    """
-    rows = np.arange(len(labels) + 1)
-    ones = np.ones(len(labels), dtype=np.float32)
-    members = sparse.csr_array((ones, labels, rows), shape=(len(labels), n_labels))
-    sums = members.T @ matrix
-    return sums.toarray() if sparse.issparse(sums) else sums
 
 
 def pair_counts(

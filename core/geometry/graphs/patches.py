@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
 from ..frames import unit
+from ..labels import sums_by_label
 from .components import components
 from .face_graph import CREASE, FaceGraph
 
@@ -200,7 +201,7 @@ def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> Steps[FaceGraph]:
     yield Progress("Patches", 0.0)
     areas, counts = graph.areas_of(groups), np.bincount(groups)
     empty = (areas == 0)[groups]
-    weights = np.where(empty, 1.0, graph.areas)
+    weights = np.where(empty, 1.0, graph.areas)[:, None]
     totals = np.where(areas == 0, counts, areas)[:, None]
     n_groups = len(areas)
     yield Progress("Patches", 0.3)
@@ -214,27 +215,16 @@ def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> Steps[FaceGraph]:
     costs = np.bincount(edges.reshape(-1), graph.seam_costs[crossing], len(keys))
     shares = np.divide(costs, lengths, out=np.ones(len(keys)), where=lengths > 0)
     yield Progress("Patches", 0.7)
-    centers = _sums(groups, weights, graph.centers) / totals
+    centers = sums_by_label(weights * graph.centers, groups, n_groups) / totals
     yield Progress("Patches", 0.9)
     return FaceGraph(
         areas,
         centers,
-        unit(_sums(groups, weights, graph.normals)),
+        unit(sums_by_label(weights * graph.normals, groups, n_groups)),
         np.stack(np.divmod(keys, n_groups), axis=1),
         lengths.astype(np.float64),
         -np.log(np.maximum(shares, np.finfo(float).tiny)) / CREASE,
         outline=None
         if graph.outline is None
         else np.bincount(groups, graph.outline).astype(np.float64),
-    )
-
-
-def _sums(
-    groups: NDArray[np.int64],
-    weights: NDArray[np.float64],
-    vectors: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return the weighted sum of the vectors of each group, (G, 3)."""
-    return np.stack(
-        [np.bincount(groups, weights * column) for column in vectors.T], axis=1
     )

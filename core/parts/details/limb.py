@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.frames import unit
+from ...geometry.labels import sums_by_label
 from .surface import PartSurface
 
 # A limb is so long: its squared length is at least its area. A cylinder is, if it is
@@ -71,11 +72,11 @@ class Limb:
         graph, width = self.part.graph, self.length / self._n_slices
         rows = np.minimum((self.far / width).astype(np.int64), self._n_slices - 1)
         areas = np.bincount(rows, graph.areas, self._n_slices)
-        columns = (graph.areas[:, None] * graph.centers).T
-        sums = [np.bincount(rows, column, self._n_slices) for column in columns]
+        moments = graph.areas[:, None] * graph.centers
+        sums = sums_by_label(moments, rows, self._n_slices)
         full = areas > 0
         at = (np.flatnonzero(full) + 0.5) * width
-        line = np.stack(sums, axis=1)[full] / areas[full][:, None]
+        line = sums[full] / areas[full, None]
         return at.astype(np.float64), line
 
     def middle(self, at: NDArray[np.float64]) -> NDArray[np.float64]:

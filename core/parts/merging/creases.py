@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...geometry.graphs.components import components_at_once
 from ...geometry.graphs.face_graph import FaceGraph
-from ...sight.pair_visibility import sums_by_label
+from ...geometry.labels import sums_by_label
 from ...steps.progress import run
 from ..part_psi import count_parts
 from ..partition import Partitioner

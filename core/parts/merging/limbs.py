@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 from ...geometry.frames import unit
 from ...geometry.graphs.components import components_at_once
 from ...geometry.graphs.face_graph import FaceGraph
+from ...geometry.labels import sums_by_label
 from ...steps.progress import Progress, Steps
 from ..part_psi import count_parts
 from ..partition import Partitioner
@@ -171,19 +172,15 @@ class LimbMerger:
             [np.repeat(numbers, list(map(len, near))), *[numbers] * 2]
         )
         around = np.concatenate([*near, *ends.T]).astype(np.int64)
-        weights = surface.areas[around]
-        values = np.hstack([surface.centers[around], surface.normals[around]])
+        columns = np.ones(len(around)), surface.centers[around], surface.normals[around]
+        values = surface.areas[around, None] * np.column_stack(columns)
         sides, other = [], np.ones(len(around), dtype=bool)
         for part in pair:
             own = labels[around] == part
             other &= ~own
-            sums = [
-                np.bincount(rows, own * weights * column, len(edges))
-                for column in (np.ones(len(around)), *values.T)
-            ]
-            total = np.maximum(sums[0], np.finfo(float).tiny)
-            facing = unit(np.array(sums[4:], dtype=np.float64).T)
-            sides.append(((sums[1:4] / total).T, facing))
+            sums = sums_by_label(values[own], rows[own], len(edges))
+            total = np.maximum(sums[:, :1], np.finfo(float).tiny)
+            sides.append((sums[:, 1:4] / total, unit(sums[:, 4:])))
         (center, normal), (other_center, other_normal) = sides
         across = unit(other_center - center)
         turns = (across * (normal - other_normal)).sum(axis=1)
