@@ -42,9 +42,7 @@ def mirror_pairs(memo: PartMemo, labels: NDArray[np.int64]) -> Steps[Pairs]:
     if count_parts(labels) < 2:
         return ()
     graph = (yield from memo.transfer_in_steps()).graph
-    parts = memo.visibility.shape.labels_of_nodes(labels)
-    if memo.patches is not None:
-        parts = memo.patches.labels_of_patches(parts)
+    parts = memo.on_patches(memo.visibility.shape.labels_of_nodes(labels))
     sides = yield from memo.sides()
     fitting = [_pairs_of(side, graph, parts) for side in sides if _along_x(side, graph)]
     return tuple(sorted(fitting[0])) if fitting else ()

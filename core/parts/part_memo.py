@@ -187,6 +187,14 @@ class PartMemo:
             self._transfer = yield from within(steps, 0.9, 1.0)
         return self._transfer
 
+    def on_patches(self, labels: Labels) -> Labels:
+        """Return labels (P,) of the nodes as those of the patches, if there are any."""
+        return labels if self.patches is None else self.patches.labels_of(labels)
+
+    def off_patches(self, labels: Labels) -> Labels:
+        """Return labels of the patches, if there are any, as those of the nodes."""
+        return labels if self.patches is None else labels[self.patches.of_nodes]
+
     def on(
         self, graph: FaceGraph, nodes: NDArray[np.int64], numbers: NDArray[np.int64]
     ) -> Steps[PartMemo]:

@@ -51,7 +51,7 @@ class Patches:
     coarse: FaceGraph
     of_nodes: NDArray[np.int64]
 
-    def labels_of_patches(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+    def labels_of(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the label that most of the area of each patch has, (G,).
 
         Parameters

@@ -99,8 +99,7 @@ def _pieces(
 ) -> Steps[dict[int, NDArray[np.int64]]]:
     """Return the pieces (P,) of each part that is cut; 0 is the one at its seams."""
     transfer = yield from memo.transfer_in_steps()
-    graph, patches = transfer.graph, memo.patches
-    parts = nodes if patches is None else patches.labels_of_patches(nodes)
+    graph, parts = transfer.graph, memo.on_patches(nodes)
     at_seams = nodes_at_seams(graph.neighbors, parts)
     least = parameters.smallest_part * float(graph.areas.sum())
     spiky, limbs = {}, LimbJoints(parameters.bends != "KEEP")
@@ -130,4 +129,4 @@ def _on_all(
     """Return labels (P,) of all nodes of a shape from those of a part's nodes."""
     found = np.zeros(memo.transfer.graph.n_polygons, dtype=np.int64)
     found[kept] = labels
-    return found if memo.patches is None else found[memo.patches.of_nodes]
+    return memo.off_patches(found)

@@ -162,13 +162,11 @@ def _tips_of(memo: PartMemo, found: Decomposition) -> Steps[NDArray[np.bool_]]:
     if shape.plane is not None or not chosen.any():
         return tips
     graph = (yield from memo.transfer_in_steps()).graph
-    parts, numbers = shape.labels_of_nodes(found.labels), shape.nodes
-    if memo.patches is not None:
-        parts = memo.patches.labels_of_patches(parts)
-        numbers = memo.patches.of_nodes[numbers]
+    parts = memo.on_patches(shape.labels_of_nodes(found.labels))
     at = yield from find_tips(graph, parts, chosen)
     at = at[np.bincount(parts[at], minlength=1)[parts[at]] <= _MOST_OF_PART]
     if len(at) <= _MOST_PRONGS:
+        numbers = memo.off_patches(np.arange(graph.n_polygons))[shape.nodes]
         places, first = np.unique(numbers, return_index=True)
         tips[first[np.isin(places, at)]] = True
     return tips

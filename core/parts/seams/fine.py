@@ -46,10 +46,8 @@ def labels_of_nodes(
     Steps of (P,) int
     """
     patches, parts = by.memo.patches, seams.parts
-    if patches is None:
-        return parts
-    if rough or count_parts(parts) == 1:
-        return parts[patches.of_nodes]
+    if patches is None or rough or count_parts(parts) == 1:
+        return by.memo.off_patches(parts)
     steps = by.found.fine.recall_steps(_key(seams), lambda: _cut(by, patches, seams))
     return (yield from steps).astype(np.int64)
 
