@@ -20,7 +20,7 @@ from ..part_memo import PartMemo
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from ..seams.smoothing import smooth_seams
-from .limb_joints import LimbJoints
+from .limb_joints import cut_limbs
 from .seen import count_pairs, seen_apart
 from .spikes import find_spikes
 from .surface import PartSurface
@@ -102,7 +102,7 @@ def _pieces(
     graph, parts = transfer.graph, memo.on_patches(nodes)
     at_seams = nodes_at_seams(graph.neighbors, parts)
     least = parameters.smallest_part * float(graph.areas.sum())
-    spiky, limbs = {}, LimbJoints(parameters.bends != "KEEP")
+    spiky, others = {}, {}
     for turn, part in enumerate(chosen.tolist()):
         yield Progress("Details", turn / len(chosen))
         kept = np.flatnonzero(parts == part)
@@ -118,8 +118,8 @@ def _pieces(
         if spikes.any():
             spiky[part] = kept, spikes
         else:
-            limbs.add(part, surface, count)
-    cut = spiky | limbs.cut()
+            others[part] = surface, count
+    cut = spiky | (yield from cut_limbs(others, parameters.bends != "KEEP"))
     return {part: _on_all(*pieces, memo) for part, pieces in cut.items()}
 
 

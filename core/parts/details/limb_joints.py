@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...steps.progress import Progress, Steps
 from .knees import find_knees
 from .limb import Joints, limb_of
 from .necks import find_necks
@@ -28,58 +30,41 @@ _CLEAR_DEPTH, _DEPTH = 1.2, 1.12
 _FEWEST_LIMBS, _LEAST_SHARE = 3, 0.5
 
 
-class LimbJoints:
-    """The joints of the limbs of one shape.
+def cut_limbs(
+    parts: Mapping[int, tuple[PartSurface, Count]], bends: bool
+) -> Steps[dict[int, Pieces]]:
+    """Find the limbs of a shape that come apart.
 
     Parameters
     ----------
+    parts : dict of int to (PartSurface, callable)
+        By number. The callable counts pairs of samples by labels of the part's nodes.
     bends : bool
         Whether limbs come apart at knees, too.
+
+    Returns
+    -------
+    Steps of dict of int to ((M,) int, (M,) int)
+        From the number of each limb to its nodes, and the piece of each; 0 is the one
+        at the seams.
     """
-
-    def __init__(self, bends: bool) -> None:
-        self._bends = bends
-        self._nodes: dict[int, NDArray[np.int64]] = {}
-        self._knees: dict[int, Joints] = {}
-        self._necks: dict[int, Joints] = {}
-
-    def add(self, number: int, part: PartSurface, count: Count) -> None:
-        """Look for joints of a part, if it is a limb.
-
-        Parameters
-        ----------
-        number : int
-            Of the part.
-        part : PartSurface
-        count : callable
-            Counts pairs of samples by labels of the part's nodes.
-        """
-        limb = limb_of(part)
-        if limb is None:
-            return
-        self._nodes[number] = part.kept
-        self._necks[number] = seen_beyond(find_necks(limb), count, _BESIDE_NECKS)
-        if self._bends:
-            self._knees[number] = seen_beyond(find_knees(limb), count, _BESIDE_KNEES)
-
-    def cut(self) -> dict[int, Pieces]:
-        """Return the limbs that come apart.
-
-        Returns
-        -------
-        dict of int to ((M,) int, (M,) int)
-            From the number of each limb to its nodes, and the piece of each; 0 is the
-            one at the seams.
-        """
-        cut = {number: knees for number, knees in self._knees.items() if knees.sizes}
-        if max(map(_clearest, cut.values()), default=0.0) < _CLEAR_TURN:
-            cut = {}
-        straight = {n: necks for n, necks in self._necks.items() if n not in cut}
-        depths = np.array([_clearest(necks) for necks in straight.values()])
-        fewest = max(_FEWEST_LIMBS, _LEAST_SHARE * len(depths))
-        if (depths >= _DEPTH).sum() >= fewest and depths.max() >= _CLEAR_DEPTH:
-            cut |= {n: necks for n, necks in straight.items() if necks.sizes}
-        return {n: (self._nodes[n], joints.pieces) for n, joints in cut.items()}
+    knees: dict[int, Joints] = {}
+    necks: dict[int, Joints] = {}
+    for number, (part, count) in parts.items():
+        yield Progress("Details", 1.0)
+        if limb := limb_of(part):
+            necks[number] = seen_beyond(find_necks(limb), count, _BESIDE_NECKS)
+            if bends:
+                knees[number] = seen_beyond(find_knees(limb), count, _BESIDE_KNEES)
+    cut = {number: found for number, found in knees.items() if found.sizes}
+    if max(map(_clearest, cut.values()), default=0.0) < _CLEAR_TURN:
+        cut = {}
+    straight = {n: found for n, found in necks.items() if n not in cut}
+    depths = np.array(list(map(_clearest, straight.values())))
+    fewest = max(_FEWEST_LIMBS, _LEAST_SHARE * len(depths))
+    if (depths >= _DEPTH).sum() >= fewest and depths.max() >= _CLEAR_DEPTH:
+        cut |= {n: found for n, found in straight.items() if found.sizes}
+    return {n: (parts[n][0].kept, joints.pieces) for n, joints in cut.items()}
 
 
 def _clearest(joints: Joints) -> float:
