@@ -45,7 +45,7 @@ def see_through_containers(
         One for each matrix. If nothing is enclosed, they are the matrices themselves.
     """
     grid = yield from within(find_enclosed(marcher), 0.0, 0.6)
-    if not grid.encloses:
+    if grid is None:
         return list(matrices)
     places, revealed = samples.positions, {}
     for pairs in matrices:

@@ -57,13 +57,8 @@ class Grid:
     size: float
     kinds: NDArray[np.uint8]
 
-    @property
-    def encloses(self) -> bool:
-        """Whether any cell is enclosed outside."""
-        return bool((self.kinds == ENCLOSED_OUTSIDE).any())
 
-
-def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
+def find_enclosed(marcher: RayMarcher) -> Steps[Grid | None]:
     """Find the cells of the outside that a shape encloses.
 
     Parameters
@@ -73,8 +68,8 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
 
     Returns
     -------
-    Steps of Grid
-        In the space of the marcher's mesh. All cells are open if nothing is enclosed.
+    Steps of Grid or None
+        In the space of the marcher's mesh. None if nothing is enclosed.
     """
     low, high = marcher.mesh.bounds
     size = float((high - low).max()) / _CELLS
@@ -85,24 +80,23 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid]:
     some = (np.indices(shape) % 2 == (shape // 2 % 2)[:, None, None, None]).all(axis=0)
     hits = _Hits(marcher, centers)
     yield from within(hits.cast(some.ravel(), _TURNS % _FIRST == 0), 0, 0.1)
-    nothing = Grid(low - size, size, np.full(shape + 2, OPEN))
     likely = hits.hidden(_MAY_ENCLOSE).reshape(shape)
     if not likely.any():
-        return nothing
+        return None
     near = _grown(hits.hidden(_OPENING).reshape(shape))
     # A few rays of one cell say little: look around such cells first.
     likely = _grown(likely).ravel()
     yield from within(hits.cast_around(likely, likely), 0.1, 0.2)
     shares = np.where(likely, hits.shares, 0.0).reshape(shape)
     if not _enclosed((likely & hits.outside).reshape(shape), shares).any():
-        return nothing
+        return None
     # What is enclosed is decided near hidden cells; averages need others around them.
     around, near = _grown(near).ravel(), near.ravel()
     yield from within(hits.cast_around(near, around), 0.2, 0.8)
     shares = np.where(near, hits.shares, 0.0).reshape(shape)
     enclosed = _enclosed(hits.outside.reshape(shape), shares)
     if not enclosed.any():
-        return nothing
+        return None
     yield from within(hits.cast(hits.n_cast == 0, _TURNS % _FEW == 0), 0.8, 1.0)
     kinds = np.where(hits.outside.reshape(shape), OPEN, INSIDE)
     kinds[enclosed] = ENCLOSED_OUTSIDE
