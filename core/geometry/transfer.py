@@ -52,21 +52,20 @@ class NearestSamples:
         self._nearest = np.empty((0, self._n_nearest), dtype=np.int32)
 
     def of(
-        self, numbers: NDArray[np.int64], graph: FaceGraph, places: NDArray[np.int64]
+        self, graph: FaceGraph, numbers: NDArray[np.int64]
     ) -> Steps[tuple[NDArray[np.float64], NDArray[np.int32]]]:
-        """Return how far the n nearest samples of M polygons are away, and which.
+        """Return how far the n nearest samples of polygons are away, and which.
 
         Parameters
         ----------
-        numbers : (M,) int
-            Under which they are kept.
         graph : FaceGraph
-        places : (M,) int
-            Where they are in the graph.
+            Of P polygons.
+        numbers : (P,) int
+            Under which they are kept.
 
         Returns
         -------
-        Steps of (M, n) float in mean distances of samples, and (M, n) int32
+        Steps of (P, n) float in mean distances of samples, and (P, n) int32
         """
         if len(self._away) > _MOST_KEPT:
             self._forget()
@@ -76,9 +75,8 @@ class NearestSamples:
         away, nearest = [self._away], [self._nearest]
         for rows in blocks(len(new), _BLOCK):
             yield Progress("Surface", rows.start / len(new))
-            block = places[new[rows]]
-            sides = graph.centers[block], graph.normals[block]
-            at = with_normals(*sides, self._weight)
+            block = new[rows]
+            at = with_normals(graph.centers[block], graph.normals[block], self._weight)
             distances, found = self._tree.query(at, range(1, self._n_nearest + 1))
             away.append(distances / self._spacing)
             nearest.append(found.astype(np.int32))
@@ -115,14 +113,14 @@ def carry(
     -------
     Steps of Transfer
     """
-    places = np.arange(graph.n_polygons)
+    n_polygons = graph.n_polygons
     known = known or NearestSamples(samples, spacing_of(samples, graph))
-    steps = known.of(places if numbers is None else numbers, graph, places)
+    steps = known.of(graph, np.arange(n_polygons) if numbers is None else numbers)
     away, nearest = yield from within(steps, 0.0, 0.8)
-    samples_of = RowsByNumber(polygon_of // _BLOCK, -(-len(places) // _BLOCK))
+    samples_of = RowsByNumber(polygon_of // _BLOCK, -(-n_polygons // _BLOCK))
     shares = []
-    for number, block in enumerate(blocks(len(places), _BLOCK)):
-        yield Progress("Surface", 0.8 + 0.2 * block.start / len(places))
+    for number, block in enumerate(blocks(n_polygons, _BLOCK)):
+        yield Progress("Surface", 0.8 + 0.2 * block.start / n_polygons)
         own = samples_of.of(number)
         rows = polygon_of[own] - block.start
         shares.append(_shares(away[block], nearest[block], own, rows, len(samples)))

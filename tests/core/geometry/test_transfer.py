@@ -25,8 +25,9 @@ def test_what_is_kept_is_what_is_found_anew(monkeypatch):
     for most in (1000, 1):  # then nothing is kept
         monkeypatch.setattr(transfer, "_MOST_KEPT", most)
         for chosen in (places[10:30], places[20:60:3], places, places[::-1]):
-            anew = NearestSamples(samples, 0.7).of(chosen, surface, chosen)
-            known = run(kept.of(chosen + 500, surface, chosen))
+            part = surface.part(chosen)
+            anew = NearestSamples(samples, 0.7).of(part, chosen)
+            known = run(kept.of(part, chosen + 500))
             for one, other in zip(run(anew), known, strict=True):
                 assert (one == other).all()
 
