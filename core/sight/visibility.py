@@ -70,8 +70,6 @@ class Visibility:
         How likely pairs lie in one part, or `psi_pairs`. Parts are found from it.
     rank_pairs : PairVisibility
         Pairs that convexity ranks are counted from (eq. 1), through the inside only.
-    nodes : (N,) int
-        Node of the shape's graph that each sample lies on.
     """
 
     shape: PreparedShape
@@ -80,7 +78,11 @@ class Visibility:
     psi_pairs: PairVisibility
     likely_pairs: PairVisibility
     rank_pairs: PairVisibility
-    nodes: NDArray[np.int64]
+
+    @cached_property
+    def nodes(self) -> NDArray[np.int64]:
+        """Node of the shape's graph that each sample lies on, (N,) int."""
+        return self.shape.targets.polygons[self.samples.triangles]
 
     @property
     def is_guessed(self) -> bool:
@@ -233,11 +235,5 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
         guesses = likely_pairs(psi, sight.samples.positions)
         likely = yield from within(guesses, 0.95, 1.0)
     return Visibility(
-        shape,
-        sight.samples,
-        affinity.visible,
-        psi,
-        likely,
-        sight.rank_pairs,
-        shape.targets.polygons[sight.samples.triangles],
+        shape, sight.samples, affinity.visible, psi, likely, sight.rank_pairs
     )
