@@ -11,7 +11,7 @@ from ..parameters.parts import Parameters
 from ..results.parts import Decomposition
 from ..sight.prepared import PreparedShape
 from ..sight.visibility import Visibility
-from .part_psi import count_parts
+from .part_psi import PartPsi, count_parts
 
 # A face with fewer samples is small: its samples say little.
 _ENOUGH_SAMPLES = 8
@@ -88,50 +88,39 @@ def by_size(nodes: NDArray[np.int64], shape: PreparedShape) -> NDArray[np.int64]
     return np.argsort(order)[nodes][shape.nodes]
 
 
-def notes_on(
-    found: Decomposition,
-    visibility: Visibility,
-    transfer: Transfer,
-    parameters: Parameters,
-) -> tuple[str, ...]:
+def notes_on(found: Decomposition, by: PartPsi) -> tuple[str, ...]:
     """Say what kept the parts from being as they were asked for, or could be.
 
     Parameters
     ----------
     found : Decomposition
-    visibility : Visibility
-    transfer : Transfer
-        From samples to the nodes that got labels.
-    parameters : Parameters
-        That the parts were found with.
+    by : PartPsi
+        What found them.
 
     Returns
     -------
     tuple of str
         Sentences to the user.
     """
-    on_shells = _notes_on_shells(transfer)
-    on_count = _notes_on_count(parameters, max(found.psi_by_k))
-    return on_shells + (on_count or _notes_on_faces(found, visibility, parameters))
+    on_count = _notes_on_count(by.parameters, max(found.psi_by_k))
+    return _notes_on_shells(by.transfer) + (on_count or _notes_on_faces(found, by))
 
 
-def _notes_on_faces(
-    found: Decomposition, visibility: Visibility, parameters: Parameters
-) -> tuple[str, ...]:
+def _notes_on_faces(found: Decomposition, by: PartPsi) -> tuple[str, ...]:
     """Return a note if faces of much area lie in several parts.
 
     A face does if it carries enough samples, and many of them would raise psi in
     another part than that of the face.
     """
-    if visibility.shape.is_cloud or parameters.seams == "CUT":
+    visibility, nodes = by.visibility, by.visibility.nodes
+    if visibility.shape.is_cloud or by.parameters.seams == "CUT":
         return ()
-    nodes = visibility.nodes
     counts = np.bincount(nodes)
     if counts.max() < _ENOUGH_SAMPLES:  # fine meshes need no look at psi
         return ()
     labels = visibility.shape.labels_of_nodes(found.labels)[nodes]
     gains = MoveGains(visibility.psi_pairs, labels, found.n_parts).of(
-        slice(None), parameters.alpha
+        slice(None), by.parameters.alpha
     )
     drawn = gains.max(axis=1) > gains[np.arange(len(labels)), labels]
     share_drawn = np.bincount(nodes, drawn) / np.maximum(counts, 1)

@@ -43,7 +43,7 @@ def find_parts(
     yield from within(memo.transfer_in_steps(), 0.0, 0.2)
     partitioner = Partitioner(memo, parameters)
     search = PartCountSearch(partitioner)
-    likely_k = parameters.parts or (likely_number(search, memo.tried) if rough else 0)
+    likely_k = parameters.parts or (likely_number(search) if rough else 0)
     guesses = rough and likely_k > 0 and not _is_quick(search, parameters.parts)
     if parameters.bends == "KEEP":
         guesses, wanted = False, with_bends_kept(search)
@@ -58,11 +58,10 @@ def find_parts(
     rough = rough and (guesses or seams_take_long(partitioner, seams))
     finer = labels_of_nodes(partitioner, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)
-    visibility = memo.visibility
-    labels = by_size(nodes, visibility.shape)
-    found = describe(visibility, labels, parameters, psi_by_k, best_k)
-    notes = notes_on(found, visibility, memo.transfer, parameters)
-    return replace(found, notes=found.notes + notes, rough=rough)
+    labels = by_size(nodes, memo.visibility.shape)
+    found = describe(memo.visibility, labels, parameters, psi_by_k, best_k)
+    notes = found.notes + notes_on(found, partitioner)
+    return replace(found, notes=notes, rough=rough)
 
 
 def _is_quick(search: PartCountSearch, n_parts: int) -> bool:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from ..steps.progress import Steps, within
 from .part_count import PartCountSearch, Search
 from .part_count_given import least_psi, own_parts
-from .part_memo import Candidate
 from .part_psi import count_parts
 from .seams.cutter import SeamCutter
 
@@ -16,15 +15,12 @@ from .seams.cutter import SeamCutter
 _SWEEPS = 1
 
 
-def likely_number(search: PartCountSearch, tried: dict[int, Candidate]) -> int:
+def likely_number(search: PartCountSearch) -> int:
     """Return roughly the best number of parts, 0 if nothing was tried.
 
-    Parameters
-    ----------
-    search : PartCountSearch
-    tried : dict of int to Candidate
-        Candidates that were found with other parameters, by number of parts.
+    It is that of the latest search, which may have had other parameters.
     """
+    tried = search.partitioner.memo.tried
     if not tried:
         return 0
     return min(max(search.rated(tried)[1], search.low), search.most)
