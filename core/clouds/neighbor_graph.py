@@ -37,7 +37,7 @@ def neighbor_graph(
     """
     yield Progress("Surface", 0.0)
     n_neighbors = min(_NEIGHBORS, len(points) - 1)
-    nearest = nearest_points(points, normals, (points, normals), n_neighbors + 1)
+    nearest = nearest_points(points, normals, n_neighbors + 1)
     one = np.repeat(np.arange(len(points)), n_neighbors)
     pairs = np.sort(np.stack([one, nearest[:, 1:].ravel()], axis=1), axis=1)
     pairs = np.unique(pairs[pairs[:, 0] < pairs[:, 1]], axis=0)

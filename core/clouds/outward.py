@@ -10,7 +10,7 @@ limbs and both sides of a wall.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -136,10 +136,11 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
         progress = Progress("Normals", 0.1 + 0.9 * number / _ROUNDS)
         yield progress
         # Lengths do not matter, so 1 stands for 1/2.
-        missing = np.float32(1.0) - _all(some.numbers(vectors) for some in rows)
-        change = _all(some.slopes(missing) for some in rows)
+        numbers = np.concatenate([some.numbers(vectors) for some in rows])
+        missing = np.float32(1.0) - numbers
+        change: Single = np.concatenate([some.slopes(missing) for some in rows])
         yield progress
-        effect = _all(some.numbers(change) for some in rows)
+        effect = np.concatenate([some.numbers(change) for some in rows])
         # The step length that minimizes the sum of squares of `missing`.
         fitted = vectors + np.float32((change**2).sum() / (effect @ effect)) * change
         falls = []
@@ -149,11 +150,6 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
         lengths = np.linalg.norm(fitted, axis=1, keepdims=True)
         vectors = lengths * unit(np.concatenate(falls))
     return vectors
-
-
-def _all(values: Iterable[Single]) -> Single:
-    """Return the arrays joined along their first axis."""
-    return np.concatenate(list(values))
 
 
 def _rows(

@@ -114,5 +114,5 @@ def _surface_of(cloud: PointCloud) -> Steps[SplatSurface]:
     nodes, everything = np.arange(len(points)), (points, normals)
     if len(kept) < len(points):
         points, normals = points[kept], normals[kept]
-        nodes = nearest_points(points, normals, everything, 1)[:, 0]
+        nodes = nearest_points(points, normals, 1, everything)[:, 0]
     return SplatSurface(points, normals, areas, mesh, nodes, tilt, notes, found)

@@ -54,20 +54,20 @@ def normal_weight(points: NDArray[np.float64]) -> float:
 def nearest_points(
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
-    queries: tuple[NDArray[np.float64], NDArray[np.float64]],
     n_nearest: int,
+    queries: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
 ) -> NDArray[np.int64]:
-    """Return the points nearest to each query by position and normal.
+    """Return the points nearest to each one, or to others, by position and normal.
 
     Points on the far side of a thin wall do not count as near.
 
     Parameters
     ----------
     points, normals : (N, 3) float
-    queries : tuple of two (Q, 3) float
-        Positions and normals.
     n_nearest : int
         At most N.
+    queries : tuple of two (Q, 3) float, optional
+        Positions and normals of others.
 
     Returns
     -------
@@ -75,9 +75,10 @@ def nearest_points(
         Rows of `points`, nearest first.
     """
     weight = normal_weight(points)
-    tree = cKDTree(with_normals(points, normals, weight))
-    _, nearest = tree.query(with_normals(*queries, weight), n_nearest)
-    return nearest.reshape(len(queries[0]), n_nearest).astype(np.int64)
+    places = with_normals(points, normals, weight)
+    asked = places if queries is None else with_normals(*queries, weight)
+    _, nearest = cKDTree(places).query(asked, n_nearest)
+    return nearest.reshape(len(asked), n_nearest).astype(np.int64)
 
 
 def noise_of(points: NDArray[np.float64]) -> float:
@@ -118,7 +119,7 @@ def areas_of_points(
     -------
     (N,) float
     """
-    nearest = nearest_points(points, normals, (points, normals), _NEIGHBORS + 1)
+    nearest = nearest_points(points, normals, _NEIGHBORS + 1)
     radii = np.linalg.norm(points[nearest] - points[:, None], axis=2).max(axis=1)
     areas = np.pi * radii**2 / _NEIGHBORS
     median = np.median(areas[areas > 0]) if areas.any() else 1.0
@@ -141,9 +142,7 @@ def smoothed(
     -------
     (N, 3) float
     """
-    nearest = nearest_points(
-        points, normals, (points, normals), min(_AVERAGED, len(points))
-    )
+    nearest = nearest_points(points, normals, min(_AVERAGED, len(points)))
     chords = points[nearest] - points[:, None]
     heights = np.einsum("nkd,nkd->nk", chords, normals[nearest] + normals[:, None]) / 2
     return points + heights.mean(axis=1)[:, None] * normals

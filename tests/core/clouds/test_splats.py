@@ -43,7 +43,7 @@ def test_areas_follow_the_density():
 
 def test_the_far_side_of_a_thin_wall_is_not_near():
     points, normals = clouds.drawn(shapes.box(high=(1, 1, 0.02), divisions=8), 1000)
-    nearest = nearest_points(points, normals, (points, normals), 9)
+    nearest = nearest_points(points, normals, 9)
     assert (nearest[:, 0] == np.arange(1000)).all()
     faces = np.abs(normals[:, 2]) > 0.5
     same = (normals[nearest[faces]] * normals[faces, None]).sum(axis=2) > 0.5
