@@ -75,30 +75,28 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid | None]:
     size = float((high - low).max()) / _CELLS
     shape = np.maximum(np.ceil((high - low) / size), 1).astype(np.int64)
     low = (low + high - shape * size) / 2
-    centers = low + (np.indices(shape).reshape(3, -1).T + 0.5) * size
+    places = np.moveaxis(np.indices(shape), 0, -1)
+    hits = _Hits(marcher, low + (places + 0.5) * size)
     # Try every second cell of each row first: most shapes enclose nothing.
-    some = (np.indices(shape) % 2 == (shape // 2 % 2)[:, None, None, None]).all(axis=0)
-    hits = _Hits(marcher, centers)
-    yield from within(hits.cast(some.ravel(), _TURNS % _FIRST == 0), 0, 0.1)
-    likely = hits.hidden(_MAY_ENCLOSE).reshape(shape)
+    some = (places % 2 == shape // 2 % 2).all(axis=-1)
+    yield from within(hits.cast(some, _TURNS % _FIRST == 0), 0, 0.1)
+    likely = hits.hidden(_MAY_ENCLOSE)
     if not likely.any():
         return None
-    near = _grown(hits.hidden(_OPENING).reshape(shape))
+    near = _grown(hits.hidden(_OPENING))
     # A few rays of one cell say little: look around such cells first.
-    likely = _grown(likely).ravel()
+    likely = _grown(likely)
     yield from within(hits.cast_around(likely, likely), 0.1, 0.2)
-    shares = np.where(likely, hits.shares, 0.0).reshape(shape)
-    if not _enclosed((likely & hits.outside).reshape(shape), shares).any():
+    shares = np.where(likely, hits.shares, 0.0)
+    if not _enclosed(likely & hits.outside, shares).any():
         return None
     # What is enclosed is decided near hidden cells; averages need others around them.
-    around, near = _grown(near).ravel(), near.ravel()
-    yield from within(hits.cast_around(near, around), 0.2, 0.8)
-    shares = np.where(near, hits.shares, 0.0).reshape(shape)
-    enclosed = _enclosed(hits.outside.reshape(shape), shares)
+    yield from within(hits.cast_around(near, _grown(near)), 0.2, 0.8)
+    enclosed = _enclosed(hits.outside, np.where(near, hits.shares, 0.0))
     if not enclosed.any():
         return None
     yield from within(hits.cast(hits.n_cast == 0, _TURNS % _FEW == 0), 0.8, 1.0)
-    kinds = np.where(hits.outside.reshape(shape), OPEN, INSIDE)
+    kinds = np.where(hits.outside, OPEN, INSIDE)
     kinds[enclosed] = ENCLOSED_OUTSIDE
     return Grid(low - size, size, np.pad(kinds, 1, constant_values=OPEN))
 
@@ -109,29 +107,30 @@ def _grown(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 class _Hits:
-    """Rays that meet the front or the back of a shape, of those cast from points.
+    """Rays that meet the front or the back of a shape, of those cast from cells.
 
     Attributes
     ----------
-    front, back, near, n_cast : (M,) int
+    front, back, near, n_cast : (X, Y, Z) int
         Those near are within the width of a gap between shells.
     """
 
-    def __init__(self, marcher: RayMarcher, points: NDArray[np.float64]) -> None:
-        self._marcher, self._points = marcher, points
+    def __init__(self, marcher: RayMarcher, centers: NDArray[np.float64]) -> None:
+        self._marcher, self._points = marcher, centers.reshape(-1, 3)
         upwards = np.array([[0.0, 0.0, 1.0]])
         self._directions = cone_directions(upwards, _DIRECTIONS, 2 * np.pi)[0]
-        counts = np.zeros((4, len(points)), dtype=np.int64)
+        counts = np.zeros((4, *centers.shape[:3]), dtype=np.int64)
         self.front, self.back, self.near, self.n_cast = counts
+        self._counts = counts.reshape(4, -1)
 
     @property
     def shares(self) -> NDArray[np.float64]:
-        """The share of each point's rays that hit the shape, 0 without rays."""
+        """The share of each cell's rays that hit the shape, 0 without rays."""
         return (self.front + self.back) / np.maximum(self.n_cast, 1)
 
     @property
     def outside(self) -> NDArray[np.bool_]:
-        """Which points lie outside. Those without rays count as such.
+        """Which cells lie outside. Those without rays count as such.
 
         The gap between two shells that were set apart is none of the outside. Beside a
         single wall, no more than half of the rays meet it near by.
@@ -140,7 +139,7 @@ class _Hits:
         return (self.front >= self.back) & ~in_gap
 
     def hidden(self, share: float) -> NDArray[np.bool_]:
-        """Return the points outside from which at least this share hits the shape."""
+        """Return the cells outside from which at least this share hits the shape."""
         return self.outside & (self.shares >= share)
 
     def cast_around(
@@ -159,18 +158,18 @@ class _Hits:
         yield from within(self.cast(doubtful, ~first), 0.5, 1.0)
 
     def cast(self, chosen: NDArray[np.bool_], turns: NDArray[np.bool_]) -> Steps[None]:
-        """Cast rays from the chosen points, one in each chosen direction."""
-        directions = self._directions[turns]
+        """Cast rays from the chosen cells, one in each chosen direction."""
+        directions, (front, back, close, n_cast) = self._directions[turns], self._counts
         chosen_rows = np.flatnonzero(chosen)
         for number, direction in enumerate(directions):
             for start in range(0, len(chosen_rows), RAYS_PER_STEP):
                 yield Progress("Containers", number / len(directions))
                 rows = chosen_rows[start : start + RAYS_PER_STEP]
                 met, facing, near = _meet(self._marcher, self._points[rows], direction)
-                self.near[rows[near]] += 1
-                self.front[rows[met]] += facing < 0
-                self.back[rows[met]] += facing > 0
-                self.n_cast[rows] += 1
+                close[rows[near]] += 1
+                front[rows[met]] += facing < 0
+                back[rows[met]] += facing > 0
+                n_cast[rows] += 1
 
 
 def _meet(
