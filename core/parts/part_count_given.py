@@ -58,16 +58,15 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     own = yield from within(own_parts(search, n_parts), 0.6, 0.7)
     made, many = count_parts(own), n_parts > search.high
     resized = yield from within(_resized(search, chosen, made), 0.7, 0.8)
-    rivals = [own, resized]
-    if many:  # to cut their seams takes long
-        rivals = [max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))]
-    first, *others = rivals
+    if many:  # to cut the seams of both takes long
+        rivals = own, resized
+        own = max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))
     least = least_psi(search, n_parts)
-    found = [(yield from within(search.seams.cut(first, least), 0.8, 0.9))]
-    for rival in others:
-        smooth = yield from within(search.seams.cut(rival), 0.9, 1.0)
-        found += [Seams(rival), smooth]
-    psi_by_k = {made: by.psi_seen(first)} | searched.psi_by_k
+    found = [(yield from within(search.seams.cut(own, least), 0.8, 0.9))]
+    if not many:
+        smooth = yield from within(search.seams.cut(resized), 0.9, 1.0)
+        found += [Seams(resized), smooth]
+    psi_by_k = {made: by.psi_seen(own)} | searched.psi_by_k
     own_seams, *labels = (each.parts for each in found)
     best = search.creases.better(own_seams, made, made, *labels)
     if best is not own_seams:

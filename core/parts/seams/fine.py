@@ -19,8 +19,6 @@ from ..part_psi import count_parts
 from ..partition import Partitioner
 from .cutter import SeamCutter, Seams
 
-# Patches this far from a seam are opened, too. No cut moves a seam across more.
-_RINGS = 1
 # Least smoothness: borders of patches are ragged.
 _LEAST_SMOOTHNESS = 0.1
 # Most sweeps of the cut: seams are near their places, and more hardly shorten them.
@@ -71,9 +69,9 @@ def _cut(by: Partitioner, patches: Patches, seams: Seams) -> Steps[NDArray[np.ui
     yield Progress("Seams", 0.0)
     coarse, parts = patches.coarse, seams.parts
     chosen = nodes_at_seams(coarse.neighbors, parts)
-    for _ in range(_RINGS):
-        beside = chosen[coarse.neighbors].any(axis=1)
-        chosen[coarse.neighbors[beside]] = True
+    # Patches beside those are opened, too. No cut moves a seam across more.
+    beside = chosen[coarse.neighbors].any(axis=1)
+    chosen[coarse.neighbors[beside]] = True
     graph, places = yield from within(patches.opened(chosen), 0.0, 0.1)
     yield Progress("Seams", 0.1)
     nodes = places[by.visibility.nodes]
