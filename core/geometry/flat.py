@@ -189,7 +189,7 @@ def _outline(
     _, first, edge_of, uses = np.unique(
         keys, return_index=True, return_inverse=True, return_counts=True
     )
-    n_forward = np.bincount(edge_of.reshape(-1), forward)
+    n_forward = np.bincount(edge_of, forward)
     first = first[(n_forward == 0) | (n_forward == uses)]
     tails, heads = edges[first].T
     return tails, heads, np.repeat(faces.polygons[lying], 3)[first]

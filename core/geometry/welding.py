@@ -104,7 +104,7 @@ def _numbered(cells: NDArray[np.int64]) -> Steps[NDArray[np.int32]]:
         yield Progress("Surface", 0.5 + 0.4 * number / n_ranges)
         rows = np.flatnonzero(range_of == number)
         different, found = np.unique(cells[rows], return_inverse=True)
-        place_of[rows] = found.reshape(-1) + n_places
+        place_of[rows] = found + n_places
         n_places += len(different)
     return place_of
 

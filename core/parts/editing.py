@@ -124,4 +124,4 @@ def compacted(
         Former label of each new one, ascending.
     """
     former, labels = np.unique(labels, return_inverse=True)
-    return labels.reshape(-1).astype(np.int64), former
+    return labels.astype(np.int64), former

@@ -165,7 +165,7 @@ def _own_vertices(
     keys = rows.ravel()[strange] * len(shells.closed) + shells.of_triangle[strange // 3]
     yield Progress("Surface", 0.5)
     keys, more = np.unique(keys, return_inverse=True)
-    rows.ravel()[strange] = n_places + more.reshape(-1)
+    rows.ravel()[strange] = n_places + more
     yield Progress("Surface", 0.6)
     shell_of = np.concatenate([shell_of, keys % len(shells.closed)])
     vertices = np.concatenate([vertices, vertices[keys // len(shells.closed)]])
@@ -211,7 +211,6 @@ def _wind(
     copies = yield from within(components(ties, 2 * n_patches), 0.6, 0.8)
     copies = copies.reshape(2, n_patches)
     _, shells = np.unique(copies.min(axis=0), return_inverse=True)
-    shells = shells.reshape(-1)
     windable = np.bincount(shells, copies[0] == copies[1]) == 0
     side = copies[0] > copies[1]
     return shells[patches], side[patches], windable

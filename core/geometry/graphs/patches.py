@@ -175,7 +175,7 @@ def _joins(
     both = np.concatenate([pairs, pairs[:, ::-1]])
     wanted = tiny[both[:, 0]] & (places[both[:, 1]] < places[both[:, 0]])
     keys, owners = np.unique(both[wanted] @ (n_patches, 1), return_inverse=True)
-    lengths = np.bincount(owners.reshape(-1), np.tile(weights, 2)[wanted], len(keys))
+    lengths = np.bincount(owners, np.tile(weights, 2)[wanted], len(keys))
     small, others = np.divmod(keys, n_patches)
     order = np.lexsort([others, -lengths, small])
     first = order[np.diff(small[order], prepend=-1) > 0]
@@ -211,8 +211,8 @@ def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> Steps[FaceGraph]:
     keys = np.sort(pairs[crossing], axis=1) @ (n_groups, 1)
     keys, edges = np.unique(keys, return_inverse=True)
     yield Progress("Patches", 0.6)
-    lengths = np.bincount(edges.reshape(-1), graph.lengths[crossing], len(keys))
-    costs = np.bincount(edges.reshape(-1), graph.seam_costs[crossing], len(keys))
+    lengths = np.bincount(edges, graph.lengths[crossing], len(keys))
+    costs = np.bincount(edges, graph.seam_costs[crossing], len(keys))
     shares = np.divide(costs, lengths, out=np.ones(len(keys)), where=lengths > 0)
     yield Progress("Patches", 0.7)
     centers = sums_by_label(weights * graph.centers, groups, n_groups) / totals

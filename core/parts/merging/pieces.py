@@ -64,7 +64,7 @@ def _gathered(
     if not scattered.any():
         return pieces
     keys = np.where(scattered, len(areas) + labels, pieces)
-    return np.unique(keys, return_inverse=True)[1].reshape(-1)
+    return np.unique(keys, return_inverse=True)[1]
 
 
 def _joins_of_small(
