@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.labels import members_of, sums_by_label
+from ..geometry.labels import sums_by_label
 from ..sight.pair_visibility import Matrix, PairVisibility
 
 # Most sweeps over all samples. For most shapes, no sample moves after five.
@@ -32,7 +32,7 @@ class MoveGains:
         self, pairs: PairVisibility, labels: NDArray[np.int64], n_labels: int
     ) -> None:
         self._pairs = pairs
-        self._members = members_of(labels, n_labels)
+        self._members = np.eye(n_labels, dtype=np.float32)[labels]
         # Multiples of a power of 2: their float32 sums are exact in any order.
         self._visible = self._sums(pairs.visible, labels)
         self._own = pairs.visible.diagonal()

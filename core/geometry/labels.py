@@ -1,4 +1,4 @@
-"""Labels of rows: which rows have each label, and what they add up to."""
+"""Labels of rows: what the rows of each label add up to."""
 
 from __future__ import annotations
 
@@ -7,21 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
-
-
-def members_of(labels: NDArray[np.int64], n_labels: int) -> NDArray[np.float32]:
-    """Return which of K labels each row has: 1 for its label, 0 for others.
-
-    Parameters
-    ----------
-    labels : (N,) int in 0…K − 1
-    n_labels : int
-
-    Returns
-    -------
-    members : (N, K) float32
-    """
-    return np.eye(n_labels, dtype=np.float32)[labels]
 
 
 def sums_by_label(

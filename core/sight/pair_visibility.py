@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ..geometry.labels import members_of, sums_by_label
+from ..geometry.labels import sums_by_label
 from .pair_tally import PairTally
 
 Matrix: TypeAlias = NDArray[np.float32] | sparse.csr_array
@@ -102,9 +102,8 @@ class PairVisibility:
         def counts(matrix: Matrix) -> NDArray[np.float64]:
             # Sums of a row are exact in single precision: multiples of a power of 2.
             of_rows = sums_by_label(matrix, labels, n_labels).astype(np.float64)
-            return of_rows @ members
+            return sums_by_label(of_rows.T, labels, n_labels)
 
-        members = members_of(labels, n_labels).astype(np.float64)
         if self.known is None:
             sizes = np.bincount(labels, minlength=n_labels).astype(np.float64)
             return PairTally(counts(self.visible), sizes[:, None] * sizes)
