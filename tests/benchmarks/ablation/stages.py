@@ -8,7 +8,12 @@ from unittest import mock
 import numpy as np
 from weak_convex_decomposition.core.clusters.embedding import embed
 from weak_convex_decomposition.core.parameters.presets import preset
-from weak_convex_decomposition.core.parts import part_count, part_memo, partition
+from weak_convex_decomposition.core.parts import (
+    part_count,
+    part_memo,
+    part_psi,
+    partition,
+)
 from weak_convex_decomposition.core.parts.details import levels
 from weak_convex_decomposition.core.parts.merging.creases import CreaseParts
 from weak_convex_decomposition.core.sight import visibility
@@ -85,7 +90,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (partition, "raise_psi", lambda _pairs, labels, *_: labels)
     ],
     "no tolerance in the search for k": [
-        (partition, "_NEGLIGIBLE", 0.0),
+        (part_psi, "_NEGLIGIBLE", 0.0),
         (part_count, "_GAIN_TOLERANCE", 0.0),
         (part_count, "_WIDE_TOLERANCE", 0.0),
     ],
