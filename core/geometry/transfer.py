@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,7 +127,7 @@ def carry(
     yield Progress("Surface", 1.0)
     all_shares = sparse.vstack(shares, "csr")
     yield Progress("Surface", 1.0)
-    return Transfer(samples, polygon_of, graph, nearest, all_shares)
+    return _linked(samples, polygon_of, graph, nearest, all_shares)
 
 
 def spacing_of(samples: Samples, graph: FaceGraph) -> float:
@@ -157,61 +157,54 @@ def _shares(
     return sparse.csr_array(sparse.diags_array(1.0 / totals) @ shares)
 
 
+def _linked(
+    samples: Samples,
+    polygon_of: NDArray[np.int64],
+    graph: FaceGraph,
+    nearest: NDArray[np.int32],
+    shares: sparse.csr_array,
+) -> Transfer:
+    """Return the transfer to a graph, after its shells are linked.
+
+    `nearest` (P, n) are the samples nearest to each polygon.
+    """
+    shells = graph.shells()
+    numbers, first = np.unique(shells, return_index=True)
+    unsampled = np.setdiff1d(numbers, shells[polygon_of])
+    # A shell without a sample is linked to the polygon of the nearest sample.
+    small = first[unsampled]
+    hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
+    # Others are linked where samples of two are near.
+    pairs = cKDTree(samples.positions).query_pairs(
+        _TOUCH * spacing_of(samples, graph), output_type="ndarray"
+    )
+    touching = polygon_of[pairs]
+    touching = touching[shells[touching[:, 0]] != shells[touching[:, 1]]]
+    graph = replace(graph, links=np.concatenate([touching, hung]))
+    return Transfer(polygon_of, shares, graph, len(unsampled), len(numbers))
+
+
+@dataclass(frozen=True, eq=False)
 class Transfer:
     """Carries values of samples to polygons, and labels of polygons to samples.
 
-    Parameters
-    ----------
-    samples : Samples
-    polygon_of : (N,) int
-        Polygon that each sample lies on.
-    graph : FaceGraph
-        Graph of these polygons, or of the points of a cloud.
-    nearest : (P, n) int
-        The samples nearest to each polygon.
-    shares : (P, N) sparse float
-        Weight of each sample in the vote of each polygon; rows sum to 1.
-
     Attributes
     ----------
-    shares : (P, N) sparse float
     polygon_of : (N,) int
         Polygon that each sample lies on.
+    shares : (P, N) sparse float
+        Weight of each sample in the vote of each polygon; rows sum to 1.
     graph : FaceGraph
-        The graph, with links between shells that touch.
+        Graph of these polygons, with links between shells that touch.
     n_unsampled, n_shells : int
         Number of shells without a sample, and of all shells.
     """
 
-    def __init__(
-        self,
-        samples: Samples,
-        polygon_of: NDArray[np.int64],
-        graph: FaceGraph,
-        nearest: NDArray[np.int32],
-        shares: sparse.csr_array,
-    ) -> None:
-        self.polygon_of, self.shares = polygon_of, shares
-        shells = graph.shells()
-        numbers, first = np.unique(shells, return_index=True)
-        unsampled = np.setdiff1d(numbers, shells[polygon_of])
-        self.n_unsampled, self.n_shells = len(unsampled), len(numbers)
-        # A shell without a sample is linked to the polygon of the nearest sample.
-        small = first[unsampled]
-        hung = np.stack([small, polygon_of[nearest[small, 0]]], axis=1)
-        touching = self._touching(samples, shells, spacing_of(samples, graph))
-        links = np.concatenate([touching, hung])
-        self.graph = replace(graph, links=links)
-
-    def _touching(
-        self, samples: Samples, shells: NDArray[np.int64], spacing: float
-    ) -> NDArray[np.int64]:
-        """Return links (L, 2) between shells: pairs of polygons with near samples."""
-        pairs = cKDTree(samples.positions).query_pairs(
-            _TOUCH * spacing, output_type="ndarray"
-        )
-        links = self.polygon_of[pairs]
-        return links[shells[links[:, 0]] != shells[links[:, 1]]]
+    polygon_of: NDArray[np.int64]
+    shares: sparse.csr_array
+    graph: FaceGraph
+    n_unsampled: int
+    n_shells: int
 
     def to_polygons(
         self, labels: NDArray[np.int64], n_labels: int
