@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...steps.progress import Progress, Steps
-from .knees import find_knees
+from .knees import SHARP_TURN, find_knees
 from .limb import Joints, limb_of
 from .necks import find_necks
 from .seen import Count, Demands, seen_beyond
@@ -22,11 +22,12 @@ _BESIDE_KNEES = Demands(least_rank=0.6, most_seen=0.5, fewest_samples=10)
 # Pieces beside a neck are nearly convex, as beads are. They may well see each other,
 # and few samples tell that of a short one.
 _BESIDE_NECKS = Demands(least_rank=0.8, most_seen=1.0, fewest_samples=5)
-# The limbs of a shape bend alike: one has to turn by this much, in radians.
-_CLEAR_TURN = 0.87
-# They have necks alike: one of them has to be so deep, and those of so many limbs and
-# this share of them so deep. One waist may be that of a vase, and two be chance.
-_CLEAR_DEPTH, _DEPTH = 1.2, 1.12
+# The limbs of a shape are alike: one has to turn by this much, in radians, or have so
+# deep a neck.
+_CLEAR_TURN, _CLEAR_DEPTH = 0.87, 1.2
+# If so many limbs and this share of them have sharp knees, or so deep a neck, others
+# may have a slighter one. One waist may be that of a vase, and two be chance.
+_DEPTH = 1.12
 _FEWEST_LIMBS, _LEAST_SHARE = 3, 0.5
 
 
@@ -56,17 +57,24 @@ def cut_limbs(
             necks[number] = seen_beyond(find_necks(limb), count, _BESIDE_NECKS)
             if bends:
                 knees[number] = seen_beyond(find_knees(limb), count, _BESIDE_KNEES)
-    cut = {number: found for number, found in knees.items() if found.sizes}
-    if max(map(_clearest, cut.values()), default=0.0) < _CLEAR_TURN:
-        cut = {}
+    cut = _jointed(knees, _CLEAR_TURN, SHARP_TURN, SHARP_TURN)
     straight = {n: found for n, found in necks.items() if n not in cut}
-    depths = np.array(list(map(_clearest, straight.values())))
-    fewest = max(_FEWEST_LIMBS, _LEAST_SHARE * len(depths))
-    if (depths >= _DEPTH).sum() >= fewest and depths.max() >= _CLEAR_DEPTH:
-        cut |= {n: found for n, found in straight.items() if found.sizes}
+    cut |= _jointed(straight, _CLEAR_DEPTH, _DEPTH)
     return {n: (parts[n][0].kept, joints.pieces) for n, joints in cut.items()}
 
 
-def _clearest(joints: Joints) -> float:
-    """Return the size of the clearest joint, 0 without one."""
-    return max(joints.sizes, default=0.0)
+def _jointed(
+    limbs: dict[int, Joints], clear: float, usual: float, least: float = np.inf
+) -> dict[int, Joints]:
+    """Return the limbs that come apart at joints of a kind.
+
+    Those with joints of size `least` do if one of the limbs has a `clear` joint. All
+    that have any do if many have one of the `usual` size, too.
+    """
+    sizes = {number: max(joints.sizes, default=0.0) for number, joints in limbs.items()}
+    if max(sizes.values(), default=0.0) < clear:
+        return {}
+    n_usual = sum(size >= usual for size in sizes.values())
+    if n_usual >= max(_FEWEST_LIMBS, _LEAST_SHARE * len(limbs)):
+        least = 0.0
+    return {n: limbs[n] for n, size in sizes.items() if size and size >= least}

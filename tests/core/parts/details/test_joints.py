@@ -92,6 +92,19 @@ def test_what_is_cut_on_one_side_is_cut_on_the_other(monkeypatch):
     assert parts(spider(bent=True)).n_parts == 9
 
 
+@pytest.mark.parametrize(("far", "expected"), [(0.3, 9), (-0.3, 7), (-1.0, 5)])
+def test_slight_knees_count_if_most_limbs_have_others(far, expected, monkeypatch):
+    """Of one leg, of all but one, whose mirror image is cut as it is, or of all."""
+
+    def slighter(limb):
+        knees = find_knees(limb)
+        x, y, _ = limb.part.graph.centers.mean(axis=0)
+        return knees._replace(sizes=[0.6]) if x + y > far else knees
+
+    monkeypatch.setattr(limb_joints, "find_knees", slighter)
+    assert parts(spider(bent=True)).n_parts == expected
+
+
 def test_straight_legs_stay_whole():
     mesh = spider(bent=False)
     before, after = parts(mesh, levels=1), parts(mesh)

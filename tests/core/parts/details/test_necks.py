@@ -9,6 +9,7 @@ from computed import graph_of, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.describe import describe
 from weak_convex_decomposition.core.parts.details.joints import cut_joints
+from weak_convex_decomposition.core.parts.details.knees import find_knees
 from weak_convex_decomposition.core.parts.details.limb import limb_of
 from weak_convex_decomposition.core.parts.details.necks import find_necks
 from weak_convex_decomposition.core.parts.details.surface import PartSurface
@@ -89,3 +90,11 @@ def test_limbs_that_taper_or_bend_have_no_necks(end, turn):
     joints = find_necks(limb(np.linspace(end, 1.0, 97), turn))
     assert joints.sizes == []
     assert not joints.pieces.any()
+
+
+@pytest.mark.parametrize(("turn", "least"), [(0.7, 0.55), (0.9, 0.7)])
+def test_limbs_without_sharp_knees_may_have_slight_ones(turn, least):
+    sizes = find_knees(limb(np.full(97, 0.5), turn)).sizes
+    assert sizes
+    assert least <= min(sizes)
+    assert max(sizes) < least + 0.15
