@@ -143,8 +143,8 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
     Returns
     -------
     Steps of tuple of two Cells or None
-        The pieces below and above the plane. None if no plane has some of the surface
-        on both sides, or of a film some points.
+        The pieces below and above the plane. Some of the surface is on both sides if
+        any plane has that. None if no plane has points on both sides.
     """
     kind = cell.fit.parameters.shape
     if _is_convex(cell) and (kind in _ROUND or cell.left_out):
@@ -161,19 +161,21 @@ def _cheapest(
     cell: Cell, planes: NDArray[np.float64]
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
-    cuts: list[tuple[float, int, tuple[Cell, Cell]]] = []
-    solid_volume, firm = cell.solid.volume, cell.on_surface.sum() > 1
+    made: list[tuple[Cell, Cell]] = []
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
-        # A film along a cut may have one sample of the surface, or none; by rounding,
-        # one as thin as can be may have no points.
-        if all(
-            len(side.points) and (side.on_surface.any() or not firm) for side in sides
-        ):
-            least_errors = [side.least_error for side in sides]
-            bound = cost_of_sides(sides, least_errors, solid_volume)
-            cuts.append((bound, len(cuts), sides))
+        # By rounding, a film as thin as can be may have no points.
+        made += [sides] if all(len(side.points) for side in sides) else []
+    # A film along a cut has no sample of the surface. But a small piece may have so few
+    # that one side of every cut has none.
+    firm = [sides for sides in made if all(side.on_surface.any() for side in sides)]
+    solid_volume = cell.solid.volume
+    cuts: list[tuple[float, int, tuple[Cell, Cell]]] = []
+    for turn, sides in enumerate(firm or made):
+        yield Progress("Cutting", 1.0)
+        least_errors = [side.least_error for side in sides]
+        cuts.append((cost_of_sides(sides, least_errors, solid_volume), turn, sides))
     best, least = None, (np.inf, 0)
     for bound, turn, sides in sorted(cuts):
         if bound > least[0]:

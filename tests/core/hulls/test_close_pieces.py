@@ -8,7 +8,11 @@ import pytest
 import shapes
 from computed import build_hulls
 from weak_convex_decomposition.core.hulls.cutting import close_pieces
+from weak_convex_decomposition.core.hulls.cutting.cell import whole
+from weak_convex_decomposition.core.hulls.fitting import fit_for
+from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
+from weak_convex_decomposition.core.steps.progress import run
 
 
 @pytest.mark.parametrize(
@@ -79,17 +83,17 @@ def test_pieces_are_not_cut_again_without_end(monkeypatch):
     assert "no cuts" in found.notes[-1]
 
 
-def test_a_film_with_one_sample_of_the_surface_is_cut(monkeypatch):
-    # Planes beside flat faces leave such films, with little but faces of cuts.
-    seen, best_cut = [], close_pieces.best_cut
-
-    def one_sample(cell):
-        first = np.where(np.arange(len(cell.triangles)) == 0, cell.triangles, -1)
-        seen.append(cell)
-        return best_cut(replace(cell, triangles=first) if len(seen) == 1 else cell)
-
-    monkeypatch.setattr(close_pieces, "best_cut", one_sample)
-    assert build_hulls(shapes.comb(), HullParameters()).n_hulls > 1
+@pytest.mark.parametrize("n_samples", [0, 1, 3])
+def test_a_piece_with_few_samples_of_the_surface_is_cut(n_samples):
+    """Such are small pieces, and films that planes leave beside flat faces."""
+    mesh = shapes.comb()
+    piece = whole(run(solid_of(mesh, 0)), fit_for(mesh, HullParameters(), 1.0)[0])
+    few = np.full_like(piece.triangles, -1)
+    at_a_corner = piece.boundary.sum(axis=1).argsort()[:n_samples]
+    few[at_a_corner] = piece.triangles[at_a_corner]
+    below, above = run(close_pieces.best_cut(replace(piece, triangles=few)))
+    assert 0 < below.volume < piece.volume
+    assert below.volume + above.volume == pytest.approx(piece.volume)
 
 
 @pytest.mark.parametrize("max_vertices", [4, 6])
