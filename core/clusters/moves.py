@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.labels import sums_by_label
-from ..sight.pair_visibility import Matrix, PairVisibility
+from ..sight.pair_visibility import PairVisibility
 
 # Most sweeps over all samples. For most shapes, no sample moves after five.
 _SWEEPS = 10
@@ -33,19 +32,14 @@ class MoveGains:
     ) -> None:
         self._pairs = pairs
         self._members = np.eye(n_labels, dtype=np.float32)[labels]
-        # Multiples of a power of 2: their float32 sums are exact in any order.
-        self._visible = self._sums(pairs.visible, labels)
+        self._visible, self._known = (
+            np.array(counts.T, order="C") for counts in pairs.sums(labels, n_labels)
+        )
+        self._total = self._known.sum(dtype=np.float64)
         self._own = pairs.visible.diagonal()
-        self._sizes = self._members.sum(axis=0)
-        self._total = float(pairs.n_samples) ** 2
-        if pairs.known is not None:
-            self._known = self._sums(pairs.known, labels)
-            self._own_known, self._total = pairs.known.diagonal(), pairs.known.sum()
-
-    def _sums(self, matrix: Matrix, labels: NDArray[np.int64]) -> NDArray[np.float32]:
-        """Return the sum of each row over the columns of each label, (N, K)."""
-        sums = sums_by_label(matrix, labels, self._members.shape[1])
-        return np.ascontiguousarray(sums.T)
+        self._own_known = (
+            np.ones_like(self._own) if pairs.known is None else pairs.known.diagonal()
+        )
 
     def of(self, rows: slice, alpha: float) -> NDArray[np.float64]:
         """Return the gain in psi of every label for R samples.
@@ -66,10 +60,7 @@ class MoveGains:
         mine = self._members[rows]
         # Leave out the sample itself: it sees itself under any label.
         visible = self._visible[rows] - mine * self._own[rows, None]
-        if self._pairs.known is None:
-            known = self._sizes - mine
-        else:
-            known = self._known[rows] - mine * self._own_known[rows, None]
+        known = self._known[rows] - mine * self._own_known[rows, None]
         gains = (1 + alpha) * visible.astype(float) - alpha * known.astype(float)
         return 2 * len(self._members) * gains / self._total
 
@@ -86,10 +77,11 @@ class MoveGains:
         change = -self._members[samples]
         change[np.arange(len(samples)), labels] += 1
         self._members[samples] += change
-        self._sizes += change.sum(axis=0)
-        self._visible += self._pairs.visible[samples].T @ change
-        if self._pairs.known is not None:
-            self._known += self._pairs.known[samples].T @ change
+        visible, known = self._pairs.visible, self._pairs.known
+        self._visible += visible[samples].T @ change
+        self._known += (
+            change.sum(axis=0) if known is None else known[samples].T @ change
+        )
 
 
 def raise_psi(

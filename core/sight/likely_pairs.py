@@ -48,18 +48,15 @@ def likely_pairs(
     Parameters
     ----------
     pairs : PairVisibility
-        Pairs of N samples that see each other.
+        All pairs of N samples, and which of them see each other.
     positions : (N, 3) float
         Positions of the samples, in any units.
 
     Returns
     -------
     Steps of PairVisibility
-        `visible` holds the probabilities, symmetric and 1 on the diagonal. If only some
-        pairs are known, it is `pairs` itself.
+        `visible` holds the probabilities, symmetric and 1 on the diagonal.
     """
-    if pairs.known is not None:
-        return pairs
     visible, n_samples = np.asarray(pairs.visible), pairs.n_samples
     sizes = visible.sum(axis=1)
     reach = _REACH * np.log(sizes / n_samples + _LITTLE)

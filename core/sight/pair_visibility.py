@@ -76,15 +76,33 @@ class PairVisibility:
         -------
         rank, error : float
         """
-        visible = np.asarray(self.visible.sum(axis=1), dtype=float).ravel()
-        if self.known is None:
-            known = np.full(self.n_samples, float(self.n_samples))
-        else:
-            known = np.asarray(self.known.sum(axis=1), dtype=float).ravel()
+        sums = self.sums(np.zeros(self.n_samples, dtype=np.int64), 1)
+        visible, known = np.concatenate(sums).astype(np.float64)
         rank = float(visible.sum() / known.sum())
         deviations = (visible - rank * known) / known.mean()
         variance = float((np.diff(deviations) ** 2).mean()) / 2
         return rank, 2 * float(np.sqrt(variance / self.n_samples))
+
+    def sums(
+        self, labels: NDArray[np.int64], n_labels: int
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Count visible and known pairs of each sample with those of each of K labels.
+
+        Parameters
+        ----------
+        labels : (N,) int in 0…K − 1
+        n_labels : int
+
+        Returns
+        -------
+        visible, known : (K, N) float32
+            Exact in any order of adding: they add up multiples of a power of 2.
+        """
+        visible = sums_by_label(self.visible, labels, n_labels)
+        if self.known is not None:
+            return visible, sums_by_label(self.known, labels, n_labels)
+        sizes = np.bincount(labels, minlength=n_labels).astype(np.float32)
+        return visible, np.broadcast_to(sizes[:, None], visible.shape)
 
     def tally(self, labels: NDArray[np.int64], n_labels: int) -> PairTally:
         """Count visible and known pairs of samples between every two of K labels.
@@ -98,16 +116,11 @@ class PairVisibility:
         -------
         PairTally
         """
-
-        def counts(matrix: Matrix) -> NDArray[np.float64]:
-            # Sums of a row are exact in single precision: multiples of a power of 2.
-            of_rows = sums_by_label(matrix, labels, n_labels).astype(np.float64)
-            return sums_by_label(of_rows.T, labels, n_labels)
-
-        if self.known is None:
-            sizes = np.bincount(labels, minlength=n_labels).astype(np.float64)
-            return PairTally(counts(self.visible), sizes[:, None] * sizes)
-        return PairTally(counts(self.visible), counts(self.known))
+        visible, known = (
+            sums_by_label(of_rows.astype(np.float64).T, labels, n_labels)
+            for of_rows in self.sums(labels, n_labels)
+        )
+        return PairTally(visible, known)
 
     def hidden(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return the pairs that are known to be hidden, each once.

@@ -1,4 +1,19 @@
-"""The samples of a shape, and which of them see each other."""
+"""The samples of a shape, and which of them see each other.
+
+============== ==================== ================ ==================================
+`Visibility`   is made from         is seen through  is read for
+============== ==================== ================ ==================================
+`rank_pairs`   rays                 the inside       convexity ranks
+`affinity`     rays                 containers, too  the embedding
+`psi_pairs`    `rank_pairs`         containers, too  psi that is shown, choice of k
+`likely_pairs` `psi_pairs`, places  containers, too  psi while parts and seams are found
+============== ==================== ================ ==================================
+
+`psi_pairs` is `rank_pairs` itself if nothing is enclosed, and `likely_pairs` is
+`psi_pairs` itself if nothing is guessed. `affinity` is the matrix of `psi_pairs` if all
+pairs are known. Of random pairs, it also has those of each sample with itself; with
+cones, `psi_pairs` may be random ones.
+"""
 
 from __future__ import annotations
 
@@ -92,7 +107,10 @@ class Visibility:
     @property
     def shows_all_of_solid(self) -> bool:
         """Whether the shape is a whole mesh, not flat, and all pairs are known."""
-        return _is_whole_solid(self.shape) and self.psi_pairs.known is None
+        shape = self.shape
+        whole = bool((shape.targets.polygons < shape.n_nodes).all())
+        solid = whole and shape.plane is None and not shape.is_cloud
+        return solid and self.psi_pairs.known is None
 
     @cached_property
     def thickness(self) -> NDArray[np.float64]:
@@ -186,21 +204,6 @@ def _for_size(shape: PreparedShape, parameters: Parameters) -> Parameters:
     return replace(parameters, samples=min(parameters.samples, few))
 
 
-def _are_guessed(shape: PreparedShape) -> bool:
-    """Return whether likely pairs are guessed: for whole meshes of many triangles.
-
-    All samples of a large face are likely in one part, and it would be one of its own.
-    People divide whole shapes. Within a part, such as a hand, lines of sight tell more.
-    """
-    return _is_whole_solid(shape) and len(shape.targets.triangles) >= _FEW_TRIANGLES
-
-
-def _is_whole_solid(shape: PreparedShape) -> bool:
-    """Return whether a shape is a whole mesh that is not flat."""
-    whole = bool((shape.targets.polygons < shape.n_nodes).all())
-    return whole and shape.plane is None and not shape.is_cloud
-
-
 def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibility]:
     """Compute the visibility of a shape: the expensive half of a decomposition.
 
@@ -230,10 +233,13 @@ def see_in_steps(shape: PreparedShape, parameters: Parameters) -> Steps[Visibili
             0.9,
             0.95,
         )
-    likely = psi
-    if _are_guessed(shape):
-        guesses = likely_pairs(psi, sight.samples.positions)
-        likely = yield from within(guesses, 0.95, 1.0)
-    return Visibility(
-        shape, sight.samples, affinity.visible, psi, likely, sight.rank_pairs
+    seen = Visibility(
+        shape, sight.samples, affinity.visible, psi, psi, sight.rank_pairs
     )
+    # All samples of a large face are likely in one part, and it would be one of its
+    # own. People divide whole shapes. Within a part, lines of sight tell more.
+    if not seen.shows_all_of_solid or len(shape.targets.triangles) < _FEW_TRIANGLES:
+        return seen
+    guesses = likely_pairs(psi, sight.samples.positions)
+    likely = yield from within(guesses, 0.95, 1.0)
+    return replace(seen, likely_pairs=likely)

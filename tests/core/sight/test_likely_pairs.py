@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 import shapes
-from scipy import sparse
 from weak_convex_decomposition.core.sight import likely_pairs as module
 from weak_convex_decomposition.core.sight.likely_pairs import likely_pairs
 from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
@@ -75,7 +74,7 @@ def test_they_count_in_meshes_whose_seams_run_anywhere(seen, comb):
     assert (visibility.likely_pairs.visible == whole).all()
 
 
-def test_where_most_pairs_are_unknown_lines_of_sight_stay():
-    some = sparse.csr_array(np.eye(5, dtype=np.float32))
-    pairs = PairVisibility(some, some)
-    assert run(likely_pairs(pairs, np.eye(5))) is pairs
+def test_where_most_pairs_are_unknown_lines_of_sight_stay(seen):
+    visibility = seen(fine, sight="ALL_PAIRS", rays=30).visibility
+    assert visibility.psi_pairs.known is not None
+    assert visibility.likely_pairs is visibility.psi_pairs
