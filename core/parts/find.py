@@ -1,4 +1,18 @@
-"""Finds the parts of a shape from its visibility."""
+"""Finds the parts of a shape from its visibility.
+
+`PartCountSearch.best` finds them if no number is given:
+
+1. `tried`: find candidates for 2 to 13 parts, and for more while psi still rises.
+2. `rated`: count psi by lines of sight alone; choose the fewest that are good enough.
+3. `seams.cut`: smooth the seams of these parts.
+4. `creases.better`: or cut along creases, or not at all, if that is better.
+
+`given` starts with the same search. If it chose another number, its parts are split or
+merged, and compete with the candidate for the number that is given. `guess` takes the
+candidate for a likely number, without the search, and smooths roughly.
+`with_bends_kept` merges what `best` or `given` found across bends, and asks `given` for
+more parts until enough are left.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +67,7 @@ def find_parts(
         wanted = given(search, parameters.parts) if parameters.parts else search.best()
     seams, psi_by_k, best_k = yield from within(wanted, 0.2, 0.85)
     if not guesses:
-        memo.tried = yield from search.tried()
+        _, memo.tried = yield from search.tried()
         seams = yield from within(search.seams.smoothed(seams), 0.85, 0.9)
     rough = rough and (guesses or seams_take_long(partitioner, seams))
     finer = labels_of_nodes(partitioner, seams, rough)

@@ -40,11 +40,13 @@ def guess(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     Steps of Search
         It has the psi of no other number, and 0 as `best_k`.
     """
+    high = search.first_high
     if search.searched:
+        high, _ = yield from search.tried()
         parts = yield from within(own_parts(search, n_parts), 0.0, 0.6)
     else:
         parts = (yield from within(search.alone(n_parts), 0.0, 0.6)).parts
     cutter = SeamCutter(search.partitioner, _SWEEPS, rough=True)
-    seams = yield from within(cutter.cut(parts, least_psi(search, n_parts)), 0.6, 1.0)
+    seams = yield from within(cutter.cut(parts, least_psi(n_parts, high)), 0.6, 1.0)
     psi_by_k = {count_parts(parts): search.partitioner.psi_seen(parts)}
     return Search(seams, psi_by_k, 0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from math import ceil, log2
 from typing import NamedTuple
 
 from ..parameters.parts import Parameters
@@ -69,6 +70,8 @@ class PartCountSearch:
         Parts along creases, which compete with others.
     low, most : int
         Least and largest number of parts.
+    first_high : int
+        Last number that is tried at first.
     """
 
     def __init__(self, partitioner: Partitioner) -> None:
@@ -77,26 +80,8 @@ class PartCountSearch:
         self.creases = CreaseParts(partitioner)
         self.low = partitioner.parameters.min_parts
         self.most = partitioner.parameters.max_parts
-
-    @property
-    def high(self) -> int:
-        """Last number to try, by what is known: doubled while psi still rises."""
-        high = _FIRST_HIGH
-        while high < self.most:
-            if self.low <= high and not self._rises(high):
-                return high
-            high *= 2
-        return self.most
-
-    def _rises(self, high: int) -> bool:
-        """Return whether it is known that psi still rises at a last number."""
-        numbers = self.low, high
-        if numbers not in self.memo.searches:
-            return False
-        tried = self.memo.searches[numbers]
-        return self.memo.rising.recall(
-            numbers, lambda: still_rises(*self.rated(tried), high)
-        )
+        doublings = max(0, ceil(log2(self.low / _FIRST_HIGH)))
+        self.first_high = min(_FIRST_HIGH * 2**doublings, self.most)
 
     def best(self) -> Steps[Search]:
         """Return the parts for the smallest k that is good enough.
@@ -116,7 +101,7 @@ class PartCountSearch:
         -------
         Steps of Search
         """
-        tried = yield from within(self.tried(), 0.0, 0.9)
+        _, tried = yield from within(self.tried(), 0.0, 0.9)
         psi_by_k, best_k = self.rated(tried)
         seams = yield from within(self.seams.cut(tried[best_k].parts), 0.9, 1.0)
         low = self.low if self.low > Parameters.min_parts else 1
@@ -128,26 +113,41 @@ class PartCountSearch:
 
     @property
     def searched(self) -> bool:
-        """Whether all numbers to try were tried before."""
-        return (self.low, self.high) in self.memo.searches
+        """Whether all numbers to try were tried before: `tried` takes no time."""
+        high, more = 0, self.first_high
+        while high < more and (self.low, more) in self.memo.searches:
+            high = more
+            more = self._next(high, self.memo.searches[self.low, high])
+        return high == more
 
-    def tried(self, low: int | None = None) -> Steps[dict[int, Candidate]]:
-        """Return the candidate for one part, and for each number tried, if it is made.
+    def tried(self) -> Steps[tuple[int, dict[int, Candidate]]]:
+        """Try numbers of parts, and more of them while psi still rises at the last.
 
-        Parameters
-        ----------
-        low : int, optional
-            First number, in place of the search's own.
+        Returns
+        -------
+        high : int
+            Last number that was tried.
+        tried : dict of int to Candidate
+            For one part, and for each number that can be made.
         """
-        share = 0.0  # the last number is seldom doubled, and in little time
+        high, share = self.first_high, 0.0
         while True:
-            numbers = self.low if low is None else low, self.high
-            steps = partial(self._try, *numbers)
-            known = self.memo.searches.recall_steps(numbers, steps)
-            found = yield from within(known, share, 1.0)
-            if numbers[1] == self.high:
-                return found
-            share = 1.0
+            steps = self.between(self.low, high)
+            tried = yield from within(steps, share, 1.0)
+            more = self._next(high, tried)
+            if more == high:
+                return high, tried
+            high, share = more, 1.0  # more are seldom tried, and in little time
+
+    def _next(self, high: int, tried: dict[int, Candidate]) -> int:
+        """Return the last number to go on to: doubled if psi still rises at `high`."""
+        rises = still_rises(*self.rated(tried), high)
+        return min(2 * high, self.most) if rises else high
+
+    def between(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
+        """Return candidates for 1 and `low`…`high` parts, of each that can be made."""
+        steps = partial(self._try, low, high)
+        return self.memo.searches.recall_steps((low, high), steps)
 
     def alone(self, n_parts: int) -> Steps[Candidate]:
         """Return the candidate for a number of parts, found without the others."""
@@ -184,7 +184,7 @@ class PartCountSearch:
         return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
-        """Find candidates for 1 and `low`…`high` parts, as far as these can be made."""
+        """Find what `between` returns."""
         by, top = self.partitioner, (yield from within(self.alone(high), 0.0, 0.2))
         most = count_parts(top.parts)
         tried = {1: by.candidate(1), most: top}

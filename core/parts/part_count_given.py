@@ -9,6 +9,7 @@ from ..clusters.embedding import coordinates_for
 from ..steps.progress import Steps, within
 from .part_count import PartCountSearch, Search
 from .part_psi import count_parts
+from .partition import Partitioner
 from .seams.cutter import Seams
 
 # How many more clusters than parts many are split by, in turn. With two more, one
@@ -46,7 +47,7 @@ def knows(search: PartCountSearch, n_parts: int) -> bool:
 def _key(search: PartCountSearch, n_parts: int) -> tuple[int, int, int, float]:
     """Return the key under which the result of `given` is kept."""
     smoothness = search.partitioner.parameters.smoothness
-    return n_parts, search.low, search.high, smoothness
+    return n_parts, search.low, search.most, smoothness
 
 
 def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
@@ -55,13 +56,14 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     chosen, by = searched.seams.parts, search.partitioner
     if count_parts(chosen) == n_parts:
         return searched
+    high, _ = yield from search.tried()
     own = yield from within(own_parts(search, n_parts), 0.6, 0.7)
-    made, many = count_parts(own), n_parts > search.high
-    resized = yield from within(_resized(search, chosen, made), 0.7, 0.8)
+    made, many = count_parts(own), n_parts > high
+    resized = yield from within(_resized(by, chosen, made, high), 0.7, 0.8)
     if many:  # to cut the seams of both takes long
         rivals = own, resized
         own = max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))
-    least = least_psi(search, n_parts)
+    least = least_psi(n_parts, high)
     found = [(yield from within(search.seams.cut(own, least), 0.8, 0.9))]
     if not many:
         smooth = yield from within(search.seams.cut(resized), 0.9, 1.0)
@@ -82,34 +84,34 @@ def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]
     More parts than the search tries are the most that it tries, split further. They
     have a larger psi than what k-means finds for so many, and take less time.
     """
-    low, high, by = search.low, search.high, search.partitioner
-    tried = yield from search.tried(min(n_parts, low))
+    by, (high, tried) = search.partitioner, (yield from search.tried())
+    if n_parts < search.low:
+        tried = yield from search.between(n_parts, high)
     if n_parts <= high:
         return tried[min(n_parts, max(tried))].parts
     if not by.by_psi:
         return (yield from search.alone(n_parts)).parts
-    return (yield from _resized(search, tried[max(tried)].parts, n_parts))
+    return (yield from _resized(by, tried[max(tried)].parts, n_parts, high))
 
 
 def _resized(
-    search: PartCountSearch, parts: NDArray[np.int64], n_parts: int
+    by: Partitioner, parts: NDArray[np.int64], n_parts: int, high: int
 ) -> Steps[NDArray[np.int64]]:
     """Return parts (P,) split or merged so that there are `n_parts`.
 
-    For many, they are split into as many as the embedding serves, and these merged. So
-    the same clusters serve all such numbers, and one part more divides one part.
+    More than `high` are as many as the embedding serves, merged. So the same clusters
+    serve all such numbers, and one part more divides one part.
     """
-    by = search.partitioner
-    if n_parts <= search.high:
+    if n_parts <= high:
         return by.resized_in_steps(parts, n_parts)
     most = coordinates_for(n_parts)
     return by.resized_in_steps(parts, n_parts, most, _FEW_TRIES)
 
 
-def least_psi(search: PartCountSearch, n_parts: int) -> float | None:
+def least_psi(n_parts: int, high: int) -> float | None:
     """Return the least psi that `own_parts` may have once their seams are cut.
 
-    None stands for the psi of the parts that k-means alone finds. Many parts have no
-    limit: to find those of k-means would take long.
+    None stands for the psi of the parts that k-means alone finds. More parts than
+    `high` have no limit: to find those of k-means would take long.
     """
-    return None if n_parts <= search.high else -np.inf
+    return None if n_parts <= high else -np.inf

@@ -56,11 +56,10 @@ class CutMemo:
         Maps a number of parts to the connected parts from k-means' clusters.
     even : Memo
         Maps the number of a side and the digest of parts to symmetric parts.
-    searches, given : Memo
-        Map the first and last number tried to the candidate for each number, and with a
-        number given before, and a smoothness behind, to the result for that number.
-    rising : Memo
-        Maps the first and last number tried to whether psi still rises there.
+    searches : Memo
+        Maps the first and last number tried to the candidate for each number.
+    given : Memo
+        Maps a number given, the least and largest number, and a smoothness to `Search`.
     seams, looks, fine : Memo
         Map a smoothness, a least psi and the digest of parts to the parts with their
         seams cut, well or for a first look, with the digest of ragged nodes behind, to
@@ -73,7 +72,6 @@ class CutMemo:
         self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
         self.given: Memo[tuple[int, int, int, float], Any] = Memo(32)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
-        self.rising: Memo[tuple[int, int], bool] = Memo()
         self.seams: Memo[SeamsKey, Any] = Memo(32)
         self.looks: Memo[SeamsKey, Any] = Memo(32)
         self.fine: Memo[tuple[float, bytes], NDArray[np.uint16]] = Memo(16)

@@ -28,11 +28,12 @@ def with_bends_kept(search: PartCountSearch) -> Steps[Search]:
     found = yield from within(search.best(), 0.0, 0.5)
     merged = yield from merger.merge(found.seams.parts)
     best_k = left = count_parts(merged)
-    tried = range(n_parts, search.high + 1) if n_parts else ()
-    for turn, k in enumerate(tried):
+    high, _ = yield from search.tried()
+    numbers = range(n_parts, high + 1) if n_parts else ()
+    for turn, k in enumerate(numbers):
         if left == n_parts or (turn and left > n_parts):
             break
-        steps = within_turn(given(search, k), turn, len(tried))
+        steps = within_turn(given(search, k), turn, len(numbers))
         found = yield from within(steps, 0.5, 0.9)
         merged = yield from merger.merge(found.seams.parts)
         left = count_parts(merged)

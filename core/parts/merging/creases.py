@@ -50,7 +50,7 @@ class CreaseParts:
         self._partitioner = partitioner
 
     @cached_property
-    def parts(self) -> NDArray[np.int64]:
+    def pieces(self) -> NDArray[np.int64]:
         """(P,) piece of each node, small ones merged; 0 for all if none is proposed."""
         graph = self._partitioner.graph
         if graph.outline is not None:
@@ -84,17 +84,17 @@ class CreaseParts:
 
     def better(
         self,
-        rivals: NDArray[np.int64],
+        parts: NDArray[np.int64],
         low: int,
         high: int,
         *others: NDArray[np.int64],
     ) -> NDArray[np.int64]:
-        """Return the best of other parts, the pieces, both seams, and one part.
+        """Return the best of some parts, the pieces, both seams, and one part.
 
         Parameters
         ----------
-        rivals : (P,) int
-            Other parts of each node, `low` to `high`.
+        parts : (P,) int
+            Part of each node, of `low` to `high`, found without the pieces.
         low, high : int
             Least and largest number of parts. One part competes only if `low` is 1.
         *others : (P,) int
@@ -103,23 +103,23 @@ class CreaseParts:
         Returns
         -------
         (P,) int
-            `rivals` itself if nothing is better.
+            `parts` itself if nothing is better.
         """
-        found, n_pieces = list(others), count_parts(self.parts)
+        found, n_pieces = list(others), count_parts(self.pieces)
         if n_pieces > 1:
             n_parts = min(max(n_pieces, low), high)
-            steps = self._partitioner.resized_in_steps(self.parts, n_parts)
+            steps = self._partitioner.resized_in_steps(self.pieces, n_parts)
             found.append(run(steps))
-            found.append(self._with_loops(rivals, high))
-            found.append(np.zeros_like(rivals))
-        found = [each for each in found if low <= count_parts(each) <= high]
-        return max([rivals, *found], key=self._worth) if found else rivals
+            found.append(self._with_loops(parts, high))
+            found.append(np.zeros_like(parts))
+        rivals = [each for each in found if low <= count_parts(each) <= high]
+        return max([parts, *rivals], key=self._worth) if rivals else parts
 
     def _with_loops(self, parts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
         """Return the parts, cut along the loops too; at most so many (P,)."""
-        by, n_pieces = self._partitioner, count_parts(self.parts)
+        by, n_pieces = self._partitioner, count_parts(self.pieces)
         finer = connected_parts(
-            by.graph, parts * n_pieces + self.parts, by.smallest_area
+            by.graph, parts * n_pieces + self.pieces, by.smallest_area
         )
         finer = _joined(by.graph, finer, _slivers(by.graph, finer, parts))
         if count_parts(finer) <= most:
@@ -140,7 +140,7 @@ class CreaseParts:
         crease. So that much is taken off.
         """
         graph = self._partitioner.graph
-        one, other = self.parts[graph.neighbors].T
+        one, other = self.pieces[graph.neighbors].T
         saved = np.where(one != other, graph.lengths - graph.seam_costs, 0.0)
         return _price(graph) * (graph.seam_costs - saved)
 

@@ -83,7 +83,7 @@ PATCHES: dict[str, Sequence[tuple[Any, str, Any]]] = {
         (part_memo, "embed", lambda *given: of_equal_length(embed(*given)))
     ],
     "no likely pairs": [(visibility, "likely_pairs", by_sight_alone)],
-    "no loops of creases": [(CreaseParts, "better", lambda _, rivals, *__: rivals)],
+    "no loops of creases": [(CreaseParts, "better", lambda _, parts, *__: parts)],
     "no spikes, knees and necks": [(levels, "cut_joints", nothing_cut)],
     "Auto's parts do not compete": [(CreaseParts, "better", without_parts_of_auto)],
     "no psi-raising moves": [

@@ -108,7 +108,7 @@ def test_what_lies_between_a_seam_and_a_loop_is_no_part():
     memo = see(shapes.turned(radii, heights, 32), parameters)
     creases = part_count_search(memo, parameters, 2, 9).creases
     along = memo.transfer.graph.centers[:, 2]
-    step = along[creases.parts == creases.parts[along.argmax()]].min()
+    step = along[creases.pieces == creases.pieces[along.argmax()]].min()
     beside = np.digitize(along, [(along.min() + step) / 2, step + 0.01])
     found = creases.better(beside, 1, 9)
     assert found is not beside

@@ -4,13 +4,18 @@ from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
 
+import flats
 import numpy as np
 import pytest
 import shapes
 from computed import decompose, graph_of, part_count_search, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
-from weak_convex_decomposition.core.parts.part_count_given import given, own_parts
+from weak_convex_decomposition.core.parts.part_count_given import (
+    given,
+    knows,
+    own_parts,
+)
 from weak_convex_decomposition.core.parts.part_memo import Candidate, CutMemo
 from weak_convex_decomposition.core.parts.part_psi import count_parts
 from weak_convex_decomposition.core.steps.progress import run
@@ -115,7 +120,7 @@ def comb():
 
 def test_above_five_every_second_number_has_parts_of_its_own(comb):
     search = part_count_search(comb, Parameters(samples=500), 2, 10)
-    tried = run(search.tried())
+    _, tried = run(search.tried())
     known = [k for k in range(1, 12) if k in search.memo.candidates]
     assert known == [1, 2, 3, 4, 5, 6, 8, 10]
     assert sorted(tried) == list(range(1, 11))
@@ -153,3 +158,14 @@ def test_parts_given_are_kept(comb):
     assert run(given(search, 12)) is first
     assert count_parts(first.seams.parts) == 12
     assert first.best_k == run(search.best()).best_k
+
+
+def test_parts_given_are_known_even_if_more_were_tried_meanwhile():
+    few = Parameters(samples=600)
+    memo = see(flats.filled(flats.comb(20), spacing=0.5), few)
+    search = part_count_search(memo, few, 2, 20)
+    run(given(search, 5))
+    assert (search.first_high, run(search.tried())[0]) == (13, 20)
+    assert search.searched
+    assert knows(search, 5)
+    assert not knows(part_count_search(memo, few, 2, 18), 5)
