@@ -101,7 +101,7 @@ class TriangleMesh:
         mesh.__dict__.update(self.__dict__ | {"polygons": mesh.polygons})
         return mesh
 
-    @cached_property
+    @property
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
         return run(self.bounds_in_steps())
@@ -167,7 +167,7 @@ class TriangleMesh:
             "The faces have no area; choose an object with a surface."
         )
 
-    @cached_property
+    @property
     def welded_triangles(self) -> NDArray[np.int32]:
         """(T, 3) int32, position numbers of the corners, equal for coinciding vertices.
 
@@ -189,12 +189,12 @@ class TriangleMesh:
         steps = welded(self.vertices, self.triangles, step)
         return (yield from within(steps, 0.2, 1.0))
 
-    @cached_property
+    @property
     def areas(self) -> NDArray[np.float64]:
         """(T,) areas of the triangles."""
         return run(self.normals_in_steps())[0]
 
-    @cached_property
+    @property
     def normals(self) -> NDArray[np.float64]:
         """(T, 3) outward unit normals of the triangles, 0 for degenerate ones."""
         return run(self.normals_in_steps())[1]

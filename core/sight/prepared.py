@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +30,6 @@ class PreparedShape:
     """A shape that is normalized, oriented and ready for rays.
 
     Its bounding box has center 0 and diagonal 1, and its faces point outwards.
-    `prepare_in_steps` makes it once for a shape, and every later stage takes it.
 
     Attributes
     ----------
@@ -75,7 +73,7 @@ class PreparedShape:
     plane: NDArray[np.float64] | None = None
     convex: bool = False
 
-    @cached_property
+    @property
     def graph(self) -> FaceGraph:
         """Graph of neighboring polygons, or of neighboring points of a cloud."""
         return run(self.graph_in_steps())
@@ -177,8 +175,23 @@ def prepare_in_steps(shape: Shape, make_caster: MakeCaster) -> Steps[PreparedSha
 def _prepare_mesh(
     shape: TriangleMesh, mesh: TriangleMesh, make_caster: MakeCaster
 ) -> Steps[PreparedShape]:
-    """Prepare a mesh, given normalized, too: shells, orientation, what rays see."""
-    nodes = np.arange(mesh.n_polygons)
+    """Prepare a mesh, given normalized, too: shells, orientation, what rays see.
+
+    Polygons keep their numbers. Triangles have those of `mesh`, or of the bare mesh, as
+    in shells; `bare.rows` leads from one to the other. Equal meshes are one object.
+
+    ========= =============== ================================ ======== ================
+    mesh      made by         triangles                        vertices read for
+    ========= =============== ================================ ======== ================
+    bare.mesh `bare_mesh`     neither doubled ones nor walls   as given shells
+    turned    `oriented`      of the bare mesh, outwards       as given convexity
+    targets   `set_apart`     of the bare mesh, outwards       moved    rays and samples
+    whole     `wound_as`      all, outwards but for walls      as given the graph
+    solid     `without_walls` of the whole mesh, but for walls as given hulls
+    ========= =============== ================================ ======== ================
+
+    Side 3t + i of a mesh starts at corner i of its triangle t. `Edges` sorts the sides.
+    """
     bare = yield from within(bare_mesh(mesh), 0.0, 0.3)
     shells = yield from within(find_shells(bare.mesh), 0.3, 0.4)
     turned, notes = yield from within(oriented(bare.mesh, shells), 0.4, 0.6)
@@ -187,15 +200,15 @@ def _prepare_mesh(
     whole = bare.wound_as(turned)
     convex = yield from within(is_convex(turned, shells), 0.8, 1.0)
     return PreparedShape(
-        shape.center,
-        shape.diagonal,
-        targets,
-        RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
-        len(nodes),
-        nodes,
-        lambda: face_graph(whole),
-        bare.without_walls(whole),
-        notes + bare.notes,
+        center=shape.center,
+        diagonal=shape.diagonal,
+        targets=targets,
+        marcher=RayMarcher(targets, make_caster, shells.closed[shells.of_triangle]),
+        n_nodes=mesh.n_polygons,
+        nodes=np.arange(mesh.n_polygons),
+        make_graph=lambda: face_graph(whole),
+        solid=bare.without_walls(whole),
+        notes=notes + bare.notes,
         convex=convex,
     )
 
@@ -205,15 +218,15 @@ def _prepare_flat(
 ) -> PreparedShape:
     """Prepare a flat mesh: walls along its outline carry the samples."""
     return PreparedShape(
-        shape.center,
-        shape.diagonal,
-        flat.walls,
-        RayMarcher(flat.walls, make_caster),
-        mesh.n_polygons,
-        np.arange(mesh.n_polygons),
-        flat.graph,
-        mesh,
-        flat.notes,
+        center=shape.center,
+        diagonal=shape.diagonal,
+        targets=flat.walls,
+        marcher=RayMarcher(flat.walls, make_caster),
+        n_nodes=mesh.n_polygons,
+        nodes=np.arange(mesh.n_polygons),
+        make_graph=flat.graph,
+        solid=mesh,
+        notes=flat.notes,
         plane=flat.normal,
     )
 
@@ -222,14 +235,16 @@ def _prepare_cloud(cloud: PointCloud, make_caster: MakeCaster) -> Steps[Prepared
     """Prepare a point cloud: its splats replace the surface (section 5)."""
     found = yield from splat_surface(cloud.normalized())
     return PreparedShape(
-        cloud.center,
-        cloud.diagonal,
-        found.mesh,
-        RayMarcher(found.mesh, make_caster, splat_size=found.size, tilt=found.tilt),
-        len(found.points),
-        found.nodes,
-        lambda: neighbor_graph(found.points, found.normals, found.areas),
-        found.mesh,
+        center=cloud.center,
+        diagonal=cloud.diagonal,
+        targets=found.mesh,
+        marcher=RayMarcher(
+            found.mesh, make_caster, splat_size=found.size, tilt=found.tilt
+        ),
+        n_nodes=len(found.points),
+        nodes=found.nodes,
+        make_graph=lambda: neighbor_graph(found.points, found.normals, found.areas),
+        solid=found.mesh,
         notes=found.notes,
         normals=found.found_normals,
     )

@@ -10,7 +10,6 @@ shells it ends a ray, as in the paper; within a closed shell, rays pass through 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,7 +79,7 @@ class RayMarcher:
         self.n_cast = 0
         self._make_caster = make_caster
 
-    @cached_property
+    @property
     def caster(self) -> RayCaster:
         """The ray tree of `mesh`, built on first use because hulls cast no rays."""
         return run(self.caster_in_steps())
