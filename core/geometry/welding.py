@@ -146,6 +146,7 @@ def _united(
     place_of: NDArray[np.int32], one: NDArray[np.int64], other: NDArray[np.int64]
 ) -> NDArray[np.int32]:
     """Return places, (V,), numbered anew so that both vertices of a pair share one."""
+    # SciPy would find components; enabling the extension loads meshes, but not SciPy.
     ends = place_of[np.stack([one, other])]
     lowest = np.arange(place_of.max() + 1, dtype=np.int32)
     while (lowest[ends[0]] != lowest[ends[1]]).any():
