@@ -16,7 +16,7 @@ def with_bends_kept(search: PartCountSearch) -> Steps[Search]:
     ----------
     search : PartCountSearch
         If its parameters give a number of parts, more are found first, so that as many
-        are left. If no number up to `max_parts` leaves as many, bends are cut.
+        are left. If no number that the search tries leaves as many, bends are cut.
 
     Returns
     -------
