@@ -190,7 +190,6 @@ def _invoke() -> float | None:
     return None
 
 
-@bpy.app.handlers.persistent
 def stop(*_: object) -> None:
     """Forget a modal run that waits to be started. Blender passes arguments."""
     global _begun

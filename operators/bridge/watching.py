@@ -12,10 +12,10 @@ import bpy
 def watch(handlers: Mapping[str, Callable[..., Any]]) -> None:
     """Let Blender call functions, each by the name of its list in `bpy.app.handlers`.
 
-    They are `persistent`, or Blender would drop them with the next file.
+    They are made persistent, or Blender would drop them with the next file.
     """
     for name, handler in handlers.items():
-        getattr(bpy.app.handlers, name).append(handler)
+        getattr(bpy.app.handlers, name).append(bpy.app.handlers.persistent(handler))
 
 
 def unwatch(handlers: Mapping[str, Callable[..., Any]]) -> None:

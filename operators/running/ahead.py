@@ -99,7 +99,6 @@ def after_rest(wanted: Wanted, steps: Steps[T]) -> Steps[T]:
     return (yield from steps)
 
 
-@bpy.app.handlers.persistent
 def stop(*_: object) -> None:
     """Find nothing any more. Blender passes arguments to handlers."""
     global _current

@@ -42,7 +42,6 @@ def _start() -> None:
         bpy.app.timers.register(bring_views_in_step, first_interval=0.0)
 
 
-@bpy.app.handlers.persistent
 def _look(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Look whether faces came to an object, or went."""
     for obj in changed_objects(graph):
@@ -51,7 +50,6 @@ def _look(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
             _start()
 
 
-@bpy.app.handlers.persistent
 def _look_again(*_: object) -> None:
     """Look at all objects. Blender passes arguments to handlers."""
     _n_faces.clear()

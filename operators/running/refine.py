@@ -45,7 +45,6 @@ def start() -> None:
         bpy.app.timers.register(go_on, first_interval=_REST)
 
 
-@bpy.app.handlers.persistent
 def stop(*_: object) -> None:
     """Find nothing any more, until `start`. Blender passes arguments to handlers."""
     _cancel()
@@ -99,14 +98,12 @@ def _steps(obj: bpy.types.Object) -> Steps[Edited]:
     return decompose_unlocked(obj, parameters, seen=read_as(noted_mesh(obj), obj))
 
 
-@bpy.app.handlers.persistent
 def _start_again(*_: object) -> None:
     """Look whether undo, redo or a file brought a first look."""
     if any(is_rough(obj) for obj in bpy.data.objects):
         start()
 
 
-@bpy.app.handlers.persistent
 def finish(*_: object) -> None:
     """Find all parts at once, before a file is saved."""
     while modal.busy() is None and go_on() == _PAUSE:

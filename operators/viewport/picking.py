@@ -84,7 +84,6 @@ def start(context: bpy.types.Context) -> Picking:
     return current
 
 
-@bpy.app.handlers.persistent
 def stop(*_: object) -> None:
     """End the picking, and remove its traces. Blender passes arguments to handlers."""
     global current

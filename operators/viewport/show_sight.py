@@ -169,7 +169,6 @@ class WCD_OT_hide_sight(bpy.types.Operator):
 CLASSES = (WCD_OT_show_sight, WCD_OT_hide_sight)
 
 
-@bpy.app.handlers.persistent
 def stop(*_: object) -> None:
     """Hide the overlay, and clear its text from the status bar."""
     overlay = sight_overlay.current
@@ -178,7 +177,6 @@ def stop(*_: object) -> None:
         modal.show_hint(overlay.workspace, None)
 
 
-@bpy.app.handlers.persistent
 def _stop_if_stale(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Hide the overlay if its object's vertices have moved."""
     overlay = sight_overlay.current

@@ -104,14 +104,12 @@ def _count(obj: bpy.types.Object) -> _Counted:
     return None, sums_of_all(obj) if RESULT in obj else None
 
 
-@bpy.app.handlers.persistent
 def _forget(*_: object) -> None:
     """Count again when anything may change. Blender passes arguments to handlers."""
     global _changed
     _changed = time.perf_counter()
 
 
-@bpy.app.handlers.persistent
 def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Count again when the faces of the object drawn last change."""
     kept = _kept

@@ -181,13 +181,11 @@ def _shown_marks(mesh: bpy.types.Mesh) -> list[IntArray]:
     return [read_labels(mesh, name, "FACE", n_faces, 0) for name in names]
 
 
-@bpy.app.handlers.persistent
 def stop(*_: object) -> None:
     """Forget all objects. Blender passes arguments to handlers."""
     _known.clear()
 
 
-@bpy.app.handlers.persistent
 def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Forget the objects whose geometry has changed."""
     for obj in changed_objects(graph) if _known else ():

@@ -72,6 +72,15 @@ def test_lists_of_handlers_may_have_been_emptied(name):
     handlers.extend(others)
 
 
+@pytest.mark.parametrize("name", ["depsgraph_update_post", "load_pre", "undo_post"])
+def test_another_file_leaves_the_handlers(name):
+    handlers = getattr(bpy.app.handlers, name)
+    watching = [each for each in handlers if "weak_convex" in each.__module__]
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    assert set(watching) <= set(handlers)
+    assert watching
+
+
 @pytest.mark.parametrize("name", ["register", "unregister"])
 def test_without_blender_a_sentence_tells_what_to_install(name):
     code = f"""

@@ -104,7 +104,6 @@ def noted_refusal(obj: bpy.types.Object, number: int) -> str | None:
     return _refusal(obj, part, name) or clash
 
 
-@bpy.app.handlers.persistent
 def forget_refused(*_: object) -> None:
     """Forget the name that was not taken. Blender passes arguments to handlers."""
     global refused

@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import bpy
-
 from .... import core
 from ..mesh import known
 from ..rays.bvh import BvhRayCaster
@@ -46,7 +44,6 @@ def results_kept() -> Iterator[None]:
         forget()
 
 
-@bpy.app.handlers.persistent
 def forget(*_: object) -> None:
     """Empty the cache. Blender passes arguments to handlers; they are ignored."""
     global _cache
