@@ -17,7 +17,7 @@ from .bridge.read.target import Target
 from .bridge.refusals import recut_refusal
 from .bridge.stored.noted_parts import n_faces_of
 from .bridge.stored.record import noted_mesh, noted_parameters, record_of
-from .bridge.watching import stop_timer
+from .bridge.watching import start_timer, stop_timer
 from .bridge.work.locking import decompose_unlocked
 from .bridge.work.run_edit import Edited
 from .running import ahead, modal, refine
@@ -142,8 +142,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         if not bpy.app.background:
             global _window
             _window = context.window.as_pointer() if context.window else 0
-            if not bpy.app.timers.is_registered(_invoke):
-                bpy.app.timers.register(_invoke)
+            start_timer(_invoke)
         return {"CANCELLED"}
 
     def _cut(self, context: bpy.types.Context) -> bool:

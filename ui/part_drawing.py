@@ -16,7 +16,7 @@ from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.parts.palette import srgb_of
 from ..operators.bridge.parts.rows import chosen_numbers, look_left
 from ..operators.bridge.refusals import faces_refusal
-from ..operators.bridge.watching import stop_timer
+from ..operators.bridge.watching import start_timer, stop_timer
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_identities, shown_parts
 from ..operators.viewport.viewports import redraw
@@ -101,8 +101,8 @@ def _shows_chosen(context: bpy.types.Context) -> bool:
     if obj is None or obj.type != "MESH" or len(obj.data.polygons) > _MOST_AT_A_CLICK:
         return False
     left = look_left(obj)
-    if left and not bpy.app.timers.is_registered(redraw):
-        bpy.app.timers.register(redraw, first_interval=left)
+    if left:
+        start_timer(redraw, left)
     return left > 0
 
 

@@ -25,6 +25,12 @@ def unwatch(handlers: Mapping[str, Callable[..., Any]]) -> None:
             getattr(bpy.app.handlers, name).remove(handler)
 
 
+def start_timer(function: Callable[[], float | None], seconds: float = 0.0) -> None:
+    """Let Blender call a function after a while, unless it waits for its time."""
+    if not bpy.app.timers.is_registered(function):
+        bpy.app.timers.register(function, first_interval=seconds)
+
+
 def stop_timer(function: Callable[[], float | None]) -> None:
     """Call a function no more that waits for its time."""
     if bpy.app.timers.is_registered(function):

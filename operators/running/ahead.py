@@ -18,7 +18,7 @@ from ...core.parameters.parameter import field_of, info_of
 from ...core.parameters.parts import Parameters
 from ...core.steps.job import Job
 from ...core.steps.progress import Steps, T
-from ..bridge.watching import stop_timer
+from ..bridge.watching import start_timer, stop_timer
 from ..bridge.work.run_edit import Edited
 from ..bridge.work.session_cache import session_cache
 from . import modal, refine
@@ -61,8 +61,8 @@ def start(found: Edited) -> None:
     is_large = len(found.decomposition.labels) > _MOST_FACES
     exact = near if is_large else dict.fromkeys((*near, *usual))
     _wanted[:] = [*((each, True) for each in looks), *((each, False) for each in exact)]
-    if not bpy.app.background and not bpy.app.timers.is_registered(go_on):
-        bpy.app.timers.register(go_on, first_interval=_PAUSE)
+    if not bpy.app.background:
+        start_timer(go_on, _PAUSE)
 
 
 def _with_numbers(parameters: Parameters, numbers: Iterable[int]) -> list[Parameters]:

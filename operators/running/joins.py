@@ -11,7 +11,7 @@ import bpy
 
 from ...core.errors import DecompositionError
 from ..bridge.views.node_modifiers import is_view
-from ..bridge.watching import changed_objects, stop_timer
+from ..bridge.watching import changed_objects, start_timer, stop_timer
 from ..bridge.work.in_step import bring_in_step
 
 # How many faces the objects with such modifiers have, by their `session_uid`.
@@ -38,8 +38,8 @@ def _start() -> None:
     """Do it once whatever changes objects now has ended."""
     if bpy.app.background:  # nothing calls timers there
         bring_views_in_step()
-    elif not bpy.app.timers.is_registered(bring_views_in_step):
-        bpy.app.timers.register(bring_views_in_step, first_interval=0.0)
+    else:
+        start_timer(bring_views_in_step)
 
 
 def _look(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:

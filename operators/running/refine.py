@@ -19,7 +19,7 @@ from ..bridge.read.evaluated import read_as
 from ..bridge.read.target import Target
 from ..bridge.refusals import refusal
 from ..bridge.stored.record import forget_rough, is_rough, noted_mesh, noted_parameters
-from ..bridge.watching import stop_timer
+from ..bridge.watching import start_timer, stop_timer
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
 from ..viewport.viewports import redraw_sidebars
@@ -42,7 +42,7 @@ def start() -> None:
     if bpy.app.background:  # nothing calls timers there
         finish()
     else:
-        bpy.app.timers.register(go_on, first_interval=_REST)
+        start_timer(go_on, _REST)
 
 
 def stop(*_: object) -> None:

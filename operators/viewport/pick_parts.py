@@ -11,6 +11,7 @@ from ...core.parameters.parts import Parameters
 from ..bridge.parts.rows import chosen_numbers
 from ..bridge.refusals import edit_refusal, faces_refusal
 from ..bridge.stored.names import RESULT
+from ..bridge.watching import start_timer
 from ..running import modal
 from ..running.modal import is_free
 from . import picking
@@ -61,8 +62,7 @@ class WCD_OT_pick_parts(bpy.types.Operator):
             return {"FINISHED"}
         # Both are read now, and not when something hovers.
         n_parts_of(context.active_object)
-        if not bpy.app.timers.is_registered(make_tree):
-            bpy.app.timers.register(make_tree, first_interval=0.0)
+        start_timer(make_tree)
         self._picking = picking.start(context)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}

@@ -22,7 +22,7 @@ from ..bridge.mesh.fingerprint import fits, together
 from ..bridge.parts.figures import PartFigures, figures_of
 from ..bridge.refusals import WORKED_ON
 from ..bridge.stored.names import RESULT
-from ..bridge.watching import changed_objects, stop_timer
+from ..bridge.watching import changed_objects, start_timer, stop_timer
 from .viewports import redraw
 
 # Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
@@ -74,8 +74,8 @@ def _counted(obj: bpy.types.Object | None) -> _Counted:
         wait = _due(_kept, obj) - now
         if wait > 0.0:
             # Panels that are drawn again count what has changed.
-            if wait < math.inf and not bpy.app.timers.is_registered(redraw):
-                bpy.app.timers.register(redraw, first_interval=wait)
+            if wait < math.inf:
+                start_timer(redraw, wait)
             return _kept.counted
     counted, ended = _count(obj), time.perf_counter()
     until = ended + max(_PAUSE, _REST * (ended - now))

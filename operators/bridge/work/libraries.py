@@ -12,12 +12,10 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any, TypeVar
 
-import bpy
-
 from .... import core
 from ....core.errors import DecompositionError, missing_library
 from ....core.steps.progress import Progress, Steps
-from ..watching import stop_timer
+from ..watching import start_timer, stop_timer
 
 Result = TypeVar("Result")  # of any kind that has notes
 
@@ -64,8 +62,8 @@ def load_libraries() -> Steps[None]:
 
 def load_while_idle() -> None:
     """Load the libraries in slices, between Blender's own events."""
-    if not bpy.app.timers.is_registered(_load_next) and any(_missing()):
-        bpy.app.timers.register(_load_next, first_interval=_PAUSE)
+    if any(_missing()):
+        start_timer(_load_next, _PAUSE)
 
 
 def unregister() -> None:

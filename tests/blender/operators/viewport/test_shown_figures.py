@@ -18,11 +18,8 @@ class Clock:
     def perf_counter(self):
         return self.now
 
-    def is_registered(self, function):
-        return function in self.timers
-
-    def register(self, function, first_interval):
-        self.timers[function] = self.now + first_interval
+    def start_timer(self, function, seconds):
+        self.timers.setdefault(function, self.now + seconds)
 
     def counted(self, obj, after=0.0):
         """Draw after some seconds; return whether that counts the object."""
@@ -41,9 +38,10 @@ def clock(monkeypatch):
         clock.counts += 1
         return figures_of(obj)
 
-    app = SimpleNamespace(background=False, timers=clock)
+    app = SimpleNamespace(background=False)
     monkeypatch.setattr(shown_figures, "figures_of", count)
     monkeypatch.setattr(shown_figures, "bpy", SimpleNamespace(app=app))
+    monkeypatch.setattr(shown_figures, "start_timer", clock.start_timer)
     monkeypatch.setattr(shown_figures, "time", clock)
     monkeypatch.setattr(shown_figures, "_kept", None)
     return clock
