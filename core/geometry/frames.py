@@ -1,4 +1,4 @@
-"""Unit vectors, coordinate axes, cross products, heights above planes."""
+"""Unit vectors, coordinate axes, cross products, heights above planes, moved points."""
 
 from __future__ import annotations
 
@@ -153,6 +153,11 @@ def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """
     spread = points - points.mean(axis=0)
     return np.linalg.eigh(spread.T @ spread)[1].T
+
+
+def moved(points: NDArray[Real], matrix: NDArray[Real]) -> NDArray[Real]:
+    """Return points, (..., 3), moved by a matrix (4, 4) from their space to another."""
+    return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def heights_above(

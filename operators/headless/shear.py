@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ...core.geometry.frames import moved
 from ..bridge.mesh.attributes import read_floats, write_floats
 from ..bridge.refusals import WORKED_ON
 
@@ -69,9 +70,8 @@ def _move(data: bpy.types.ID, matrix: Matrix) -> None:
     if isinstance(data, bpy.types.Mesh):
         data.transform(matrix, shape_keys=True)
         return
-    turn, shift = np.array(matrix.to_3x3()), np.array(matrix.translation)
     places = read_floats(data.points, "co", 3)
-    write_floats(data.points, "co", places @ turn.T + shift)
+    write_floats(data.points, "co", moved(places, np.array(matrix)))
 
 
 @contextmanager

@@ -11,6 +11,7 @@ import numpy as np
 
 from .... import core
 from ....core.errors import DecompositionError
+from ....core.geometry.frames import moved
 from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
@@ -99,8 +100,7 @@ def keep_piece(hull: bpy.types.Object, points: np.ndarray, has_margin: bool) -> 
 
     They are in the space of its object, and kept in the hull's own.
     """
-    into = _into(hull)
-    hull[PIECE_TAG] = (points @ into[:3, :3].T + into[:3, 3]).ravel().tolist()
+    hull[PIECE_TAG] = moved(points, _into(hull)).ravel().tolist()
     hull[CORNERS_TAG] = read_floats(hull.data.vertices, "co", 3).ravel().tolist()
     if has_margin:
         hull[MARGIN_TAG] = True

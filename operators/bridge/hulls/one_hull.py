@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
+from ....core.geometry.frames import moved
 from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
@@ -136,12 +137,11 @@ def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
     points = corners = read_floats(hull.data.vertices, "co", 3).astype(float)
     if PIECE_TAG in hull:
         then = np.reshape(hull.get(CORNERS_TAG, ()), (-1, 3))
-        points = _moved(np.reshape(hull[PIECE_TAG], (-1, 3)), then, corners)
-    matrix = np.array(within)
-    return points @ matrix[:3, :3].T + matrix[:3, 3], has_margin
+        points = _moved_as(np.reshape(hull[PIECE_TAG], (-1, 3)), then, corners)
+    return moved(points, np.array(within)), has_margin
 
 
-def _moved(
+def _moved_as(
     points: NDArray[np.float64], then: NDArray[np.float64], now: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return points, moved as one matrix moved corners, if one did."""

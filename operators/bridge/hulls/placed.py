@@ -14,6 +14,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ....core.geometry.frames import moved
 from ....core.geometry.primitives import CollisionShape
 from ..read.shape import stretch
 from ..read.stretching import unstretched
@@ -67,15 +68,20 @@ def moved_pose(pose: dict[str, Any], matrix: NDArray[np.float64]) -> dict[str, A
     """Return a pose, moved by a matrix, which may distort its primitive."""
     if "axes" not in pose:
         return pose
-    turn, shift = matrix[:3, :3], matrix[:3, 3]
-    center, axes = turn @ pose["center"] + shift, pose["axes"] @ turn.T
+    center = moved(np.array(pose["center"]), matrix)
+    axes = pose["axes"] @ matrix[:3, :3].T
     return pose | {"center": center.tolist(), "axes": axes.tolist()}
 
 
-def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive | None:
-    """Return the primitive of a pose, moved by a matrix; None if that distorts it."""
-    kind, sizes = pose["kind"], np.array(pose["sizes"], dtype=np.float64)
-    axes = matrix[:3, :3] @ np.array(pose["axes"], dtype=np.float64).T
+def _undistorted(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive | None:
+    """Return the primitive of a pose, moved by a matrix.
+
+    None for a convex hull, and if the matrix distorts the primitive.
+    """
+    if "axes" not in pose:
+        return None
+    pose = moved_pose(pose, matrix)
+    kind, axes = pose["kind"], np.array(pose["axes"]).T
     lengths = np.linalg.norm(axes, axis=0)
     if not lengths.all():
         return None
@@ -86,8 +92,7 @@ def _moved(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive | Non
         return None
     if np.linalg.det(rotation) < 0:  # primitives are their own mirror images
         rotation[:, 0] *= -1
-    center = matrix[:3, :3] @ np.array(pose["center"]) + matrix[:3, 3]
-    return Primitive(kind, center, rotation, sizes * lengths)
+    return Primitive(kind, np.array(pose["center"]), rotation, pose["sizes"] * lengths)
 
 
 def primitive_of(
@@ -108,8 +113,7 @@ def primitive_of(
         None for a convex hull, and for a primitive that the matrix distorts: a scale
         that differs by axis turns spheres into ellipsoids. Its mesh has that shape.
     """
-    figures = figures_on(hull)
-    found = _moved(figures, matrix) if "axes" in figures else None
+    found = _undistorted(figures_on(hull), matrix)
     if found and found.kind == "CAPSULE" and found.sizes[2] <= _SAME * found.sizes[0]:
         return replace(found, kind="SPHERE")  # MuJoCo refuses a capsule without length
     return found
@@ -131,7 +135,7 @@ def pose_in_scene(shape: CollisionShape, obj: bpy.types.Object) -> dict[str, Any
     to_scene, scale = np.array(obj.matrix_world, dtype=np.float64), stretch(obj)
     turn = unstretched(to_scene[:3, :3], scale)  # it keeps angles, and may mirror
     volume = float(shape.volume) * abs(float(np.linalg.det(turn)))
-    found = _moved(pose_of(shape, scale), to_scene) if shape.kind != "HULL" else None
+    found = _undistorted(pose_of(shape, scale), to_scene)
     if found is not None:
         return {
             "position": found.center.tolist(),

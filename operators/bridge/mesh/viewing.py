@@ -9,6 +9,7 @@ import numpy as np
 from mathutils import Vector
 from numpy.typing import NDArray
 
+from ....core.geometry.frames import moved
 from .known import corner_faces, corner_vertices
 from .points import is_cloud, positions_of
 
@@ -26,8 +27,7 @@ def points_of_parts(
     else:
         vertices = corner_vertices(obj.data)
         places = places[vertices[members[corner_faces(obj.data)]]]
-    world = np.array(obj.matrix_world)
-    return places @ world[:3, :3].T + world[:3, 3]
+    return moved(places, np.array(obj.matrix_world))
 
 
 def frame_points(space: bpy.types.SpaceView3D, points: NDArray[np.float64]) -> None:

@@ -12,6 +12,7 @@ from mathutils import Euler, Matrix, Vector
 from numpy.typing import NDArray
 
 from .... import core
+from ....core.geometry.frames import moved
 from ...bridge.mesh.attributes import write_ints
 from ...bridge.mesh.known import corner_vertices
 from ...bridge.mesh.points import is_cloud, normals_of, positions_of, read_vectors
@@ -134,7 +135,7 @@ def face_points(objects: Sequence[bpy.types.Object]) -> NDArray[np.float32]:
     for obj in objects:
         points = positions_of(obj)[np.unique(corner_vertices(obj.data))]
         matrix = np.array(obj.matrix_world, dtype=np.float32)
-        found.append(points @ matrix[:3, :3].T + matrix[:3, 3])
+        found.append(moved(points, matrix))
     return np.concatenate(found)
 
 

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.geometry.frames import moved
 from ...bridge.mesh.known import triangles_of
 
 Float64Array = NDArray[np.float64]
@@ -44,7 +45,7 @@ def placed(
     vertices, triangles, faces = triangles_of(obj.data)
     if np.linalg.det(matrix[:3, :3]) < 0:
         triangles = triangles[:, ::-1]
-    return vertices @ matrix[:3, :3].T + matrix[:3, 3], triangles, faces
+    return moved(vertices, matrix), triangles, faces
 
 
 def turned_up(vertices: Float64Array, up: str) -> Float64Array:
