@@ -177,8 +177,8 @@ def _own_marks(obj: bpy.types.Object, n_faces: int) -> list[IntArray]:
 
 def _shown_marks(mesh: bpy.types.Mesh) -> list[IntArray]:
     """Return the same of the faces that modifiers made."""
-    names, n_faces = (PART_LAYER, OWNER_LAYER, "material_index"), len(mesh.polygons)
-    return [read_labels(mesh, name, "FACE", n_faces, 0) for name in names]
+    names = PART_LAYER, OWNER_LAYER, "material_index"
+    return [read_labels(mesh, name, missing=0) for name in names]
 
 
 def stop(*_: object) -> None:

@@ -102,13 +102,12 @@ def _keys(mesh: bpy.types.Mesh) -> list[tuple[Any, ...]]:
 
 def _has_face_sets_of(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
     """Return whether the user's face sets are those of the whole faces."""
-    n_wholes, mesh = len(whole.polygons), obj.data
     now = _users_face_sets(obj)
-    before = read_labels(whole, FACE_SETS, "FACE", n_wholes, missing=0)
+    before = read_labels(whole, FACE_SETS, missing=0)
     if not now.any() and not before.any():
         return True
-    wholes = read_labels(mesh, WHOLE_LAYER, "FACE", len(mesh.polygons))
-    if len(wholes) != len(now) or not np.isin(wholes, np.arange(n_wholes)).all():
+    wholes = read_labels(obj.data, WHOLE_LAYER, missing=-1)
+    if len(wholes) != len(now) or not np.isin(wholes, np.arange(len(before))).all():
         return False
     return np.array_equal(now, before[wholes])
 
@@ -118,11 +117,11 @@ def _users_face_sets(obj: bpy.types.Object) -> IntArray:
 
     They are those from before ours, unless the user drew over ours.
     """
-    mesh, n_faces = obj.data, len(obj.data.polygons)
-    now = read_labels(mesh, FACE_SETS, "FACE", n_faces, missing=0)
+    mesh = obj.data
+    now = read_labels(mesh, FACE_SETS, missing=0)
     if FACE_SET_LAYER not in mesh.attributes:
         return now
     found = find_parts_on(obj)
     if found is None or not np.array_equal(now, found.face_sets):
         return now
-    return read_labels(mesh, FACE_SET_LAYER, "FACE", n_faces, missing=0)
+    return read_labels(mesh, FACE_SET_LAYER, missing=0)

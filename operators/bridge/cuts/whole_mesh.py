@@ -62,10 +62,9 @@ def edited_since_cut(obj: bpy.types.Object) -> bool:
 
 def whole_faces(obj: bpy.types.Object) -> IntArray:
     """Return the number of the whole face that each face of an object is of, (P,)."""
-    n_faces = len(obj.data.polygons)
     if whole_mesh_of(obj) == obj.data:
-        return np.arange(n_faces, dtype=np.int32)
-    return read_labels(obj.data, WHOLE_LAYER, "FACE", n_faces)
+        return np.arange(len(obj.data.polygons), dtype=np.int32)
+    return read_labels(obj.data, WHOLE_LAYER, missing=-1)
 
 
 def note_whole(obj: bpy.types.Object, faces: NDArray[np.int64]) -> None:

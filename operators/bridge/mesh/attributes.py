@@ -77,27 +77,19 @@ def write_flags(elements: Any, name: str, values: BoolArray) -> None:
     elements.foreach_set(name, values)
 
 
-def read_labels(
-    data: Any, name: str, domain: str, n_rows: int, missing: int = -1
-) -> IntArray:
-    """Return an integer attribute, (n_rows,); `missing` everywhere if there is none.
-
-    Parameters
-    ----------
-    data : bpy.types.Mesh or bpy.types.PointCloud
-    name : str
-    domain : {'FACE', 'POINT'}
-        An attribute of another domain or type does not count.
-    n_rows : int
-        Number of faces or points.
-    missing : int, optional
-    """
-    found = whole_numbers(data, name, domain)
-    return np.full(n_rows, missing, dtype=np.int32) if found is None else found
+def read_labels(mesh: Any, name: str, missing: int) -> IntArray:
+    """Return an integer attribute of the faces, (P,); all are `missing` without it."""
+    found = whole_numbers(mesh, name, "FACE")
+    if found is not None:
+        return found
+    return np.full(len(mesh.polygons), missing, dtype=np.int32)
 
 
 def whole_numbers(data: Any, name: str, domain: str) -> IntArray | None:
-    """Return an integer attribute of a domain, None if there is none of that kind."""
+    """Return an integer attribute of a domain, None if there is none of that kind.
+
+    The `data` are a mesh or a point cloud, the `domain` is FACE or POINT.
+    """
     attribute = data.attributes.get(name)
     if attribute is None or (attribute.data_type, attribute.domain) != ("INT", domain):
         return None

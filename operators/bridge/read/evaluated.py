@@ -157,7 +157,7 @@ def read_as(mesh: str, obj: bpy.types.Object) -> SeenMesh | None:
         vertices, triangles, polygons = triangles_of(shown)
         areas = read_floats(shown.polygons, "area").astype(np.float64)
         centers = read_floats(shown.polygons, "center", 3)
-        origins = _origins(shown, name)
+        origins = read_labels(shown, name, missing=0).astype(np.int64) - 1
         n_left_out = count_instances(obj, depsgraph)
     known = (origins >= 0) & (origins < len(own))
     seen = np.zeros(len(own), dtype=bool)
@@ -199,12 +199,6 @@ def _nearest(
     if len(rows) < len(places):
         nearest[~chosen] = rows[cKDTree(places[rows]).query(places[~chosen])[1]]
     return nearest
-
-
-def _origins(mesh: bpy.types.Mesh, name: str) -> NDArray[np.int64]:
-    """Return the face that each face comes from, (E,); −1 where that is not known."""
-    numbers = read_labels(mesh, name, "FACE", len(mesh.polygons), missing=0)
-    return numbers.astype(np.int64) - 1
 
 
 @contextmanager

@@ -160,9 +160,8 @@ def _part_numbers(obj: bpy.types.Object, n_rows: int) -> IntArray:
 def _painted_faces(obj: bpy.types.Object) -> bpy.types.Mesh:
     """Return a new mesh with the faces of an object's, split at seams and painted."""
     mesh = obj.data
-    n_faces = len(mesh.polygons)
-    parts = _part_numbers(obj, n_faces)
-    slots = read_labels(mesh, "material_index", "FACE", n_faces, missing=0)
+    parts = _part_numbers(obj, len(mesh.polygons))
+    slots = read_labels(mesh, "material_index", missing=0)
     origins, corners = _split_at_seams(mesh, parts)
     faces = corner_faces(mesh)
     part_of_vertex = np.full(len(origins), -1, dtype=np.int32)
