@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..mesh.attributes import (
     FIELDS,
     IntArray,
+    read_flags,
     read_floats,
     read_ints,
     read_labels,
@@ -206,12 +207,10 @@ def _state_of(obj: bpy.types.Object) -> str:
 
 def _values_of(attribute: bpy.types.Attribute) -> Any:
     """Return the values of an attribute as an array."""
-    if attribute.data_type not in FIELDS:
+    kind = attribute.data_type
+    if kind not in FIELDS:
         return np.array([str(each.value) for each in attribute.data])
-    field, width = FIELDS[attribute.data_type]
-    whole = "INT" in attribute.data_type or attribute.data_type == "BOOLEAN"
-    values = np.empty(len(attribute.data) * width, np.int32 if whole else np.float32)
-    if attribute.data_type == "BOOLEAN":
-        values = values.astype(np.bool_)
-    attribute.data.foreach_get(field, values)
-    return values
+    if kind == "BOOLEAN":
+        return read_flags(attribute.data, "value")
+    read = read_ints if "INT" in kind else read_floats
+    return read(attribute.data, *FIELDS[kind])
