@@ -64,12 +64,10 @@ def write_hulls(
     erase_hulls(obj, kept=former)
     collection = collection_for(obj, former)
     parts = find_parts_on(obj) if found.has_parts else None
-    rows, materials = _materials(obj, found, parts)
-    scale = stretch(obj)
+    materials, scale = _materials(obj, found, parts), stretch(obj)
     hulls, noted = [], []
-    for row, name in enumerate(names):
-        material = materials[rows[row]]
-        shape = found.shapes[row]
+    each_hull = zip(names, found.shapes, materials, strict=True)
+    for row, (name, shape, material) in enumerate(each_hull):
         mesh = meshes[row] if meshes else hull_mesh(name, shape, scale, material)
         hull = _hull_object(name, mesh, material)
         figures = figures_of_hull(found, row, parts)
@@ -168,14 +166,13 @@ def _remove(
 
 def _materials(
     obj: bpy.types.Object, found: HullDecomposition, parts: FoundParts | None
-) -> tuple[np.ndarray, list[bpy.types.Material]]:
-    """Return materials, and which of them each hull has: those of the parts, or new."""
+) -> list[bpy.types.Material]:
+    """Return the material of each hull: that of its part, or one for hulls alone."""
     if parts is not None:
-        own = part_materials(obj, parts)
-        return found.parts, none_missing(parts.identities, own)
-    rows = found.parts if found.has_parts else np.arange(found.n_hulls)
-    n_materials = int(rows.max()) + 1
-    return rows, [hull_material(row, usual_color(row)) for row in range(n_materials)]
+        own = none_missing(parts.identities, part_materials(obj, parts))
+        return [own[part] for part in found.parts]
+    rows = found.parts.tolist() if found.has_parts else range(found.n_hulls)
+    return [hull_material(row, usual_color(row)) for row in rows]
 
 
 def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
