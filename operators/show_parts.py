@@ -18,6 +18,7 @@ from .bridge.views.isolating import end_isolation, isolate
 from .bridge.work.in_step import bring_in_step
 from .editing.edit_parts import in_scope, scope
 from .running.on_objects import OnActive, OnEach
+from .viewport.viewports import no_viewport
 
 _EXTEND = bpy.props.BoolProperty(
     name="Extend", description="Keep the present selection", default=False
@@ -109,10 +110,7 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
         """Return that there is no view to move, or why nothing can be done."""
-        space = context.space_data
-        if space is None or space.type != "VIEW_3D":
-            return "There is no 3D viewport here"
-        return super()._obstacle(context)
+        return no_viewport(context) or super()._obstacle(context)
 
     def _work(self, obj: bpy.types.Object) -> None:
         points = points_of_parts(obj, _members(obj))

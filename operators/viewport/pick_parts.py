@@ -19,7 +19,7 @@ from .choose_parts import choose_too
 from .part_at import make_tree, part_at
 from .shown_parts import n_parts_of
 from .turning import Turning, keeps
-from .viewports import CLICKED_MODES, navigates, viewport_at
+from .viewports import CLICKED_MODES, navigates, no_viewport, viewport_at
 
 # The pie menu, which `ui` draws.
 _MENU = "WCD_MT_pick"
@@ -222,8 +222,8 @@ CLASSES = (WCD_OT_pick_parts,)
 
 def _refusal(context: bpy.types.Context) -> str | None:
     """Return why no parts can be picked."""
-    if context.space_data is None or context.space_data.type != "VIEW_3D":
-        return "There is no 3D viewport here"
+    if reason := no_viewport(context):
+        return reason
     if context.mode not in CLICKED_MODES:
         return "Parts are picked in Object or Edit Mode; switch the mode"
     reason = faces_refusal(context.active_object)

@@ -13,6 +13,12 @@ from mathutils import Vector
 CLICKED_MODES = {"OBJECT", "EDIT_MESH"}
 
 
+def no_viewport(context: bpy.types.Context) -> str | None:
+    """Return that a context has no 3D viewport, None if it has one."""
+    is_there = context.space_data and context.space_data.type == "VIEW_3D"
+    return None if is_there else "There is no 3D viewport here"
+
+
 def viewport_at(
     context: bpy.types.Context, x: int, y: int
 ) -> tuple[bpy.types.Region, int, int] | None:

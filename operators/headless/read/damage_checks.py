@@ -146,7 +146,7 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
             " write them in small letters."
         )
     if _STL_WORD.search(data):
-        raise _wordy(path)
+        raise wordy(path)
 
 
 def _check_ply(path: Path) -> None:
@@ -161,7 +161,7 @@ def _check_ply(path: Path) -> None:
     if not header.is_whole(data):
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if not header.order and _NO_NUMBER.search(data, header.size):
-        raise _wordy(path)
+        raise wordy(path)
     if refers_to_missing(header, data):
         raise DecompositionError(
             f"{path.name} has a face that refers to vertices that are missing; export"
@@ -181,7 +181,7 @@ def _check_usd(path: Path) -> None:
         )
 
 
-def _wordy(path: Path) -> DecompositionError:
+def wordy(path: Path) -> DecompositionError:
     """Return the error for a file that has other words among its numbers."""
     return DecompositionError(
         f"{path.name} has words where numbers should be; it is damaged."
@@ -216,7 +216,7 @@ def _check_obj(path: Path) -> None:
     data = _OBJ_CONTINUED.sub(b" ", data)
     # A line break is found sooner than the beginning of a line.
     if _OBJ_WORD.search(b"\n" + data):
-        raise _wordy(path)
+        raise wordy(path)
     _check_obj_corners(path, data)
 
 
@@ -229,7 +229,7 @@ def _check_obj_corners(path: Path, data: bytes) -> None:
             continue
         corners = _OBJ_CORNER.findall(line[2])
         if len(corners) != len(line[2].split()):
-            raise _wordy(path)
+            raise wordy(path)
         for corner in corners:
             # Vertices count from 1, or from -1 back from the face.
             too_long = len(corner) > MOST_DIGITS

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..files.headers import BYTE_ORDER_MARK, whole_number
+from .damage_checks import wordy
 from .finite_checks import all_finite, not_finite
 
 # STOFF, COFF and NOFF add columns after the coordinates. Some writers put no space
@@ -36,9 +37,7 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
         )
     rows = body[: n_vertices + n_faces]
     if any("_" in row for row in rows):  # Python reads 1_0 as 10
-        raise DecompositionError(
-            f"{path.name} has words where numbers should be; it is damaged."
-        )
+        raise wordy(path)
     vertices = _vertices(rows[:n_vertices], path.name)
     if not all_finite(vertices):
         raise not_finite(path)
