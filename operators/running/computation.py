@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
@@ -48,7 +48,7 @@ class Computation(OnObjects):
         try:
             steps = in_turn(self._read(context), self._names)
             outcomes = run(with_cursor(context.window_manager, steps))
-            return self._write(outcomes, Target.find)
+            return self._write(outcomes)
         finally:
             discard_waiting()
 
@@ -60,7 +60,7 @@ class Computation(OnObjects):
         errors = [work for work in works if isinstance(work, DecompositionError)]
         if self._reports_at_once and len(errors) == len(works):
             discard_waiting()
-            return self._write(errors, Target.find)
+            return self._write(errors)
         steps = in_turn(works, self._names)
         self._running = modal.start(context, self.bl_label, steps)
         context.window_manager.modal_handler_add(self)
@@ -86,7 +86,7 @@ class Computation(OnObjects):
             return {"CANCELLED"}
         if event.type != "TIMER" or not modal.advance(self._running):
             return {"PASS_THROUGH"}
-        return self._write(self._running.job.result(), self._changeable)
+        return self._write(self._running.job.result(), late=True)
 
     def _read(
         self, context: bpy.types.Context
@@ -94,7 +94,7 @@ class Computation(OnObjects):
         """Check and read the objects; return the work to be done on each."""
         self._started = time.perf_counter()
         self._names: list[str] = []
-        self._targets: list[Target | None] = []
+        self._targets: list[Any] = []  # of `Target`, None where that fails
         return [self._begun(obj) for obj in self._chosen(context)]
 
     def _begun(self, obj: bpy.types.Object) -> Steps[Any] | DecompositionError:
@@ -108,10 +108,11 @@ class Computation(OnObjects):
             return error
         return steps
 
-    def _write(
-        self, outcomes: Sequence[Any], find: Callable[[Any], bpy.types.Object]
-    ) -> set[str]:
-        """Write the results to the objects; report them and the failures."""
+    def _write(self, outcomes: Sequence[Any], late: bool = False) -> set[str]:
+        """Write the results; report them and the failures.
+
+        If it is `late`, the user has gone on, and objects may not be as they were.
+        """
         failures = []
         for target, name, outcome in zip(
             self._targets, self._names, outcomes, strict=True
@@ -120,7 +121,8 @@ class Computation(OnObjects):
             try:
                 if isinstance(outcome, DecompositionError):
                     raise outcome
-                figures = self._commit(find(target), outcome)
+                obj = self._changeable(target) if late else target.find()
+                figures = self._commit(obj, outcome)
             except DecompositionError as error:
                 failures.append((name, str(error)))
                 continue
@@ -128,7 +130,6 @@ class Computation(OnObjects):
                 self.report({"WARNING"}, f"{title}{note}")
             seconds = time.perf_counter() - self._started
             self.report({"INFO"}, f"{title}{figures}, {seconds:.1f} s")
-        late = find == self._changeable
         return self._conclude(failures, len(outcomes), late)
 
     def _changeable(self, target: Target) -> bpy.types.Object:
