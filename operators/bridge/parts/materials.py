@@ -129,13 +129,13 @@ def own_material(
     return material
 
 
-def points_material(taken: list[str]) -> bpy.types.Material:
+def points_material(cloud: bpy.types.ID) -> bpy.types.Material:
     """Return the material that shows the colors of points.
 
-    All point clouds share it. Materials with the names `taken` are the user's.
+    All point clouds share it. What is in the slots of a cloud already is the user's.
     """
     for material in _shared(_OF_POINTS, bpy.data.materials):
-        if material.name not in taken:
+        if material.name not in cloud.materials:
             return material
     material = _new(_POINTS_NAME)
     material[MATERIAL_TAG] = _OF_POINTS

@@ -175,7 +175,6 @@ def _write_mesh(
 
     Return how to bring it back, who the parts are, and the names of their materials.
     """
-    mesh = obj.data
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
     users = [group.name for group in obj.vertex_groups]
     groups = []
@@ -185,8 +184,7 @@ def _write_mesh(
             replace(each, name=group)
             for each, group in zip(identities, groups, strict=True)
         ]
-    slots = [material.name if material else "" for material in mesh.materials]
-    materials = _materials(obj, identities, sources, slots)
+    materials = _materials(obj, identities, sources)
     before = put_in_slots(obj, materials, decomposition.labels)
     layers = layers_of(obj)
     numbers = np.array([identity.number for identity in identities], dtype=np.int32)
@@ -215,10 +213,9 @@ def _materials(
     obj: bpy.types.Object,
     identities: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
-    slots: list[str],
 ) -> list[bpy.types.Material]:
     """Return a material for each part of a mesh, or one for all points."""
     if is_cloud(obj):
-        return [points_material(slots)]
+        return [points_material(obj.data)]
     own = [sources.get(each.number) for each in identities]
     return own_materials(identities, own, hulls_of(obj))
