@@ -10,16 +10,8 @@ from typing import Any, ClassVar
 import bpy
 
 from ..operators.settings import HULLS, draw, other_error
-from ..operators.viewport.shown_figures import shown_figures
-from .sidebar import (
-    OUT_OF_DATE,
-    Sidebar,
-    draw_choices,
-    hull_rows_of,
-    hull_rows_of_now,
-    line,
-    result_of,
-)
+from ..operators.viewport.shown_figures import is_of_now, shown_figures
+from .sidebar import OUT_OF_DATE, Sidebar, draw_choices, hull_rows_of, line, result_of
 
 # Share of the width of a row, without its buttons, for the color.
 _SWATCH = 0.14
@@ -49,7 +41,8 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
         hulls = hull_rows_of(obj) if obj else []
         if not hulls:
             return
-        result, current = result_of(obj)["hulls"], bool(hull_rows_of_now(obj))
+        result = result_of(obj)["hulls"]
+        current = is_of_now(obj, result)
         largest = f"{max(hull['error'] for hull in hulls):.3g}"
         line(layout, "Largest Error", largest if current else OUT_OF_DATE)
         complete = current and len(hulls) == len(result["hulls"])
