@@ -93,17 +93,16 @@ def advance(run: Running) -> bool:
     if math.isnan(run.look):
         drawn = time.perf_counter() - run.shown
         run.look = min(max(_DRAWING * drawn, _LOOKS[0]), _LOOKS[1])
-    over = True  # also if a step raises an error
+    if run.job.done:
+        stop()
+        return True
     try:
-        if not run.job.done:
-            run.job.advance(_SLICE)
-            over = False
-    finally:
-        if over:
-            stop()
-    if not over:
-        _show(run)
-    return over
+        run.job.advance(_SLICE)
+    except BaseException:
+        stop()
+        raise
+    _show(run)
+    return False
 
 
 def stop() -> None:
