@@ -109,13 +109,9 @@ def _shows_chosen(context: bpy.types.Context) -> bool:
 def _draw_chosen(context: bpy.types.Context) -> None:
     """Draw the border of the chosen parts, while parts are picked or highlighted."""
     obj = context.active_object
-    if not _shows_chosen(context):
+    if not _shows_chosen(context) or faces_refusal(obj):
         return
-    if (
-        obj is None
-        or faces_refusal(obj)
-        or not obj.visible_in_viewport_get(context.space_data)
-    ):
+    if not obj.visible_in_viewport_get(context.space_data):
         return
     shown = shown_parts(obj)
     if shown is None:
@@ -179,10 +175,9 @@ def _outline(
 def _batch(name: str, kind: str, places: NDArray[np.float32]) -> tuple[Any, Any]:
     """Return a shader of Blender's, and a batch for it; None if there is no place."""
     shader = gpu.shader.from_builtin(name)
-    # `batch_for_shader` takes no empty arrays.
-    return shader, batch_for_shader(shader, kind, {"pos": places}) if len(
-        places
-    ) else None
+    if not len(places):  # which `batch_for_shader` does not take
+        return shader, None
+    return shader, batch_for_shader(shader, kind, {"pos": places})
 
 
 def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> None:
