@@ -8,6 +8,9 @@ from typing import Any
 
 import bpy
 
+# Blender calls the functions in these lists when all data may be others.
+REPLACED = ("undo_post", "redo_post", "load_post")
+
 
 def watch(handlers: Mapping[str, Callable[..., Any]]) -> None:
     """Let Blender call functions, each by the name of its list in `bpy.app.handlers`.

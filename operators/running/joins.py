@@ -11,7 +11,7 @@ import bpy
 
 from ...core.errors import DecompositionError
 from ..bridge.views.node_modifiers import is_view
-from ..bridge.watching import changed_objects, start_timer, stop_timer
+from ..bridge.watching import REPLACED, changed_objects, start_timer, stop_timer
 from ..bridge.work.in_step import bring_in_step
 
 # How many faces the objects with such modifiers have, by their `session_uid`.
@@ -62,9 +62,4 @@ def stop() -> None:
     _n_faces.clear()
 
 
-HANDLERS = {
-    "depsgraph_update_post": _look,
-    "undo_post": _look_again,
-    "redo_post": _look_again,
-    "load_post": _look_again,
-}
+HANDLERS = {"depsgraph_update_post": _look, **dict.fromkeys(REPLACED, _look_again)}

@@ -19,7 +19,7 @@ from ..bridge.read.evaluated import read_as
 from ..bridge.read.target import Target
 from ..bridge.refusals import refusal
 from ..bridge.stored.record import forget_rough, is_rough, noted_mesh, noted_parameters
-from ..bridge.watching import start_timer, stop_timer
+from ..bridge.watching import REPLACED, start_timer, stop_timer
 from ..bridge.work.locking import decompose_unlocked
 from ..bridge.work.run_edit import Edited
 from ..viewport.viewports import redraw_sidebars
@@ -111,9 +111,7 @@ def finish(*_: object) -> None:
 
 
 HANDLERS = {
-    "undo_post": _start_again,
-    "redo_post": _start_again,
-    "load_post": _start_again,
+    **dict.fromkeys(REPLACED, _start_again),
     "save_pre": finish,
     "load_pre": stop,
 }

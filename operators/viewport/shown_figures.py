@@ -22,7 +22,7 @@ from ..bridge.mesh.fingerprint import fits, together
 from ..bridge.parts.figures import PartFigures, figures_of
 from ..bridge.refusals import WORKED_ON
 from ..bridge.stored.names import RESULT
-from ..bridge.watching import changed_objects, start_timer, stop_timer
+from ..bridge.watching import REPLACED, changed_objects, start_timer, stop_timer
 from .viewports import redraw
 
 # Seconds for which figures are kept in any case, for faces may be dragged in Edit Mode;
@@ -128,5 +128,5 @@ def stop() -> None:
 
 HANDLERS = {
     "depsgraph_update_post": _forget_changed,
-    **dict.fromkeys(("undo_post", "redo_post", "load_post"), _forget),
+    **dict.fromkeys(REPLACED, _forget),
 }

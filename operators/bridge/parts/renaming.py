@@ -20,6 +20,7 @@ from ..stored.record import change_part, record_of
 from ..stored.restore import read_restore, sharers, write_restore
 from ..stored.users_groups import users_groups
 from ..views.face_sets_and_colors import show_colors
+from ..watching import REPLACED
 from .figures import JOINED
 from .kept_materials import is_overlaid, mark_group
 from .materials import color_of, discard_unused, own_material, part_slots
@@ -111,11 +112,7 @@ def forget_refused(*_: object) -> None:
 
 
 stop = forget_refused  # when the extension goes
-HANDLERS = {
-    "undo_post": forget_refused,
-    "redo_post": forget_refused,
-    "load_post": forget_refused,
-}
+HANDLERS = dict.fromkeys(REPLACED, forget_refused)
 
 
 def _noted(obj: bpy.types.Object, number: int) -> Identity | None:
