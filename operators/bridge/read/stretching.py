@@ -18,10 +18,7 @@ def stretched(
     rows: NDArray[np.float64], stretch: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return points or directions in object space, (..., 3), as they are stretched."""
-    factors = np.diagonal(stretch)
-    found: NDArray[np.float64]
-    found = rows * factors if is_diagonal(stretch) else rows @ stretch
-    return found
+    return rows * np.diagonal(stretch) if is_diagonal(stretch) else rows @ stretch
 
 
 def unstretched(
@@ -31,10 +28,9 @@ def unstretched(
 
     Normals go the other way: this stretches those of object space.
     """
-    factors = np.diagonal(stretch)
-    found: NDArray[np.float64]
-    found = rows / factors if is_diagonal(stretch) else rows @ np.linalg.inv(stretch)
-    return found
+    if is_diagonal(stretch):
+        return rows / np.diagonal(stretch)
+    return rows @ np.linalg.inv(stretch)
 
 
 def is_diagonal(matrix: NDArray[np.float64]) -> bool:
