@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
 from ....core.geometry.mesh import TriangleMesh
-from ..mesh.attributes import read_floats
 from ..mesh.corner_normals import give_back_normals, keep_normals
+from ..mesh.known import vertex_positions
 from ..read.stretching import stretched, unstretched
 
 # Layers of faces while they are cut: the number of the whole face, that of the triangle
@@ -55,7 +55,7 @@ class CutMesh:
         for number, face in enumerate(bm.faces):
             face[self._whole] = face[self._flat_face] = number
         self._old = set(bm.verts)
-        places = read_floats(mesh.vertices, "co", 3)
+        places = vertex_positions(mesh)
         self._flat = _FLAT * float(np.linalg.norm(np.ptp(places, axis=0)))
         self._straight = _STRAIGHT * float(np.abs(places).max())
 

@@ -16,7 +16,7 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..homes import hand_over, within_parent
-from ..mesh.attributes import read_floats
+from ..mesh.known import vertex_positions
 from ..parts.materials import discard, hull_material, none_missing
 from ..parts.palette import usual_color
 from ..parts.read import FoundParts, find_parts_on, part_materials
@@ -99,7 +99,7 @@ def keep_piece(hull: bpy.types.Object, points: np.ndarray, has_margin: bool) -> 
     They are in the space of its object, and kept in the hull's own.
     """
     hull[PIECE_TAG] = moved(points, _into(hull)).ravel().tolist()
-    hull[CORNERS_TAG] = read_floats(hull.data.vertices, "co", 3).ravel().tolist()
+    hull[CORNERS_TAG] = vertex_positions(hull.data).ravel().tolist()
     if has_margin:
         hull[MARGIN_TAG] = True
 

@@ -18,7 +18,7 @@ from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
 from ..homes import within_parent
-from ..mesh.attributes import read_floats
+from ..mesh.known import vertex_positions
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
 from ..read.stretching import stretched
@@ -134,7 +134,7 @@ def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
     if not within.determinant():
         raise DecompositionError(f"{hull.name} has a scale of zero; change that first.")
     has_margin = PIECE_TAG not in hull or MARGIN_TAG in hull
-    points = corners = read_floats(hull.data.vertices, "co", 3).astype(float)
+    points = corners = vertex_positions(hull.data).astype(float)
     if PIECE_TAG in hull:
         then = np.reshape(hull.get(CORNERS_TAG, ()), (-1, 3))
         points = _moved_as(np.reshape(hull[PIECE_TAG], (-1, 3)), then, corners)

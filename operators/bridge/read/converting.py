@@ -16,8 +16,8 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ....core.errors import DecompositionError
-from ..mesh.attributes import read_floats, read_ints
-from ..mesh.known import corner_vertices
+from ..mesh.attributes import read_ints
+from ..mesh.known import corner_vertices, vertex_positions
 from ..refusals import CONVERTIBLE
 
 # What to do about an object that gives no faces, by its type.
@@ -78,7 +78,7 @@ def converted(obj: bpy.types.Object) -> bpy.types.Mesh:
         bpy.data.meshes.remove(mesh)
         raise DecompositionError(f"{obj.name} has no faces{_ADVICE[obj.type]}")
     mesh.materials.clear()
-    places = np.array([vertex.co for vertex in mesh.vertices])
+    places = vertex_positions(mesh).astype(np.float64)
     if _plane(places) is not None:
         _divide(mesh, float(np.linalg.norm(np.ptp(places, axis=0))))
     return mesh
@@ -94,7 +94,7 @@ def digest_of_shown(obj: bpy.types.Object) -> str:
     mesh = evaluated.to_mesh()
     try:
         arrays = (
-            read_floats(mesh.vertices, "co", 3),
+            vertex_positions(mesh),
             read_ints(mesh.edges, "vertices", 2),
             read_ints(mesh.polygons, "loop_total"),
             corner_vertices(mesh),

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...bridge.mesh.attributes import read_floats, read_ints
-from ...bridge.mesh.known import corner_vertices
+from ...bridge.mesh.known import corner_vertices, vertex_positions
 from ...bridge.mesh.points import is_cloud, positions_of
 from ...bridge.views.face_sets_and_colors import point_colors
 from ..shear import has_shear, shear_in_meshes, without_shear
@@ -147,7 +147,7 @@ def _surface(mesh: bpy.types.Mesh) -> list[str]:
     counts = ", ".join(map(str, read_ints(mesh.polygons, "loop_total")))
     corners = ", ".join(map(str, corner_vertices(mesh)))
     return [
-        *_places(read_floats(mesh.vertices, "co", 3)),
+        *_places(vertex_positions(mesh)),
         f"int[] faceVertexCounts = [{counts}]",
         f"int[] faceVertexIndices = [{corners}]",
         'uniform token orientation = "rightHanded"',
