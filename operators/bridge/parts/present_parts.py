@@ -12,10 +12,11 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ..mesh.layers import flush_edits, layers_of
 from ..stored.identity import Identity
-from ..stored.names import HAND_LAYER, PART_LAYER
+from ..stored.names import HAND_LAYER
 from ..stored.noted_parts import n_faces_of, psi_by_k_of
 from ..stored.record import noted_parameters
 from .figures import figures_of
+from .read import loss_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +58,7 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
     flush_edits(obj)
     figures = figures_of(obj)
     if figures is None:
-        raise DecompositionError(
-            f"{obj.name} has lost its attribute {PART_LAYER}; press Decompose again."
-        )
+        raise DecompositionError(loss_of(obj))
     locks = {row.number for row in obj.wcd_parts if row.locked}
     record = figures.record
     # Gains by number of parts are those of the mesh that was decomposed.

@@ -116,7 +116,7 @@ def test_edit_mode_cannot_take_the_modifier_back(suzanne, labels):
 @pytest.mark.parametrize("name", ["isolate_parts", "explode"])
 def test_faces_without_their_parts_are_told(suzanne, labels, name):
     suzanne.data.attributes.remove(suzanne.data.attributes["wcd_part"])
-    with pytest.raises(RuntimeError, match="lost its attribute wcd_part; press Dec"):
+    with pytest.raises(RuntimeError, match="has lost its parts; decompose it again"):
         getattr(bpy.ops.wcd, name)()
     assert not suzanne.modifiers
 
