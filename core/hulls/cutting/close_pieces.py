@@ -165,8 +165,8 @@ def _cheapest(
     for plane in _distinct(planes):
         yield Progress("Cutting", 1.0)
         sides = cut(cell, plane)
-        # By rounding, a film as thin as can be may have no points.
-        made += [sides] if all(len(side.points) for side in sides) else []
+        if all(len(side.points) for side in sides):  # by rounding, a film may have none
+            made.append(sides)
     # A film along a cut has no sample of the surface. But a small piece may have so few
     # that one side of every cut has none.
     firm = [sides for sides in made if all(side.on_surface.any() for side in sides)]

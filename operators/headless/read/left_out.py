@@ -12,7 +12,8 @@ from ..current_file import objects_in_view_layers
 from ..files.headers import read_header
 from .off_files import n_faces_of_off
 
-_OBJ_FACE = re.compile(rb"^[ \t]*f[ \t]", re.MULTILINE)
+# A line break is found sooner than the beginning of a line.
+_OBJ_FACE = re.compile(rb"\n[ \t]*f[ \t]")
 
 
 def faces_note(path: Path) -> str | None:
@@ -36,7 +37,7 @@ def _n_faces_in(path: Path) -> int:
     if ending == ".off":
         return n_faces_of_off(path)
     if ending == ".obj":
-        return len(_OBJ_FACE.findall(path.read_bytes()))
+        return len(_OBJ_FACE.findall(b"\n" + path.read_bytes()))
     header = read_header(path.read_bytes()) if ending == ".ply" else None
     elements = header.elements if header else ()
     return sum(each.n_rows for each in elements if each.name == "face")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -28,8 +30,7 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
     DecompositionError
         If the file is not OFF, is cut short or has a face without its vertices.
     """
-    lines = lines_of(path)
-    n_vertices, n_faces, body = _header(lines, path.name)
+    n_vertices, n_faces, body = _header([*lines_of(path)], path.name)
     if len(body) < n_vertices + n_faces:
         raise DecompositionError(
             f"{path.name} is truncated: it promises {n_vertices} vertices and"
@@ -46,17 +47,17 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
 
 def n_faces_of_off(path: Path) -> int:
     """Return how many faces an .off file has, also those with too few corners."""
-    return _header(lines_of(path), path.name)[1]
+    return _header([*islice(lines_of(path), 2)], path.name)[1]
 
 
-def lines_of(path: Path) -> list[str]:
-    """Return the lines of a text file, without comments, spaces around and blank ones.
+def lines_of(path: Path) -> Iterator[str]:
+    """Yield the lines of a text file, without comments, spaces around and blank ones.
 
     A byte order mark counts for nothing, and lines may end as on old Macs.
     """
     lines = path.read_bytes().removeprefix(BYTE_ORDER_MARK).splitlines()
     texts = (line.partition(b"#")[0].strip().decode("latin-1") for line in lines)
-    return [text for text in texts if text]
+    yield from filter(None, texts)
 
 
 def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
