@@ -13,8 +13,9 @@ type           is found by                says
 `ShownParts`   `shown_parts`              faces after modifiers: to draw, and to click
 ============== ========================== ============================================
 
-`Identity` is in `bridge/stored`, `Edited` in `bridge/work`, and `ShownParts` in
-`operators/viewport`; the others are here.
+`PartFigures` are `FoundParts`, and `PresentParts` are `PartFigures`. These three are
+here; `Identity` is in `bridge/stored`, `Edited` in `bridge/work`, and `ShownParts` in
+`operators/viewport`.
 
 - The number of a part stays, and is on its faces, in the attribute `wcd_part`.
 - Its place is that among all parts, by number. Labels of faces are places: they change

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ..mesh.by_label import sums_by_label
 from ..mesh.fingerprint import fits
-from ..stored.identity import Identity
 from ..stored.noted_parts import entry_of
 from ..stored.record import record_of
 from .read import FoundParts, find_parts_on
@@ -27,12 +26,11 @@ JOINED = (
 
 
 @dataclass(frozen=True, eq=False)
-class PartFigures:
-    """What is known of the parts of an object.
+class PartFigures(FoundParts):
+    """What is known of the parts of an object, beside who they are.
 
     Attributes
     ----------
-    found : FoundParts
     measured_on : (K, 5) float
         Of each part: number of faces, area and center. Points have an area of 1 each.
     ranks : (K,) float
@@ -43,16 +41,10 @@ class PartFigures:
         Why figures are out of date, and what to do.
     """
 
-    found: FoundParts
     measured_on: NDArray[np.float64]
     ranks: NDArray[np.float64]
     record: dict[str, Any]
     problem: str | None
-
-    @property
-    def identities(self) -> tuple[Identity, ...]:
-        """Who the parts are, by number."""
-        return self.found.identities
 
 
 def figures_of(obj: bpy.types.Object) -> PartFigures | None:
@@ -72,7 +64,13 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
         if fits(entry, measured_on[row]):
             ranks[row] = entry["convexity_rank"]
     problem = _problem(record, found, measured_on)
-    return PartFigures(found, measured_on, ranks, record, problem)
+    return PartFigures(
+        **vars(found),
+        measured_on=measured_on,
+        ranks=ranks,
+        record=record,
+        problem=problem,
+    )
 
 
 def _problem(

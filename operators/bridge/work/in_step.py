@@ -27,11 +27,11 @@ def bring_in_step(obj: bpy.types.Object) -> None:
         return
     noted = {each.number for each in identities_of(record_of(obj))}
     there = {each.number for each in figures.identities}
-    if figures.found.in_step and there <= noted:
+    if figures.in_step and there <= noted:
         return
     counts, unknown = figures.measured_on[:, 0].astype(np.int64), float("nan")
     decomposition = Decomposition(
-        labels=figures.found.labels,
+        labels=figures.labels,
         areas=figures.measured_on[:, 1],
         face_counts=counts,
         ranks=figures.ranks,
@@ -42,5 +42,5 @@ def bring_in_step(obj: bpy.types.Object) -> None:
         notes=(),
     )
     parameters = noted_parameters(obj) or Parameters()
-    by_hand = faces_by_hand(obj, len(figures.found.labels))
+    by_hand = faces_by_hand(obj, len(figures.labels))
     Edited(decomposition, figures.identities, parameters, by_hand).write(obj)

@@ -69,7 +69,7 @@ def check_body(obj):
         assert not {"parts", "psi"} & record.keys()
         assert names.PART_LAYER not in obj.data.attributes
         return
-    identities, labels = figures.identities, figures.found.labels
+    identities, labels = figures.identities, figures.labels
     assert np.bincount(labels).tolist() == figures.measured_on[:, 0].tolist()
     for values in zip(*((i.number, i.name) for i in identities), strict=True):
         assert len(set(values)) == len(identities), values

@@ -23,7 +23,7 @@ def _locked(obj):
     Where the record is not in step with the faces, as after a join, numbers change.
     """
     figures = figures_of(obj)
-    if figures is None or not figures.found.in_step:
+    if figures is None or not figures.in_step:
         return {}
     locked = {row.number for row in obj.wcd_parts if row.locked}
     return {
