@@ -11,7 +11,7 @@ from .bridge.mesh.corners import boundary_edges
 from .bridge.mesh.seams import mark_seams, unmark_seams
 from .bridge.mesh.selection import isolate_parts, select_edges, select_faces, show_all
 from .bridge.mesh.viewing import frame_points, points_of_parts
-from .bridge.parts.present_parts import present_parts
+from .bridge.parts.read import parts_on
 from .bridge.parts.rows import chosen_numbers, chosen_parts
 from .bridge.refusals import edit_refusal, faces_refusal, seams_refusal
 from .bridge.views.isolating import end_isolation, isolate
@@ -33,7 +33,7 @@ class _Show(OnActive, OnEach):
 
 def _members(obj: bpy.types.Object) -> np.ndarray:
     """Return which faces, or points, belong to the chosen parts."""
-    return np.isin(present_parts(obj).labels, chosen_parts(obj))
+    return np.isin(parts_on(obj).labels, chosen_parts(obj))
 
 
 class WCD_OT_select_parts(_Show, bpy.types.Operator):
@@ -74,12 +74,12 @@ class WCD_OT_isolate_parts(_Show, bpy.types.Operator):
 
     def _work(self, obj: bpy.types.Object) -> None:
         if obj.mode == "EDIT" and self.hide:
-            isolate_parts(obj, present_parts(obj).labels, chosen_parts(obj))
+            isolate_parts(obj, parts_on(obj).labels, chosen_parts(obj))
         elif obj.mode == "EDIT":
             show_all(obj)
         elif self.hide:
             bring_in_step(obj)
-            present_parts(obj)  # or an error
+            parts_on(obj)  # or an error
             isolate(obj, sorted(chosen_numbers(obj)))
         else:
             end_isolation(obj)
@@ -126,7 +126,7 @@ class WCD_OT_select_boundary(_Show, bpy.types.Operator):
     _waits = False
 
     def _work(self, obj: bpy.types.Object) -> None:
-        labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
+        labels, chosen = parts_on(obj).labels, in_scope(obj, self.scope)
         select_edges(obj, boundary_edges(obj.data, labels, chosen), self.extend)
 
 
@@ -144,7 +144,7 @@ class WCD_OT_mark_seams(_Show, bpy.types.Operator):
     )
 
     def _work(self, obj: bpy.types.Object) -> None:
-        labels, chosen = present_parts(obj).labels, in_scope(obj, self.scope)
+        labels, chosen = parts_on(obj).labels, in_scope(obj, self.scope)
         mark_seams(obj.data, boundary_edges(obj.data, labels, chosen))
 
 

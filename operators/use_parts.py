@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from .bridge.homes import objects_in
-from .bridge.parts.present_parts import present_parts
+from .bridge.parts.read import parts_on
 from .bridge.parts.separating import separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .bridge.views.colors import CHOICES, show_colors_as
@@ -80,7 +80,7 @@ class WCD_OT_explode(_OnParts, bpy.types.Operator):
 
     def _work(self, obj: bpy.types.Object) -> None:
         bring_in_step(obj)
-        present_parts(obj)  # or an error
+        parts_on(obj)  # or an error
         explode(obj, self.distance)
 
 

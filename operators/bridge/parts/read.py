@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ..mesh.attributes import IntArray
-from ..mesh.layers import layers_of
+from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..stored.identity import Identity
 from ..stored.names import PART_LAYER
@@ -137,7 +137,11 @@ def part_materials(obj: bpy.types.Object, found: FoundParts) -> list[Material | 
 
 
 def parts_on(obj: bpy.types.Object) -> FoundParts:
-    """Return the parts that an object has now; raise if it has none of ours."""
+    """Return the parts that an object has now; raise if it has none of ours.
+
+    What was done in Edit Mode is on its mesh then, too.
+    """
+    flush_edits(obj)
     found = find_parts_on(obj)
     if found is None:
         raise DecompositionError(loss_of(obj))
