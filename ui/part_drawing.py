@@ -12,8 +12,8 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from numpy.typing import NDArray
 
-from ..operators.bridge.parts.kept_materials import is_overlaid
 from ..operators.bridge.parts.palette import srgb_of
+from ..operators.bridge.parts.part_materials import is_overlaid
 from ..operators.bridge.parts.rows import chosen_numbers, look_left
 from ..operators.bridge.refusals import faces_refusal
 from ..operators.bridge.watching import start_timer, stop_timer

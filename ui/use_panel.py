@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import bpy
 
-from ..operators.bridge.parts.kept_materials import is_overlaid
+from ..operators.bridge.parts.part_materials import is_overlaid
 from ..operators.bridge.views.colors import CHOICES, MATERIALS, OVERLAY
 from ..operators.bridge.views.exploding import exploding, slider
 from ..operators.viewport import sight_overlay

@@ -5,7 +5,7 @@ import json
 import numpy as np
 from hand_made import areas, face_values, in_mode
 from scipy.optimize import linear_sum_assignment
-from weak_convex_decomposition.operators.bridge.parts.kept_materials import (
+from weak_convex_decomposition.operators.bridge.parts.part_materials import (
     is_overlaid,
     kept_materials,
 )

@@ -19,7 +19,7 @@ from ..homes import hand_over, within_parent
 from ..mesh.known import vertex_positions
 from ..parts.materials import discard, hull_material, none_missing
 from ..parts.palette import usual_color
-from ..parts.read import FoundParts, find_parts_on, part_materials
+from ..parts.read import FoundParts, find_parts_on, materials_of
 from ..read.shape import stretch
 from ..read.stretching import unstretched
 from ..stored.names import CORNERS_TAG, HULL_TAG, MARGIN_TAG, PIECE_TAG
@@ -169,7 +169,7 @@ def _materials(
 ) -> list[bpy.types.Material]:
     """Return the material of each hull: that of its part, or one for hulls alone."""
     if parts is not None:
-        own = none_missing(parts.identities, part_materials(obj, parts))
+        own = none_missing(parts.identities, materials_of(obj, parts))
         return [own[part] for part in found.parts]
     rows = found.parts.tolist() if found.has_parts else range(found.n_hulls)
     return [hull_material(row, usual_color(row)) for row in rows]

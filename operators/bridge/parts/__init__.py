@@ -21,4 +21,17 @@ here; `Identity` is in `bridge/stored`, `Edited` in `bridge/work`, and `ShownPar
 - Its place is that among all parts, by number. Labels of faces are places: they change
   as parts come and go.
 - Its turn tells apart parts that have one number after a join: 0 for the object's own.
+
+Each part has a material, which nothing else has but its hulls. Who knows what of it:
+
+================== ===================================================================
+`materials`        is it ours or the user's; make, name, color and remove it
+`slots`            put it into a slot after the user's; Clear takes it out: faces get
+                   the material back that they had, or keep what the user gave them
+`stored/restore`   how slots, groups and faces were before, noted on the mesh
+`part_materials`   which part has it, in a slot, or kept on the mesh while colors are an
+                   overlay; then marks on faces tell what slots do otherwise
+`joined`           whose faces are after a join: asks slots and marks
+`views/colors`     from slots to an overlay, and back
+================== ===================================================================
 """

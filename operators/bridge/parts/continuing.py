@@ -12,13 +12,11 @@ from .... import core
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
 from ..mesh.by_label import ByLabel, areas_of
-from ..mesh.points import is_cloud
 from ..stored.identity import Identity
 from ..stored.restore import sharers
 from .identities import identities_of_run
-from .kept_materials import kept_materials
-from .materials import part_slots
-from .read import FoundParts, find_parts_on, part_materials
+from .part_materials import part_materials
+from .read import FoundParts, find_parts_on, materials_of
 from .rows import Row, kept_rows
 
 
@@ -45,14 +43,10 @@ class BeforeWriting:
         """Return what an object has of parts."""
         found = find_parts_on(obj)
         materials: dict[int, bpy.types.Material | None] = {}
-        if not is_cloud(obj):
-            slots = part_slots(obj.data)
-            materials = {n: obj.data.materials[i] for n, (i, *_) in slots.items()}
-            materials |= kept_materials(obj.data)
-            if found is not None:
-                numbers = [each.number for each in found.identities]
-                own = part_materials(obj, found)
-                materials |= dict(zip(numbers, own, strict=True))
+        materials |= {n: first for n, (first, *_) in part_materials(obj).items()}
+        if found is not None:
+            numbers = [each.number for each in found.identities]
+            materials |= zip(numbers, materials_of(obj, found), strict=True)
         rows = {each.name: kept_rows(each) for each in sharers(obj)}
         return cls(found, rows, materials)
 

@@ -25,8 +25,8 @@ from ..stored.record import (
 )
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from ..stored.users_groups import users_groups
-from .kept_materials import drop_kept, marked_groups
 from .materials import discard_unused, is_of_part, name_of, our_materials
+from .part_materials import drop_kept, marked_groups
 from .read import FoundParts, find_parts_on
 from .rows import erase_rows
 from .slots import take_out_of_slots

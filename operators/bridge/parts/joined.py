@@ -18,10 +18,9 @@ from ..mesh.points import is_cloud
 from ..stored.names import GROUP_LAYER, MATERIAL_TAG, OWNER, OWNER_LAYER
 from ..stored.noted_parts import entry_of, n_faces_of
 from ..stored.record import record_of
-from ..stored.restore import read_restore
-from .kept_materials import marked_groups
-from .materials import color_of, is_ours, name_of, part_slots
+from .materials import color_of, is_ours, name_of
 from .palette import Color
+from .part_materials import marked_groups, part_slots, tagged_slots
 
 
 def highest_number(
@@ -51,7 +50,7 @@ def told_of_part(
     number, turn = origin
     if is_cloud(obj):
         return None, None
-    slots = part_slots(obj.data).get(number, [])
+    slots = part_slots(obj).get(number, [])
     if turn < len(slots):
         material = obj.data.materials[slots[turn]]
         return name_of(material), color_of(material)
@@ -59,13 +58,10 @@ def told_of_part(
     marks, indices = layers.faces(GROUP_LAYER), layers.material_indices()
     if marks is not None and (name := marked_groups(obj).get(int(marks[face]))):
         return name, None
-    place, materials = 0 if indices is None else indices[face], obj.data.materials
-    material = materials[place] if place < len(materials) else None
-    restore = read_restore(obj.data)
-    if material is None or not is_ours(material) or material[MATERIAL_TAG] != number:
+    place = 0 if indices is None else indices[face]
+    if place not in tagged_slots(obj.data).get(number, ()):
         return None, None
-    if restore is not None and restore.had(material):  # the user's
-        return None, None
+    material = obj.data.materials[place]
     return name_of(material), color_of(material)
 
 
@@ -105,7 +101,7 @@ def _turns_by_material(
 
     Faces of an object without parts have another turn. None if all faces have 0.
     """
-    slots, indices = part_slots(obj.data), layers_of(obj).material_indices()
+    slots, indices = part_slots(obj), layers_of(obj).material_indices()
     if indices is None:
         return None
     turns = np.zeros_like(numbers)

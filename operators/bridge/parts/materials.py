@@ -13,8 +13,7 @@ import bpy
 import numpy as np
 
 from ..stored.identity import Identity, has_name, part_name, plain_name
-from ..stored.names import COLOR_LAYER, KEPT_MATERIALS, MATERIAL_NAME, MATERIAL_TAG
-from ..stored.restore import read_restore
+from ..stored.names import COLOR_LAYER, MATERIAL_NAME, MATERIAL_TAG
 from .palette import Color
 
 # The number in the tag of the material that shows the parts of all point clouds. Below
@@ -56,22 +55,6 @@ def color_of(material: bpy.types.Material) -> Color:
     """Return the color of a material in Solid shading, linear."""
     red, green, blue = material.diffuse_color[:3]
     return red, green, blue
-
-
-def part_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
-    """Return the slots with materials of ours, by the number of the part.
-
-    A part has more than one after a join with another object that has its number. The
-    slots before are left out: a separated part has the material of what it was.
-    """
-    slots: dict[int, list[int]] = {}
-    if KEPT_MATERIALS in mesh:  # those in slots came with another object
-        return slots
-    restore = read_restore(mesh)
-    for index, material in enumerate(mesh.materials):
-        if is_of_part(material) and not (restore and restore.had(material)):
-            slots.setdefault(material[MATERIAL_TAG], []).append(index)
-    return slots
 
 
 def own_materials(

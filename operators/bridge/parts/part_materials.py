@@ -1,7 +1,7 @@
-"""The materials of parts whose colors are an overlay: none of them is in a slot.
+"""Where the materials of an object's parts are: in slots, or kept by the mesh.
 
-The mesh keeps them in a custom property, so that they are there again, as they were,
-once parts are shown as materials.
+While colors are an overlay, none of them is in a slot. The mesh keeps them in a custom
+property, so that they are there again, as they were, once parts are shown as materials.
 """
 
 from __future__ import annotations
@@ -13,13 +13,53 @@ import bpy
 import numpy as np
 
 from ..mesh.layers import layers_of
-from ..stored.names import GROUP_LAYER, KEPT_MATERIALS, OWNER, OWNER_LAYER, PART_LAYER
-from .materials import name_of
+from ..mesh.points import is_cloud
+from ..stored.names import (
+    GROUP_LAYER,
+    KEPT_MATERIALS,
+    MATERIAL_TAG,
+    OWNER,
+    OWNER_LAYER,
+    PART_LAYER,
+)
+from ..stored.restore import read_restore
+from .materials import is_of_part, name_of
 
 
 def is_overlaid(obj: bpy.types.Object) -> bool:
     """Return whether the colors of an object's parts are an overlay."""
     return obj.type == "MESH" and KEPT_MATERIALS in obj.data
+
+
+def part_materials(obj: bpy.types.Object) -> dict[int, list[bpy.types.Material]]:
+    """Return the materials of an object's parts, wherever they are, by their numbers.
+
+    A part has more than one after a join with another object that has its number.
+    """
+    if is_overlaid(obj):
+        return {number: [each] for number, each in kept_materials(obj.data).items()}
+    there = obj.data.materials
+    return {n: [there[slot] for slot in slots] for n, slots in part_slots(obj).items()}
+
+
+def part_slots(obj: bpy.types.Object) -> dict[int, list[int]]:
+    """Return the slots that hold these materials; what is in others came by a join."""
+    if is_overlaid(obj) or is_cloud(obj):
+        return {}
+    return tagged_slots(obj.data)
+
+
+def tagged_slots(mesh: bpy.types.Mesh) -> dict[int, list[int]]:
+    """Return the slots with materials of parts, by the numbers that these have.
+
+    The slots before are left out: a separated part has the material of what it was.
+    """
+    slots: dict[int, list[int]] = {}
+    restore = read_restore(mesh)
+    for index, material in enumerate(mesh.materials):
+        if is_of_part(material) and not (restore and restore.had(material)):
+            slots.setdefault(material[MATERIAL_TAG], []).append(index)
+    return slots
 
 
 def kept_materials(mesh: bpy.types.Mesh) -> dict[int, bpy.types.Material]:

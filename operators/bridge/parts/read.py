@@ -25,9 +25,9 @@ from ..stored.record import record_of
 from ..stored.restore import read_restore
 from .identities import Newcomers
 from .joined import highest_number, told_of_part, turns_of_faces
-from .kept_materials import is_overlaid, kept_materials
-from .materials import color_of, part_slots
+from .materials import color_of
 from .palette import Color
+from .part_materials import part_materials, part_slots
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,16 +122,11 @@ def _identified(
     return [found[origin] for origin in origins]
 
 
-def part_materials(obj: bpy.types.Object, found: FoundParts) -> list[Material | None]:
-    """Return the material of each part, in its slot or kept, None without one."""
-    if is_overlaid(obj):
-        kept = kept_materials(obj.data)
-        return [None if turn else kept.get(n) for n, turn in found.origins]
-    slots = part_slots(obj.data)
+def materials_of(obj: bpy.types.Object, found: FoundParts) -> list[Material | None]:
+    """Return the material of each part, None without one."""
+    there = part_materials(obj)
     return [
-        obj.data.materials[slots[number][turn]]
-        if turn < len(slots.get(number, ()))
-        else None
+        own[turn] if turn < len(own := there.get(number, [])) else None
         for number, turn in found.origins
     ]
 
@@ -183,9 +178,7 @@ def noted_identities(obj: bpy.types.Object) -> dict[int, Identity]:
     A color that the user gave to the material counts.
     """
     noted = {each.number: each for each in identities_of(record_of(obj))}
-    if is_cloud(obj):
-        return noted
-    for number, (slot, *_) in part_slots(obj.data).items():
+    for number, (slot, *_) in part_slots(obj).items():
         if number in noted:
             color = color_of(obj.data.materials[slot])
             noted[number] = replace(noted[number], color=color)

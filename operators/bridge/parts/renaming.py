@@ -11,7 +11,6 @@ import bpy
 from ....core.errors import DecompositionError
 from ..hulls.listed import hulls_of
 from ..hulls.looks import look_like, look_of
-from ..mesh.points import is_cloud
 from ..refusals import library_refusal, name_refusal
 from ..stored.identity import Identity
 from ..stored.names import KEPT_MATERIALS
@@ -22,9 +21,9 @@ from ..stored.users_groups import users_groups
 from ..views.face_sets_and_colors import show_colors
 from ..watching import REPLACED
 from .figures import JOINED
-from .kept_materials import is_overlaid, mark_group
-from .materials import color_of, discard_unused, own_material, part_slots
+from .materials import color_of, discard_unused, own_material
 from .palette import Color
+from .part_materials import is_overlaid, mark_group, part_slots
 
 # The latest name that was typed and not taken: the object, the number of the part and
 # the name. It is not in Blender's data, because undo would bring it back.
@@ -134,10 +133,9 @@ def _clash(name: str, instead: str) -> str:
 
 def color_of_part(obj: bpy.types.Object, number: int) -> Color:
     """Return the color of a part: that of its material, else as noted."""
-    if not is_cloud(obj):
-        slots = part_slots(obj.data).get(number)
-        if slots:
-            return color_of(obj.data.materials[slots[0]])
+    slots = part_slots(obj).get(number)
+    if slots:
+        return color_of(obj.data.materials[slots[0]])
     part = _noted(obj, number)
     return part.color if part else (0.0, 0.0, 0.0)
 
@@ -174,7 +172,7 @@ def _home(obj: bpy.types.Object, number: int) -> tuple[Any, int | str]:
     if is_overlaid(obj):
         kept, key = obj.data[KEPT_MATERIALS], str(number)
         return (kept if key in kept else None), key
-    slots = [] if is_cloud(obj) else part_slots(obj.data).get(number, [])
+    slots = part_slots(obj).get(number)
     return (obj.data.materials, slots[0]) if slots else (None, 0)
 
 

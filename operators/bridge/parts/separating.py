@@ -20,7 +20,7 @@ from ..mesh.known import face_areas
 from ..views.node_modifiers import discard_views, remove_views
 from .erase import clear
 from .materials import discard, discard_unused, none_missing
-from .read import part_materials, parts_on
+from .read import materials_of, parts_on
 
 
 def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
@@ -43,7 +43,7 @@ def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
         If the object has no parts. Nothing is changed then, nor by any other error.
     """
     found = parts_on(obj)
-    identities, own = found.identities, part_materials(obj, found)
+    identities, own = found.identities, materials_of(obj, found)
     pieces: list[bpy.types.Object] = []
     with ExitStack() as on_error:
         collection = new_collection(obj, f"{obj.name} parts")

@@ -38,19 +38,17 @@ def put_in_slots(
         The fields of `Restore` on how the slots were before.
     """
     mesh, layers = obj.data, layers_of(obj)
-    before = layers.material_indices()
-    uniform = before is None or bool((before == before[0]).all())
-    slots = [material.name if material else "" for material in mesh.materials]
+    before, slots = layers.material_indices(), _names_in(mesh)
+    differ = before is not None and bool((before != before[0]).any())
+    index = None if differ else 0 if before is None else int(before[0])
     tagged = [material.name for material in mesh.materials if is_ours(material)]
     active_slot = obj.active_material_index
-    index = int(before[0]) if uniform and before is not None else None
-    noted = {"slots": slots, "index": (index or 0) if uniform else None}
     for material in materials:
         mesh.materials.append(material)
         if not is_cloud(obj):  # clouds share theirs
-            write_note(material, FORMER_SLOTS, noted)
+            write_note(material, FORMER_SLOTS, {"slots": slots, "index": index})
     obj.active_material_index = active_slot
-    if before is not None and not uniform:
+    if before is not None and differ:
         layers.set_faces(MATERIAL_LAYER, before)
     layers.set_material_indices((rows + len(slots)).astype(np.int32))
     return {
@@ -71,9 +69,9 @@ def bare_materials(
     """
     mesh, layers = obj.data, layers_of(obj)
     if restore is None:
-        return layers.material_indices(), _names_without(mesh, [])
-    indices, ours, emptied = _bare_slots(mesh, restore, layers)
-    return indices, _names_without(mesh, ours, emptied)
+        return layers.material_indices(), _names_in(mesh)
+    indices, remaining = _bare_slots(mesh, restore, layers)
+    return indices, [*remaining.values()]
 
 
 def take_out_of_slots(
@@ -84,23 +82,25 @@ def take_out_of_slots(
     Faces get the materials again that they had. Those with another material keep it.
     """
     layers = layers_of(obj)
-    indices, ours, emptied = _bare_slots(obj.data, restore, layers)
-    materials = _erase_slots(obj, restore, ours, emptied)
+    indices, remaining = _bare_slots(obj.data, restore, layers)
+    materials = _erase_slots(obj, restore, remaining)
     layers.set_material_indices(indices)
     return materials
 
 
 def _bare_slots(
     mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
-) -> tuple[IntArray | None, list[int], int | None]:
+) -> tuple[IntArray | None, dict[int, str]]:
     """Return what is left of the slots of a mesh without our materials.
 
-    These are the material index of each face, the slots to remove, and one that stays,
-    empty, if other faces have materials and some had none.
+    These are the material index of each face, and the slots that stay, each with the
+    name of its material. One of ours stays, with "" for a name, if other faces have
+    materials and some had none.
     """
-    ours, emptied = _our_slots(mesh, restore), None
+    names, ours = _names_in(mesh), _our_slots(mesh, restore)
+    remaining = {slot: n for slot, n in enumerate(names) if slot not in ours}
     if not getattr(mesh, "polygons", None):  # points
-        return None, ours, None
+        return None, remaining
     now = layers.material_indices()
     if now is None:
         now = np.zeros(len(mesh.polygons), dtype=np.int32)
@@ -108,22 +108,21 @@ def _bare_slots(
     lacking = [slot for (slots, _), its in former.items() if not slots for slot in its]
     without = np.isin(now, lacking)
     mixed = without.any() and not without.all()  # as after a join
-    if mixed and "" not in _names_without(mesh, ours):
-        emptied = min(lacking)
-        ours.remove(emptied)
-    remaining = _names_without(mesh, ours, emptied)
-    indices = (now - np.searchsorted(ours, now)).astype(np.int32)
+    if mixed and "" not in remaining.values():
+        remaining = dict(sorted([*remaining.items(), (min(lacking), "")]))
+    gone, left = [s for s in ours if s not in remaining], [*remaining.values()]
+    indices = (now - np.searchsorted(gone, now)).astype(np.int32)
     layer = layers.faces(MATERIAL_LAYER)
     for (slots, index), its in former.items():
         before = np.full_like(now, index or 0)
         if index is None and layer is not None:
             before = layer
         own, rows = list(slots) == restore.slots, np.isin(now, its)
-        indices[rows] = _moved(before[rows], slots, remaining, own)
+        indices[rows] = _moved(before[rows], slots, left, own)
     if mixed:
-        indices[without] = remaining.index("")
+        indices[without] = left.index("")
     no_need = not restore.had_material_index and not indices.any()
-    return None if no_need else indices, ours, emptied
+    return None if no_need else indices, remaining
 
 
 def _former_slots(
@@ -160,15 +159,9 @@ def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
     return sorted(ours + empty[:n_missing])
 
 
-def _names_without(
-    mesh: bpy.types.Mesh, ours: list[int], emptied: int | None = None
-) -> list[str]:
-    """Return the names of the materials in the user's slots, '' for none."""
-    return [
-        material.name if material and index != emptied else ""
-        for index, material in enumerate(mesh.materials)
-        if index not in ours
-    ]
+def _names_in(mesh: bpy.types.Mesh) -> list[str]:
+    """Return the names of the materials in the slots of a mesh, "" for none."""
+    return [material.name if material else "" for material in mesh.materials]
 
 
 def _moved(
@@ -193,54 +186,42 @@ def _moved(
 
 
 def _erase_slots(
-    obj: bpy.types.Object, restore: Restore, ours: list[int], emptied: int | None
+    obj: bpy.types.Object, restore: Restore, remaining: dict[int, str]
 ) -> list[bpy.types.Material]:
-    """Remove the slots `ours`, and empty one; return the materials in them."""
-    mesh, taken = obj.data, [*ours] if emptied is None else [emptied, *ours]
-    materials = [mesh.materials[i] for i in taken if mesh.materials[i] is not None]
-    if emptied is not None:
-        mesh.materials[emptied] = None
-    if not ours:
-        return materials
-    active = obj.active_material_index
-    # Removing a slot of the mesh does not move the objects' own materials.
+    """Leave only the slots `remaining`; return the materials that go."""
+    mesh, active, before = obj.data, obj.active_material_index, [*obj.data.materials]
+    for slot, name in remaining.items():
+        if before[slot] is not None and not name:
+            mesh.materials[slot] = None
+    gone = [slot for slot in range(len(before)) if slot not in remaining]
+    if gone:
+        _remove_slots(obj, gone)
+    if gone and mesh.materials:
+        n_before = sum(slot < active for slot in gone)
+        active = restore.active_slot if active in gone else active - n_before
+        obj.active_material_index = min(active, len(mesh.materials) - 1)
+    slots = enumerate(before)
+    return [m for slot, m in slots if m is not None and m.name != remaining.get(slot)]
+
+
+def _remove_slots(obj: bpy.types.Object, gone: list[int]) -> None:
+    """Remove slots of a mesh, and those of the objects that have it.
+
+    Blender does not move the objects' own materials in the slots behind.
+    """
+    mesh = obj.data
     linked = [
-        (sharer, [_object_link(slot) for slot in sharer.material_slots])
+        (sharer, [(slot.link, slot.material) for slot in sharer.material_slots])
         for sharer in sharers(obj)
     ]
-    if len(ours) == len(mesh.materials):
+    if len(gone) == len(mesh.materials):
         mesh.materials.clear()  # `pop` would leave the objects an empty slot
-    else:
-        for index in reversed(ours):
-            mesh.materials.pop(index=index)
-    for sharer, links in linked:
-        kept = [link for i, link in enumerate(links) if i not in ours]
-        for slot, link in zip(sharer.material_slots, kept, strict=False):
-            _set_object_link(slot, link)
-    if mesh.materials:
-        active = (
-            restore.active_slot
-            if active in ours
-            else active - sum(i < active for i in ours)
-        )
-        obj.active_material_index = min(active, len(mesh.materials) - 1)
-    return materials
-
-
-def _object_link(
-    slot: bpy.types.MaterialSlot,
-) -> tuple[bool, bpy.types.Material | None]:
-    """Return whether a slot's material is the object's own, and that material."""
-    own = slot.link == "OBJECT"
-    return own, slot.material if own else None
-
-
-def _set_object_link(
-    slot: bpy.types.MaterialSlot, link: tuple[bool, bpy.types.Material | None]
-) -> None:
-    """Give a slot what `_object_link` returned."""
-    own, material = link
-    if (slot.link == "OBJECT") != own:
-        slot.link = "OBJECT" if own else "DATA"
-    if own and slot.material != material:
-        slot.material = material
+    for index in reversed(gone if mesh.materials else ()):
+        mesh.materials.pop(index=index)
+    for sharer, slots in linked:
+        kept = [each for index, each in enumerate(slots) if index not in gone]
+        for slot, (link, material) in zip(sharer.material_slots, kept, strict=False):
+            if slot.link != link:
+                slot.link = link
+            if link == "OBJECT" and slot.material != material:
+                slot.material = material

@@ -27,8 +27,8 @@ from ..views.colors import show_as_overlay
 from ..views.face_sets_and_colors import paint_points, show, shown
 from .continuing import BeforeWriting, by_number
 from .erase import erase_parts
-from .kept_materials import is_overlaid
 from .materials import discard_unused, own_materials, points_material
+from .part_materials import is_overlaid
 from .rows import write_rows
 from .slots import put_in_slots
 

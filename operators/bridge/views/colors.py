@@ -11,8 +11,14 @@ import bpy
 import numpy as np
 
 from ..mesh.layers import layers_of
-from ..parts.kept_materials import drop_kept, is_overlaid, keep, kept_materials
-from ..parts.materials import own_materials, part_slots, recolor
+from ..parts.materials import own_materials, recolor
+from ..parts.part_materials import (
+    drop_kept,
+    is_overlaid,
+    keep,
+    kept_materials,
+    part_materials,
+)
 from ..parts.slots import put_in_slots, take_out_of_slots
 from ..stored.names import GROUP_LAYER, MATERIAL_LAYER, OWNER_LAYER, PART_LAYER
 from ..stored.noted_parts import identities_of
@@ -49,8 +55,7 @@ def show_as_overlay(obj: bpy.types.Object) -> None:
     restore = read_restore(obj.data)
     if restore is None or is_overlaid(obj) or obj.type != "MESH":
         return
-    mesh = obj.data
-    materials = {n: mesh.materials[row] for n, (row, *_) in part_slots(mesh).items()}
+    materials = {n: first for n, (first, *_) in part_materials(obj).items()}
     take_out_of_slots(obj, restore)
     layers_of(obj).remove(MATERIAL_LAYER)
     keep(obj, materials)

@@ -9,8 +9,8 @@ from edited import check_in_step
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from stand_ins.presses import Pressed
-from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
 from weak_convex_decomposition.operators.bridge.parts.materials import name_of
+from weak_convex_decomposition.operators.bridge.parts.part_materials import is_overlaid
 from weak_convex_decomposition.operators.bridge.parts.read import (
     noted_identities,
     part_identities,

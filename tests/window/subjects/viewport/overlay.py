@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 from hands import PICTURES
 from leftovers import leftovers
-from weak_convex_decomposition.operators.bridge.parts.kept_materials import is_overlaid
+from weak_convex_decomposition.operators.bridge.parts.part_materials import is_overlaid
 from weak_convex_decomposition.operators.viewport import picking
 
 # Largest difference of red, green and blue in gray; bright light makes colors pale.
