@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from ..bridge.mesh.attributes import (
     IntArray,
+    read_attribute,
     read_flags,
     read_ints,
     read_labels,
-    whole_numbers,
 )
 from ..bridge.mesh.corners import edge_sides
 from ..bridge.mesh.known import triangles_of
@@ -115,7 +115,7 @@ def _read(obj: bpy.types.Object, graph: bpy.types.Depsgraph) -> ShownParts | Non
     evaluated = obj.evaluated_get(graph)
     mesh = evaluated.to_mesh()
     try:
-        numbers = whole_numbers(mesh, PART_LAYER, "FACE")
+        numbers = read_attribute(mesh, PART_LAYER, "INT", "FACE")
         if numbers is None:
             return None
         if not found.in_step:

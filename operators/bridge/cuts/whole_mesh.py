@@ -15,13 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.attributes import (
-    FIELDS,
     IntArray,
-    read_flags,
     read_floats,
     read_ints,
     read_labels,
-    write_ints,
+    values_of,
+    write_attribute,
 )
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
@@ -70,8 +69,7 @@ def whole_faces(obj: bpy.types.Object) -> IntArray:
 
 def note_whole(obj: bpy.types.Object, faces: NDArray[np.int64]) -> None:
     """Note the whole face of each face, and the state, of an object without parts."""
-    layer = obj.data.attributes.new(WHOLE_LAYER, "INT", "FACE")
-    write_ints(layer.data, "value", faces)
+    write_attribute(obj.data, WHOLE_LAYER, "INT", "FACE", faces)
     obj.data[CUT_STATE] = _state_of(obj)
 
 
@@ -179,7 +177,7 @@ def _state_of(obj: bpy.types.Object) -> str:
             continue
         if attribute.name in {"material_index", FACE_SETS, *BLENDERS_LAYERS}:
             continue
-        values = _values_of(attribute)
+        values = values_of(attribute)
         if np.any(values):  # Edit Mode drops layers without any value
             add(f"{attribute.name} {attribute.domain}", values)
     indices, names = bare_materials(obj, restore)
@@ -203,14 +201,3 @@ def _state_of(obj: bpy.types.Object) -> str:
     }
     digest.update(json.dumps([names, users, weights, noted]).encode())
     return digest.hexdigest()
-
-
-def _values_of(attribute: bpy.types.Attribute) -> Any:
-    """Return the values of an attribute as an array."""
-    kind = attribute.data_type
-    if kind not in FIELDS:
-        return np.array([str(each.value) for each in attribute.data])
-    if kind == "BOOLEAN":
-        return read_flags(attribute.data, "value")
-    read = read_ints if "INT" in kind else read_floats
-    return read(attribute.data, *FIELDS[kind])

@@ -18,7 +18,7 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 
 # How Blender names the values of an attribute of each type, and how many numbers each
 # has.
-FIELDS = {
+_FIELDS = {
     "FLOAT": ("value", 1),
     "INT": ("value", 1),
     "INT8": ("value", 1),
@@ -79,21 +79,44 @@ def write_flags(elements: Any, name: str, values: BoolArray) -> None:
 
 def read_labels(mesh: Any, name: str, missing: int) -> IntArray:
     """Return an integer attribute of the faces, (P,); all are `missing` without it."""
-    found = whole_numbers(mesh, name, "FACE")
+    found = read_attribute(mesh, name, "INT", "FACE")
     if found is not None:
         return found
     return np.full(len(mesh.polygons), missing, dtype=np.int32)
 
 
-def whole_numbers(data: Any, name: str, domain: str) -> IntArray | None:
-    """Return an integer attribute of a domain, None if there is none of that kind.
+def read_attribute(data: Any, name: str, kind: str, domain: str) -> NDArray[Any] | None:
+    """Return an attribute as an array, None if there is none of that kind and domain.
 
-    The `data` are a mesh or a point cloud, the `domain` is FACE or POINT.
+    The `data` are a mesh or a point cloud. The kind is INT, FLOAT_VECTOR and the like,
+    and the domain POINT, EDGE, FACE or CORNER.
     """
     attribute = data.attributes.get(name)
-    if attribute is None or (attribute.data_type, attribute.domain) != ("INT", domain):
+    if attribute is None or (attribute.data_type, attribute.domain) != (kind, domain):
         return None
-    return read_ints(attribute.data, "value")
+    return values_of(attribute)
+
+
+def values_of(attribute: Any) -> NDArray[Any]:
+    """Return the values of an attribute of any kind."""
+    kind = attribute.data_type
+    if kind not in _FIELDS:
+        return np.array([str(each.value) for each in attribute.data])
+    if kind == "BOOLEAN":
+        return read_flags(attribute.data, "value")
+    read = read_ints if "INT" in kind else read_floats
+    return read(attribute.data, *_FIELDS[kind])
+
+
+def write_attribute(
+    data: Any, name: str, kind: str, domain: str, values: NDArray[Any]
+) -> None:
+    """Write an attribute of integers or floats; make it if there is none."""
+    attribute = data.attributes.get(name)
+    if attribute is None:
+        attribute = data.attributes.new(name, kind, domain)
+    write = write_ints if "INT" in kind else write_floats
+    write(attribute.data, _FIELDS[kind][0], values)
 
 
 def _read(elements: Any, name: str, width: int, dtype: DTypeLike) -> NDArray[Any]:

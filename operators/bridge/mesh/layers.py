@@ -10,7 +10,13 @@ import bmesh
 import bpy
 import numpy as np
 
-from .attributes import FloatArray, IntArray, whole_numbers, write_floats, write_ints
+from .attributes import (
+    FloatArray,
+    IntArray,
+    read_attribute,
+    write_attribute,
+    write_floats,
+)
 from .known import corner_faces, corner_vertices
 from .points import is_cloud
 
@@ -54,14 +60,11 @@ class ObjectModeLayers:
 
     def faces(self, name: str) -> IntArray | None:
         """Return an attribute of whole numbers of the faces, None if there is none."""
-        return whole_numbers(self._mesh, name, self._domain)
+        return read_attribute(self._mesh, name, "INT", self._domain)
 
     def set_faces(self, name: str, values: IntArray) -> None:
         """Write an attribute of the faces."""
-        attribute = self._mesh.attributes.get(name)
-        if attribute is None:
-            attribute = self._mesh.attributes.new(name, "INT", self._domain)
-        write_ints(attribute.data, "value", values)
+        write_attribute(self._mesh, name, "INT", self._domain, values)
 
     def corners(self) -> tuple[IntArray, IntArray]:
         """Return the vertex and the face of each corner, (C,) and (C,)."""

@@ -8,9 +8,8 @@ from __future__ import annotations
 import bmesh
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from .attributes import FIELDS, FloatArray, read_floats, write_floats
+from .attributes import FloatArray, read_attribute, read_floats
 from .known import vertex_positions
 
 # Names that programs and importers give to attributes with normals.
@@ -55,30 +54,12 @@ def normals_of(obj: bpy.types.Object) -> FloatArray | None:
         normals = read_vectors(obj, name)
         if normals is not None:
             return normals
-    columns = [_read(obj, name, "FLOAT") for name in _NORMALS_BY_AXIS]
+    data = obj.data
+    columns = [read_attribute(data, n, "FLOAT", "POINT") for n in _NORMALS_BY_AXIS]
     found = [column for column in columns if column is not None]
     return np.stack(found, axis=1) if len(found) == len(columns) else None
 
 
 def read_vectors(obj: bpy.types.Object, name: str) -> FloatArray | None:
     """Return an attribute of vectors of the points, (N, 3), None if there is none."""
-    return _read(obj, name, "FLOAT_VECTOR")
-
-
-def _read(obj: bpy.types.Object, name: str, kind: str) -> FloatArray | None:
-    """Return an attribute of the points, None if there is none of that kind."""
-    attribute = obj.data.attributes.get(name)
-    if attribute is None or (attribute.data_type, attribute.domain) != (kind, "POINT"):
-        return None
-    return read_floats(attribute.data, *FIELDS[kind])
-
-
-def set_points(
-    obj: bpy.types.Object, name: str, kind: str, values: NDArray[np.float64]
-) -> None:
-    """Write an attribute of the points: FLOAT_COLOR (N, 4) or FLOAT_VECTOR (N, 3)."""
-    attribute = obj.data.attributes.get(name)
-    if attribute is None:
-        attribute = obj.data.attributes.new(name, kind, "POINT")
-    field, _ = FIELDS[kind]
-    write_floats(attribute.data, field, values)
+    return read_attribute(obj.data, name, "FLOAT_VECTOR", "POINT")

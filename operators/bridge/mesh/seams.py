@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import bmesh
 import bpy
-import numpy as np
 
 from ....core.errors import DecompositionError
 from ..stored.names import SEAM_LAYER
-from .attributes import BoolArray, read_flags, read_ints, write_flags, write_ints
+from .attributes import BoolArray, read_flags, read_ints, write_attribute, write_flags
 from .selection import show_flags
 
 # Blender's own attribute of seams, before and since 5.0.
@@ -50,8 +49,7 @@ def mark_seams(mesh: bpy.types.Mesh, chosen: BoolArray) -> None:
             edge.seam = edge.seam or wanted
     else:
         seams = read_flags(mesh.edges, "use_seam")
-        attribute = mesh.attributes.new(SEAM_LAYER, "INT", "EDGE")
-        write_ints(attribute.data, "value", (chosen & ~seams).astype(np.int32))
+        write_attribute(mesh, SEAM_LAYER, "INT", "EDGE", chosen & ~seams)
         write_flags(mesh.edges, "use_seam", seams | chosen)
     show_flags(mesh)
 

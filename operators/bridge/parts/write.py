@@ -14,10 +14,11 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ..cuts.new_faces import NewFaces
 from ..hulls.listed import hulls_of
+from ..mesh.attributes import write_attribute
 from ..mesh.by_label import ByLabel
 from ..mesh.fingerprint import to_be_noted
 from ..mesh.layers import flush_edits, layers_of
-from ..mesh.points import count_points, is_cloud, set_points
+from ..mesh.points import count_points, is_cloud
 from ..refusals import refusal
 from ..stored.identity import Identity
 from ..stored.names import COLOR_LAYER, HAND_LAYER, LAYERS, NORMAL_LAYER, PART_LAYER
@@ -126,8 +127,9 @@ def _write_layers(
     if not is_cloud(obj):
         return
     paint_points(obj, decomposition.labels, identities)
-    if decomposition.normals is not None:
-        set_points(obj, NORMAL_LAYER, "FLOAT_VECTOR", decomposition.normals)
+    normals = decomposition.normals
+    if normals is not None:
+        write_attribute(obj.data, NORMAL_LAYER, "FLOAT_VECTOR", "POINT", normals)
 
 
 def check_writable(obj: bpy.types.Object) -> None:

@@ -8,8 +8,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.attributes import write_attribute
 from ..mesh.layers import layers_of
-from ..mesh.points import count_points, is_cloud, set_points
+from ..mesh.points import count_points, is_cloud
 from ..parts.palette import UNPAINTED
 from ..parts.read import find_parts_on, parts_on
 from ..stored.identity import Identity
@@ -39,7 +40,8 @@ def paint_points(
     obj: bpy.types.Object, labels: NDArray[np.integer], identities: Sequence[Identity]
 ) -> None:
     """Give the points of a cloud the colors of their parts."""
-    set_points(obj, COLOR_LAYER, "FLOAT_COLOR", _colors(identities)[labels])
+    colors = _colors(identities)[labels]
+    write_attribute(obj.data, COLOR_LAYER, "FLOAT_COLOR", "POINT", colors)
 
 
 def show_colors(obj: bpy.types.Object) -> None:

@@ -12,8 +12,7 @@ from pathlib import Path
 
 import bpy
 
-from ...bridge.mesh.attributes import read_ints
-from ...bridge.mesh.points import set_points
+from ...bridge.mesh.attributes import read_ints, write_attribute
 from ...bridge.stored.names import COLOR_LAYER
 from ..formats import FBX, GLTF, axes, enable
 from .numbering import number_in_order
@@ -44,7 +43,7 @@ def _points(path: Path, up: str) -> set[str]:
     mesh.from_pydata(points, [], [])
     obj = _add_object(mesh, up)
     if normals is not None:
-        set_points(obj, "normal", "FLOAT_VECTOR", normals)
+        write_attribute(obj.data, "normal", "FLOAT_VECTOR", "POINT", normals)
     return {"FINISHED"}
 
 

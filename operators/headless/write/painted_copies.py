@@ -21,6 +21,7 @@ from ...bridge.mesh.attributes import (
     read_floats,
     read_ints,
     read_labels,
+    write_attribute,
     write_floats,
     write_ints,
 )
@@ -221,7 +222,7 @@ def _paint(mesh: bpy.types.Mesh, colors: NDArray[Any]) -> None:
 
 def _number(mesh: bpy.types.Mesh, parts: IntArray, name: str) -> None:
     """Write the number of the part (V,) of each vertex to an attribute."""
-    write_ints(mesh.attributes.new(name, "INT", "POINT").data, "value", parts)
+    write_attribute(mesh, name, "INT", "POINT", parts)
 
 
 def _object_like(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:

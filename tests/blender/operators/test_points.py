@@ -12,7 +12,8 @@ from hand_made import activate, in_mode, mesh_object
 from scipy.spatial import ConvexHull
 from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.bridge.mesh.points import is_cloud, set_points
+from weak_convex_decomposition.operators.bridge.mesh.attributes import write_attribute
+from weak_convex_decomposition.operators.bridge.mesh.points import is_cloud
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 from weak_convex_decomposition.operators.bridge.read.shape import read_shape
 
@@ -23,7 +24,7 @@ POINTS, NORMALS = clouds.drawn(shapes.dumbbell(), 900)
 def points_object(points=POINTS, normals=NORMALS, name="normal"):
     obj = mesh_object("points", points, [])
     if normals is not None:
-        set_points(obj, name, "FLOAT_VECTOR", normals)
+        write_attribute(obj.data, name, "FLOAT_VECTOR", "POINT", normals)
     return obj
 
 
@@ -177,7 +178,7 @@ def test_bad_points_have_their_sentence_and_stay(case, name):
 
 def test_an_attribute_of_the_users_is_refused():
     obj = points_object()
-    set_points(obj, "wcd_color", "FLOAT_COLOR", np.ones((900, 4)))
+    write_attribute(obj.data, "wcd_color", "FLOAT_COLOR", "POINT", np.ones((900, 4)))
     before = snapshot(obj)
     with pytest.raises(RuntimeError, match="wcd_color that does not come from"):
         bpy.ops.wcd.decompose(**FAST)

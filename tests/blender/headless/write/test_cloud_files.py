@@ -8,7 +8,7 @@ import shapes
 import trimesh
 from hand_made import activate, mesh_object
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.bridge.mesh.points import set_points
+from weak_convex_decomposition.operators.bridge.mesh.attributes import write_attribute
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 from weak_convex_decomposition.operators.headless.write.model_files import save
 
@@ -21,7 +21,7 @@ def recolored():
     """Return a cloud of two parts; the second has a color given by hand."""
     points, normals = clouds.drawn(shapes.dumbbell(), 900)
     obj = mesh_object("points", points, [])
-    set_points(obj, "normal", "FLOAT_VECTOR", normals)
+    write_attribute(obj.data, "normal", "FLOAT_VECTOR", "POINT", normals)
     activate(obj)
     bpy.ops.wcd.decompose(samples=200, parts=2)
     obj.wcd_parts[1].color = COLOR
