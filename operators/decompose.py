@@ -10,7 +10,6 @@ import bpy
 
 from ..core.errors import DecompositionError
 from ..core.steps.progress import Steps
-from .bridge.converted import clear_converted, was_converted
 from .bridge.cuts.whole_mesh import bring_back, edited_since_cut, is_cut
 from .bridge.hulls.hull_objects import erase_hulls, erase_lost_hulls
 from .bridge.hulls.lost_hulls import hulls_to_clear
@@ -23,7 +22,7 @@ from .bridge.read.carrier import (
     replaced_carriers,
 )
 from .bridge.read.evaluated import read_as
-from .bridge.refusals import CONVERTIBLE, decompose_refusal
+from .bridge.refusals import CONVERTIBLE, WORKED_ON, decompose_refusal
 from .bridge.removal_refusals import clear_refusal
 from .bridge.stored.names import CARRIER_TAG
 from .bridge.stored.record import EVALUATED, check_records
@@ -139,22 +138,20 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
 
     def _work(self, obj: bpy.types.Object) -> None:
         in_object_mode = obj.mode == "OBJECT"
-        if was_converted(obj):
-            clear_converted(obj)
-        else:
-            self._clear(obj)
+        self._clear(obj)
         if in_object_mode and (n_lost := erase_lost_hulls()):
             self.report({"INFO"}, f"Hulls whose object is gone went, too: {n_lost}.")
 
     def _clear(self, obj: bpy.types.Object) -> None:
-        """Remove everything of ours from an object that is what it was."""
+        """Remove everything of ours from an object."""
         check_records(obj)  # it raises before anything is removed
         erase_hulls(obj)
-        for each in sharers(obj) if obj.data.is_editable else (obj,):
+        is_editable = obj.type in WORKED_ON and obj.data.is_editable
+        for each in sharers(obj) if is_editable else (obj,):
             remove_views(each)  # of the same parts, which go
             erase_images(each)
         clear(obj)
-        if is_cut(obj) and obj.data.is_editable and not bring_back(obj):
+        if is_cut(obj) and is_editable and not bring_back(obj):
             self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")
         if CARRIER_TAG in obj:
             clear_carrier(obj)

@@ -15,7 +15,6 @@ By package and module:
 - `work`: computations on objects.
 - `refusals`: why an object cannot be worked on.
 - `removal_refusals`: why nothing can be removed from an object.
-- `converted`: what is left on an object that the user made a curve of.
 
 Modules never import each other in a circle. Some packages do:
 `tests/test_architecture.py` names the pairs.

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container
 
-from .converted import was_converted
 from .mesh.seams import has_marked_seams
 from .read.carrier import is_copy
 from .refusals import (
     LEAVE_EDIT_MODE,
+    WORKED_ON,
     Candidate,
     library_refusal,
     no_hulls_refusal,
@@ -21,15 +21,15 @@ from .refusals import (
 )
 from .stored.names import CARRIER_TAG, WHOLE_MESH
 from .stored.notes import or_not_ours
-from .stored.record import beside_parts, has_record
+from .stored.record import beside_parts, has_record, record_if_ours
 from .stored.restore import has_parts
 
 
 @or_not_ours
 def clear_refusal(obj: Candidate, has_hulls: Callable[[Candidate], bool]) -> str | None:
     """Return why nothing can be cleared from an object."""
-    if was_converted(obj):
-        return _object_refusal(obj)
+    if record_if_ours(obj) and obj.type not in WORKED_ON:
+        return _object_refusal(obj)  # the user made a curve of it, or the like
     reason = refusal(obj, writes_mesh=False)
     if reason is None and has_parts(obj) and not beside_parts(obj):
         reason = library_refusal(obj)  # parts of a linked mesh are the library's

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.seams import unmark_seams
+from ..refusals import WORKED_ON
 from ..stored.names import (
     COLOR_LAYER,
     FACE_SET_LAYER,
@@ -35,7 +36,8 @@ from .slots import take_out_of_slots
 def clear(obj: bpy.types.Object) -> None:
     """Remove everything of ours from an object, its mesh and the file.
 
-    The parts of a mesh that is linked from a library stay, on the object, too.
+    The parts of a mesh that is linked from a library stay, on the object, too. Of an
+    object that the user converted to a curve or the like, record and rows are left.
     """
     if check_records(obj) and not obj.data.is_editable:
         own, record = beside_parts(obj).keys(), record_of(obj)
@@ -44,7 +46,10 @@ def clear(obj: bpy.types.Object) -> None:
     if obj.type == "MESH":
         unmark_seams(obj.data)
         _forget_joined_cuts(obj)
-    erase_parts(obj)
+    if obj.type in WORKED_ON:
+        erase_parts(obj)
+    else:
+        erase_rows(obj)
     if obj.type == "MESH":
         _forget_color_names(obj.data)
     discard_unused(our_materials())  # also where the user removed their slots

@@ -120,7 +120,7 @@ def check_records(obj: bpy.types.Object) -> bool:
         If a custom property under one of our names is not ours.
     """
     record_of(obj)
-    return read_restore(obj.data) is not None
+    return obj.data is not None and read_restore(obj.data) is not None
 
 
 def write_result(
