@@ -10,7 +10,6 @@ import numpy as np
 from .bridge.mesh.corners import boundary_edges
 from .bridge.mesh.seams import mark_seams, unmark_seams
 from .bridge.mesh.selection import isolate_parts, select_edges, select_faces, show_all
-from .bridge.mesh.viewing import frame_points, points_of_parts
 from .bridge.parts.read import parts_on
 from .bridge.parts.rows import chosen_numbers, chosen_parts
 from .bridge.refusals import edit_refusal, faces_refusal, seams_refusal
@@ -18,7 +17,7 @@ from .bridge.views.isolating import end_isolation, isolate
 from .bridge.work.in_step import bring_in_step
 from .editing.edit_parts import in_scope, scope
 from .running.on_objects import OnActive, OnEach
-from .viewport.viewports import no_viewport
+from .viewport.viewports import frame_points, no_viewport, points_of_parts
 
 _EXTEND = bpy.props.BoolProperty(
     name="Extend", description="Keep the present selection", default=False

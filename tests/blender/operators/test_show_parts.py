@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hand_made import decompose_by_hand, in_mode
 from snapshot import snapshot
-from weak_convex_decomposition.operators.bridge.mesh.viewing import points_of_parts
+from weak_convex_decomposition.operators.viewport.viewports import points_of_parts
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 
