@@ -7,7 +7,6 @@ from typing import Any, ClassVar
 import bpy
 
 from ..core.errors import DecompositionError
-from ..core.parameters.parts import Parameters
 from ..core.results.parts import Measurement
 from ..core.steps.progress import Steps
 from .bridge.mesh.layers import let_undo_see_all
@@ -20,7 +19,34 @@ from .running.modal import is_free
 from .settings import MEASURE, SELECTION, draw, parameters_from, properties_for
 
 
-class WCD_OT_measure(Computation, bpy.types.Operator):
+class _Measure(Computation):
+    """Half an operator that measures objects, or the selected faces of each."""
+
+    _of_selection = False
+
+    def _read(
+        self, context: bpy.types.Context
+    ) -> list[Steps[Any] | DecompositionError]:
+        # For the end, when the selection may differ.
+        self._n_faces: dict[int, int] = {}
+        return super()._read(context)
+
+    def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:
+        self._parameters = parameters_from(self, self._settings)
+        steps = measure_object(obj, self._parameters, self._of_selection)
+        if self._of_selection:
+            self._n_faces[obj.session_uid] = int(selected_faces(obj).sum())
+        return steps
+
+    def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
+        used = {name: getattr(self._parameters, name) for name in self._settings}
+        n_faces = self._n_faces.get(obj.session_uid)
+        write_measurement(obj, value, used, n_faces)
+        let_undo_see_all(obj)
+        return _figures(value) + (f" of {n_faces:,} faces" if n_faces else "")
+
+
+class WCD_OT_measure(_Measure, bpy.types.Operator):
     """Measure which share of the pairs of surface points see each other."""
 
     bl_idname = "wcd.measure"
@@ -33,20 +59,11 @@ class WCD_OT_measure(Computation, bpy.types.Operator):
         """Draw the settings."""
         draw(self.layout, self, MEASURE)
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:
-        self._parameters = parameters_from(self, MEASURE)
-        return measure_object(obj, self._parameters)
-
-    def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
-        write_measurement(obj, value, _used(self._parameters, MEASURE))
-        let_undo_see_all(obj)
-        return _figures(value)
-
 
 WCD_OT_measure.__annotations__ = properties_for(MEASURE)
 
 
-class WCD_OT_measure_selection(Computation, bpy.types.Operator):
+class WCD_OT_measure_selection(_Measure, bpy.types.Operator):
     """Measure the same for points on the selected faces."""
 
     bl_idname = "wcd.measure_selection"
@@ -56,25 +73,8 @@ class WCD_OT_measure_selection(Computation, bpy.types.Operator):
         " other, as if the faces were a part"
     )
     _settings = SELECTION
+    _of_selection = True
     _refusal = staticmethod(selection_refusal)
-
-    def _begin(self, obj: bpy.types.Object) -> Steps[Measurement]:
-        self._parameters = parameters_from(self, SELECTION)
-        steps = measure_object(obj, self._parameters, of_selection=True)
-        self._n_faces[obj.session_uid] = int(selected_faces(obj).sum())
-        return steps
-
-    def _read(
-        self, context: bpy.types.Context
-    ) -> list[Steps[Any] | DecompositionError]:
-        self._n_faces: dict[int, int] = {}  # for the end, when the selection may differ
-        return super()._read(context)
-
-    def _commit(self, obj: bpy.types.Object, value: Measurement) -> str:
-        n_faces = self._n_faces[obj.session_uid]
-        write_measurement(obj, value, _used(self._parameters, SELECTION), n_faces)
-        let_undo_see_all(obj)
-        return f"{_figures(value)} of {n_faces:,} faces"
 
 
 WCD_OT_measure_selection.__annotations__ = properties_for(SELECTION)
@@ -110,11 +110,6 @@ class WCD_OT_tell_quality(bpy.types.Operator):
         """Say in the status bar what the tooltip says."""
         self.report({"INFO"}, self.description(context, self.properties))
         return {"FINISHED"}
-
-
-def _used(parameters: Parameters, names: tuple[str, ...]) -> dict[str, Any]:
-    """Return the parameters that a measurement was made with."""
-    return {name: getattr(parameters, name) for name in names}
 
 
 def _figures(value: Measurement) -> str:
