@@ -10,9 +10,10 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..mesh.attributes import IntArray, read_labels
-from ..parts.read import find_parts_on
-from ..stored.names import FACE_SET_LAYER, FACE_SETS, WHOLE_LAYER
+from ..mesh.attributes import read_labels
+from ..mesh.layers import ObjectModeLayers
+from ..stored.names import FACE_SETS, WHOLE_LAYER
+from ..views.face_sets_and_colors import users_face_sets
 
 # The types of modifiers that keep something by the numbers of vertices or faces. How
 # they tell that they do, and the object whose mesh it is, if it is another one's.
@@ -102,26 +103,13 @@ def _keys(mesh: bpy.types.Mesh) -> list[tuple[Any, ...]]:
 
 def _has_face_sets_of(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
     """Return whether the user's face sets are those of the whole faces."""
-    now = _users_face_sets(obj)
+    now = users_face_sets(obj, ObjectModeLayers(obj))
     before = read_labels(whole, FACE_SETS, missing=0)
+    wholes = read_labels(obj.data, WHOLE_LAYER, missing=-1)
+    if now is None:
+        now = np.zeros_like(wholes)
     if not now.any() and not before.any():
         return True
-    wholes = read_labels(obj.data, WHOLE_LAYER, missing=-1)
     if len(wholes) != len(now) or not np.isin(wholes, np.arange(len(before))).all():
         return False
     return np.array_equal(now, before[wholes])
-
-
-def _users_face_sets(obj: bpy.types.Object) -> IntArray:
-    """Return the face sets that Clear leaves, (P,), 0 without any.
-
-    They are those from before ours, unless the user drew over ours.
-    """
-    mesh = obj.data
-    now = read_labels(mesh, FACE_SETS, missing=0)
-    if FACE_SET_LAYER not in mesh.attributes:
-        return now
-    found = find_parts_on(obj)
-    if found is None or not np.array_equal(now, found.face_sets):
-        return now
-    return read_labels(mesh, FACE_SET_LAYER, missing=0)

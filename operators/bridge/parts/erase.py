@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
+from ..mesh.layers import layers_of
 from ..mesh.seams import unmark_seams
 from ..refusals import WORKED_ON
 from ..stored.names import (
@@ -26,9 +26,9 @@ from ..stored.record import (
 )
 from ..stored.restore import Restore, read_restore, sharers, write_restore
 from ..stored.users_groups import users_groups
+from ..views.face_sets_and_colors import users_face_sets
 from .materials import discard_unused, is_of_part, name_of, our_materials
 from .part_materials import drop_kept, marked_groups
-from .read import FoundParts, find_parts_on
 from .rows import erase_rows
 from .slots import take_out_of_slots
 
@@ -89,13 +89,15 @@ def erase_parts(obj: bpy.types.Object) -> list[bpy.types.Material]:
     restore = read_restore(mesh)
     if restore is None:
         return _erase_remains(obj)
-    # On large meshes it takes long to read the parts, and few have face sets of them.
-    has_face_sets = FACE_SET_LAYER in mesh.attributes
-    found = find_parts_on(obj) if has_face_sets else None
+    has_ours = FACE_SET_LAYER in mesh.attributes
+    face_sets = users_face_sets(obj, layers_of(obj)) if has_ours else None
     _erase_groups(obj, restore)
     layers = layers_of(obj)
     materials = [*take_out_of_slots(obj, restore), *drop_kept(mesh)]
-    _restore_face_sets(layers, found)
+    if face_sets is not None and face_sets.any():
+        layers.set_faces(FACE_SETS, face_sets)
+    elif face_sets is not None:
+        layers.remove(FACE_SETS)
     for name in LAYERS:
         layers.remove(name)
     layers.finish()
@@ -153,18 +155,3 @@ def _joined_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
         ours = [each for each in obj.data.materials if is_of_part(each)]
         found |= {name_of(m) for m in ours if not restore.had(m)}
     return found - set(restore.user_groups or ())
-
-
-def _restore_face_sets(
-    layers: ObjectModeLayers | EditModeLayers, found: FoundParts | None
-) -> None:
-    """Restore the former face sets, unless the user changed ours since."""
-    before, now = layers.faces(FACE_SET_LAYER), layers.faces(FACE_SETS)
-    if before is None or now is None or found is None:
-        return
-    if (now != found.face_sets).any():
-        return
-    if before.any():
-        layers.set_faces(FACE_SETS, before)
-    else:
-        layers.remove(FACE_SETS)

@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import write_attribute
-from ..mesh.layers import layers_of
+from ..mesh.attributes import IntArray, write_attribute
+from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..parts.palette import UNPAINTED
 from ..parts.read import find_parts_on, parts_on
@@ -27,6 +27,21 @@ def write_face_sets(obj: bpy.types.Object) -> None:
         )
     layers.set_faces(FACE_SETS, ours)
     layers.finish()
+
+
+def users_face_sets(
+    obj: bpy.types.Object, layers: ObjectModeLayers | EditModeLayers
+) -> IntArray | None:
+    """Return the face sets that Clear leaves, (P,), None for none.
+
+    They are those from before ours, unless the user drew over ours.
+    """
+    before, now = layers.faces(FACE_SET_LAYER), layers.faces(FACE_SETS)
+    if before is None or now is None:  # to find the parts of large meshes takes long
+        return now
+    found = find_parts_on(obj)
+    is_ours = found is not None and np.array_equal(now, found.face_sets)
+    return before if is_ours else now
 
 
 def write_colors(obj: bpy.types.Object) -> None:
