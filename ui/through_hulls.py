@@ -8,6 +8,7 @@ front show that picture.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache, lru_cache
 from typing import Any
 
 import bpy
@@ -23,11 +24,6 @@ from ..operators.bridge.stored.names import HULL_TAG
 _OPAQUE = "SINGLE"
 # How much nearer than its surface a hull is drawn, as a share of the depth.
 _NEARER = 1e-6
-
-# The colors, frame buffer and depth of the latest picture, and the shader that shows
-# it, to be used again.
-_pictures: list[Any] = []
-_shaders: list[Any] = []
 
 
 def transparent_hulls(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -49,7 +45,7 @@ def transparent_hulls(context: bpy.types.Context) -> list[bpy.types.Object]:
 def draw_through(hulls: Sequence[bpy.types.Object], draw: Callable[[], None]) -> None:
     """Let hulls show what is drawn, on transparent white, where they are in front."""
     view, noting = bpy.context.region_data, gpu.state.depth_mask_get()
-    colors, picture = _picture(*gpu.state.viewport_get()[2:])
+    colors, picture, _ = _picture(*gpu.state.viewport_get()[2:])
     gpu.state.depth_mask_set(True)
     with picture.bind(), gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
         picture.clear(color=(1, 1, 1, 0), depth=1.0)
@@ -63,21 +59,19 @@ def draw_through(hulls: Sequence[bpy.types.Object], draw: Callable[[], None]) ->
         _show(colors, places)
 
 
-def _picture(width: int, height: int) -> tuple[Any, Any]:
-    """Return the colors of a picture of a size, and what draws into it."""
-    if not _pictures or (_pictures[0].width, _pictures[0].height) != (width, height):
-        size = width, height
-        colors = gpu.types.GPUTexture(size, format="SRGB8_A8")  # as of the viewports
-        depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
-        drawn = gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=colors)
-        _pictures[:] = colors, drawn, depth
-    return _pictures[0], _pictures[1]
+@lru_cache(maxsize=1)  # to be used again, mostly
+def _picture(width: int, height: int) -> tuple[Any, Any, Any]:
+    """Return the colors of a picture of a size, what draws into it, and its depth."""
+    size = width, height
+    colors = gpu.types.GPUTexture(size, format="SRGB8_A8")  # as of the viewports
+    depth = gpu.types.GPUTexture(size, format="DEPTH_COMPONENT32F")
+    return colors, gpu.types.GPUFrameBuffer(depth_slot=depth, color_slots=colors), depth
 
 
 def forget() -> None:
     """Forget the picture and the shader."""
-    _pictures.clear()
-    _shaders.clear()
+    _picture.cache_clear()
+    _shader.cache_clear()
 
 
 def _on_screen(
@@ -95,14 +89,13 @@ def _on_screen(
 
 def _show(colors: Any, places: NDArray[np.float32]) -> None:
     """Draw colors that fill the screen, on some places of it."""
-    if not _shaders:
-        _shaders.append(_shader())
-    (shader,) = _shaders
+    shader = _shader()
     shader.bind()
     shader.uniform_sampler("colors", colors)
     batch_for_shader(shader, "TRIS", {"place": places}).draw(shader)
 
 
+@cache
 def _shader() -> Any:
     """Return a shader that copies linear colors; not all of Blender's own do."""
     info = gpu.types.GPUShaderCreateInfo()
