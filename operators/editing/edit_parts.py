@@ -20,7 +20,7 @@ from ..bridge.refusals import (
     merge_refusal,
 )
 from ..bridge.work import edits
-from ..bridge.work.run_edit import Edited, edit_object
+from ..bridge.work.run_edit import Edited, MakeChange, edit_object
 from ..running.computation import Replacement
 from ..settings import properties_for
 
@@ -52,9 +52,12 @@ def in_scope(obj: bpy.types.Object, scope: str) -> list[int]:
 
 
 class _Edit(Replacement):
-    """Half an operator that edits parts."""
+    """Half an operator that edits parts: its `_change(obj)` returns the edit."""
 
     _refusal = staticmethod(edit_refusal)
+
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
+        return edit_object(obj, self._change(obj))
 
 
 class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
@@ -71,13 +74,12 @@ class WCD_OT_merge_parts(_Edit, bpy.types.Operator):
     def _refusal(obj: bpy.types.Object | None) -> str | None:
         return merge_refusal(obj, len(chosen_numbers(obj)) if obj else 0)
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
+    def _change(self, obj: bpy.types.Object) -> MakeChange:
         chosen, into = chosen_parts(obj), active_part(obj)
         reason = merge_refusal(obj, len(chosen))  # other ticked parts have no faces
         if reason:
             raise DecompositionError(f"{reason}.")
-        change = edits.merging(chosen, into if into in chosen else chosen[0])
-        return edit_object(obj, change)
+        return edits.merging(chosen, into if into in chosen else chosen[0])
 
 
 class WCD_OT_split_parts(_Edit, bpy.types.Operator):
@@ -90,12 +92,12 @@ class WCD_OT_split_parts(_Edit, bpy.types.Operator):
         " so that small details come apart, such as the fingers of a hand"
     )
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
+    def _change(self, obj: bpy.types.Object) -> MakeChange:
         if self.parts == 1:
             raise DecompositionError(
                 "One part is no split; choose 2 or more, or 0 to find the number."
             )
-        return edit_object(obj, edits.splitting(chosen_parts(obj), self.parts))
+        return edits.splitting(chosen_parts(obj), self.parts)
 
 
 WCD_OT_split_parts.__annotations__ = {
@@ -119,9 +121,8 @@ class WCD_OT_assign_faces(_Edit, bpy.types.Operator):
 
     _refusal = staticmethod(assign_refusal)
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
-        change = edits.giving(selected_faces(obj), active_part(obj))
-        return edit_object(obj, change)
+    def _change(self, obj: bpy.types.Object) -> MakeChange:
+        return edits.giving(selected_faces(obj), active_part(obj))
 
 
 class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
@@ -134,9 +135,8 @@ class WCD_OT_smooth_seams(_Edit, bpy.types.Operator):
         " and follow creases"
     )
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
-        chosen = in_scope(obj, self.scope)
-        return edit_object(obj, edits.smoothing(chosen, self.smoothness))
+    def _change(self, obj: bpy.types.Object) -> MakeChange:
+        return edits.smoothing(in_scope(obj, self.scope), self.smoothness)
 
 
 WCD_OT_smooth_seams.__annotations__ = {
@@ -155,9 +155,8 @@ class WCD_OT_mirror_parts(_Edit, bpy.types.Operator):
         " the part of its mirror image. Parts that lie on one side are named .L and .R"
     )
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
-        change = edits.mirroring(self.direction == "TO_NEGATIVE")
-        return edit_object(obj, change)
+    def _change(self, obj: bpy.types.Object) -> MakeChange:
+        return edits.mirroring(self.direction == "TO_NEGATIVE")
 
 
 WCD_OT_mirror_parts.__annotations__ = {
@@ -184,8 +183,8 @@ class WCD_OT_refresh_parts(_Edit, bpy.types.Operator):
 
     _refusal = staticmethod(decomposed_refusal)
 
-    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
-        return edit_object(obj, edits.refreshing())
+    def _change(self, obj: bpy.types.Object) -> MakeChange:
+        return edits.refreshing()
 
 
 CLASSES: tuple[Any, ...] = (
