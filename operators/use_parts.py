@@ -103,6 +103,7 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
     bl_label = "End Exploded View"
     bl_description = "Remove the modifier of the exploded view"
     _waits = False
+    _work = staticmethod(implode)
 
     @classmethod
     def _obstacle(cls, context: bpy.types.Context) -> str | None:
@@ -114,9 +115,6 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
             return None
         return reason or "There is no exploded view; press Exploded View first"
 
-    def _work(self, obj: bpy.types.Object) -> None:
-        implode(obj)
-
 
 class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
     """Make face sets of the parts."""
@@ -127,11 +125,8 @@ class WCD_OT_face_sets(_OnParts, bpy.types.Operator):
         "Make a face set of each part, for Sculpt Mode. Clear restores the former face"
         " sets"
     )
-
     _refusal = staticmethod(parts_refusal)
-
-    def _work(self, obj: bpy.types.Object) -> None:
-        write_face_sets(obj)
+    _work = staticmethod(write_face_sets)
 
 
 class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
@@ -143,11 +138,8 @@ class WCD_OT_color_attribute(_OnParts, bpy.types.Operator):
         "Write the colors of the parts to the color attribute wcd_color, for Vertex"
         " Paint, shaders and export"
     )
-
     _refusal = staticmethod(parts_refusal)
-
-    def _work(self, obj: bpy.types.Object) -> None:
-        write_colors(obj)
+    _work = staticmethod(write_colors)
 
 
 class WCD_OT_show_colors(_OnParts, bpy.types.Operator):
