@@ -71,11 +71,6 @@ def read_seen(
     return reading_notes(obj, for_parts, has_choice=True), shape_in_steps(obj)
 
 
-def _read_own(obj: bpy.types.Object) -> tuple[Notes, Steps[Shape]]:
-    """Return what `read_seen` does, of the mesh itself: nothing else can be read."""
-    return reading_notes(obj, for_parts=False), shape_in_steps(obj)
-
-
 def measure_object(
     obj: bpy.types.Object, parameters: Parameters, of_selection: bool = False
 ) -> Steps[Measurement]:
@@ -89,7 +84,7 @@ def measure_object(
         At once, if the object cannot be read, or no face is selected.
     """
     check_records(obj)
-    notes, reading = _read_own(obj)
+    notes, reading = reading_notes(obj, for_parts=False), shape_in_steps(obj)
     faces = selected_faces(obj) if of_selection else None
     if faces is not None and not faces.any():
         raise DecompositionError(
@@ -113,7 +108,7 @@ def point_viewer_of(
     DecompositionError
         At once, if the object cannot be read.
     """
-    notes, reading = _read_own(obj)
+    notes, reading = reading_notes(obj, for_parts=False), shape_in_steps(obj)
 
     def work() -> Steps[core.PointViewer]:
         shape = yield from reading
