@@ -32,13 +32,20 @@ class Attempts:
         self._screen.error(text)
         self.errors.append(text)
 
-    def written(self, path: Path | None, write: Callable[[Path], None]) -> Path | None:
-        """Write to `path`; return it, or None if there is none or writing fails."""
+    def written(
+        self, path: Path | None, write: Callable[[Path], tuple[str, ...] | None]
+    ) -> Path | None:
+        """Write to `path`; return it, or None if there is none or writing fails.
+
+        Sentences to the user that are returned by what writes are shown.
+        """
         if path is None:
             return None
         try:
-            write(path)
+            notes = write(path)
         except DecompositionError as error:
             self.failed(str(error))
             return None
+        for note in notes or ():
+            self._screen.warning(note, path.name)
         return path

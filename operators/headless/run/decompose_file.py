@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -66,9 +65,7 @@ def decompose_file(
             attempts.failed(_NO_HULLS.format(targets.output.name))
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
-        output = attempts.written(
-            targets.output, lambda file: _warn(save(file, up, built), file, screen)
-        )
+        output = attempts.written(targets.output, lambda file: save(file, up, built))
         picture = attempts.written(
             targets.picture, lambda file: save_picture(file, objects, trial.engine())
         )
@@ -77,7 +74,7 @@ def decompose_file(
     with stages.during("write"):
         hulls = attempts.written(
             targets.hulls if built else None,
-            lambda file: _warn(save_hulls(file, built, up, bodies), file, screen),
+            lambda file: save_hulls(file, built, up, bodies),
         )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     notes, used = loaded.about, stages.stages
@@ -126,9 +123,3 @@ def _without_parts(
         show(file_name, result, screen)
         results.append(result)
     return tuple(results)
-
-
-def _warn(notes: Sequence[str], file: Path, screen: Screen) -> None:
-    """Show what is to be said of a file."""
-    for note in notes:
-        screen.warning(note, file.name)
