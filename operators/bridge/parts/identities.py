@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import bpy
 
-from ..stored.identity import Identity, free_name, unique_name
-from .palette import Color, free_color, partner_color
+from ..stored.identity import Color, Identity, free_name, unique_name
+from .palette import free_color, partner_color
 
 
 class Newcomers:

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from ..mesh.attributes import IntArray
 from ..mesh.layers import layers_of
 from ..mesh.points import is_cloud
+from ..stored.identity import Color
 from ..stored.names import GROUP_LAYER, MATERIAL_TAG, OWNER, OWNER_LAYER
 from ..stored.noted_parts import entry_of, n_faces_of
 from ..stored.record import record_of
 from .materials import color_of, is_ours, name_of
-from .palette import Color
 from .part_materials import marked_groups, part_slots, tagged_slots
 
 

@@ -12,9 +12,15 @@ from collections.abc import Iterable, Iterator, Sequence
 import bpy
 import numpy as np
 
-from ..stored.identity import Identity, has_name, part_name, plain_name
+from ..stored.identity import (
+    Color,
+    Identity,
+    has_name,
+    part_name,
+    plain_name,
+    rgb,
+)
 from ..stored.names import COLOR_LAYER, MATERIAL_NAME, MATERIAL_TAG
-from .palette import Color
 
 # The number in the tag of the material that shows the parts of all point clouds. Below
 # are those of hulls: the first, the second and so on of an object.
@@ -53,8 +59,7 @@ def our_materials() -> list[bpy.types.Material]:
 
 def color_of(material: bpy.types.Material) -> Color:
     """Return the color of a material in Solid shading, linear."""
-    red, green, blue = material.diffuse_color[:3]
-    return red, green, blue
+    return rgb(material.diffuse_color)
 
 
 def own_materials(

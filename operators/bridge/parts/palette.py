@@ -8,13 +8,11 @@ are not partners, base by base, by 25. None is gray (chroma 20 or more) or near 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-# Linear red, green and blue, each in 0…1.
-Color: TypeAlias = tuple[float, float, float]
+from ..stored.identity import Color, rgb
 
 # sRGB of parts, each with that of its mirror image. The first seven are those of Okabe
 # and Ito, "Color Universal Design", 2008, without black, which color-blind people tell
@@ -67,7 +65,7 @@ def free_color(used: Iterable[Sequence[float]]) -> Color:
     """
     there = np.array([color[:3] for color in used]).reshape(-1, 1, 1, 3)
     counts = _are_same(there).sum(axis=(0, 2))
-    return _color(_LINEAR[np.argmin(counts), 0])
+    return rgb(_LINEAR[np.argmin(counts), 0].tolist())
 
 
 def usual_color(number: int) -> Color:
@@ -75,33 +73,24 @@ def usual_color(number: int) -> Color:
 
     It is what `free_color` gives one after the other.
     """
-    return _color(_LINEAR[number % len(_LINEAR), 0])
+    return rgb(_LINEAR[number % len(_LINEAR), 0].tolist())
 
 
 def partner_color(color: Sequence[float]) -> Color:
     """Return the color of the mirror image of a part with this linear color."""
     for pair, side in np.argwhere(_are_same(np.array(color[:3]))):
-        return _color(_LINEAR[pair, 1 - side])
+        return rgb(_LINEAR[pair, 1 - side].tolist())
     gray = 0.0 if np.mean(color[:3]) > _LIGHT else 1.0
-    red, green, blue = (c + (gray - c) * _LIGHTER for c in color[:3])
-    return red, green, blue
+    return rgb([c + (gray - c) * _LIGHTER for c in color])
 
 
 def srgb_of(color: Sequence[float]) -> Color:
     """Return the sRGB color of a linear one."""
-    red, green, blue = (
-        12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
-        for c in color[:3]
+    return rgb(
+        [12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055 for c in color]
     )
-    return red, green, blue
 
 
 def _are_same(colors: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which colors of the palette are the same as each color."""
     return np.abs(colors - _LINEAR).max(axis=-1) < _SAME
-
-
-def _color(channels: NDArray[np.float32]) -> Color:
-    """Return a color of the palette as Blender takes it."""
-    red, green, blue = channels.tolist()
-    return red, green, blue

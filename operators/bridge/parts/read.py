@@ -18,7 +18,7 @@ from ....core.errors import DecompositionError
 from ..mesh.attributes import IntArray
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud
-from ..stored.identity import Identity
+from ..stored.identity import Color, Identity
 from ..stored.names import PART_LAYER
 from ..stored.noted_parts import identities_of
 from ..stored.record import record_of
@@ -26,7 +26,6 @@ from ..stored.restore import read_restore
 from .identities import Newcomers
 from .joined import highest_number, told_of_part, turns_of_faces
 from .materials import color_of
-from .palette import Color
 from .part_materials import part_materials, part_slots
 
 

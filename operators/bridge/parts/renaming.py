@@ -12,7 +12,7 @@ from ....core.errors import DecompositionError
 from ..hulls.listed import hulls_of
 from ..hulls.looks import look_like, look_of
 from ..refusals import library_refusal, name_refusal
-from ..stored.identity import Identity
+from ..stored.identity import Color, Identity
 from ..stored.names import KEPT_MATERIALS
 from ..stored.noted_parts import identities_of
 from ..stored.record import change_part, record_of
@@ -22,7 +22,6 @@ from ..views.face_sets_and_colors import show_colors
 from ..watching import REPLACED
 from .figures import JOINED
 from .materials import color_of, discard_unused, own_material
-from .palette import Color
 from .part_materials import is_overlaid, mark_group, part_slots
 
 # The latest name that was typed and not taken: the object, the number of the part and

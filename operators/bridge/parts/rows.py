@@ -15,7 +15,7 @@ import bpy
 
 from ....core.parameters.hulls import SHAPES
 from ..mesh.layers import let_undo_see_all
-from ..stored.identity import Identity
+from ..stored.identity import Identity, rgb
 from ..untranslated import in_english, register_class
 from . import renaming
 from .read import part_identities
@@ -75,8 +75,7 @@ def _color(row: bpy.types.PropertyGroup) -> tuple[float, float, float]:
 
 
 def _recolor(row: bpy.types.PropertyGroup, color: Sequence[float]) -> None:
-    rgb = color[0], color[1], color[2]
-    renaming.recolor_part(row.id_data, row.number, rgb)
+    renaming.recolor_part(row.id_data, row.number, rgb(color))
     _set(row, bpy.context)
 
 

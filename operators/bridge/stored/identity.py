@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from .names import LONGEST_NAME
+
+# Linear red, green and blue, each in 0…1.
+Color: TypeAlias = tuple[float, float, float]
 
 # Blender adds a number to a name that is taken: "Ear.001". Any digits behind a last dot
 # are such a number to it: where "Leg.1" is taken, comes "Leg.002".
@@ -28,13 +32,18 @@ class Identity:
     name : str
         Of its vertex group and its entry in the record; its material may have a number
         behind it.
-    color : tuple of float
-        Linear red, green and blue.
+    color : Color
     """
 
     number: int
     name: str
-    color: tuple[float, float, float]
+    color: Color
+
+
+def rgb(channels: Sequence[float]) -> Color:
+    """Return the first three channels of a color."""
+    red, green, blue = channels[:3]
+    return red, green, blue
 
 
 def part_name(number: int) -> str:

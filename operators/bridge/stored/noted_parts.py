@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .identity import Identity
+from .identity import Identity, rgb
 
 
 def entry_of(record: dict[str, Any], number: int) -> dict[str, Any] | None:
@@ -16,7 +16,7 @@ def entry_of(record: dict[str, Any], number: int) -> dict[str, Any] | None:
 def identities_of(record: dict[str, Any]) -> tuple[Identity, ...]:
     """Return who the parts of a record are, in its order."""
     return tuple(
-        Identity(each["number"], each["name"], _color(each["color"]))
+        Identity(each["number"], each["name"], rgb(each["color"]))
         for each in record.get("parts", ())
     )
 
@@ -29,8 +29,3 @@ def psi_by_k_of(record: dict[str, Any]) -> dict[int, float]:
 def n_faces_of(record: dict[str, Any]) -> int:
     """Return how many faces, or points, had parts when they were noted."""
     return sum(part["faces"] for part in record.get("parts", ()))
-
-
-def _color(noted: list[float]) -> tuple[float, float, float]:
-    red, green, blue = noted[:3]
-    return red, green, blue
