@@ -30,7 +30,7 @@ from ..stored.noted_hulls import (
     noted_mesh_of_hulls,
 )
 from ..stored.record import HULLS, record_of, write_record
-from ..work.apart import hulls_around
+from ..work.computing_hulls import hulls_around
 from ..work.libraries import with_libraries
 from .hull_objects import erase_hulls, figures_of_hull, hull_mesh, keep_piece, tag_hull
 from .listed import hulls_of, listed_hulls

@@ -1,9 +1,14 @@
-"""Build hulls around an object, here or in another process."""
+"""Build hulls around an object, here or in another process.
+
+Single steps on a large mesh take longer than a window may stand still, so those are
+done in another process. It takes a second to start: hulls of small meshes are built
+here.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -13,6 +18,7 @@ from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
+from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.shape import Shape
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
@@ -25,10 +31,12 @@ from ..read.evaluated import SeenMesh
 from ..read.shape import scene_unit
 from ..refusals import hull_refusal
 from ..stored.record import check_records
-from .apart import hulls_around
 from .computing import read_seen
 from .libraries import with_libraries
 from .session_cache import session_cache
+
+# With more triangles, single steps may take over 0.1 s.
+_MANY = 10_000
 
 
 def build_hulls_of(
@@ -113,6 +121,30 @@ def _hulls_here(
     if needs_parts:  # the object does not get them
         found = replace(found, parts=np.full_like(found.parts, -1))
     return found
+
+
+def hulls_around(
+    shape: Shape, compute: Callable[..., Steps[HullDecomposition]], in_window: bool
+) -> Steps[HullDecomposition]:
+    """Return the steps that build hulls around a shape, here or in another process.
+
+    Parameters
+    ----------
+    shape : Shape
+    compute : callable
+        Takes the argument `cache`, and returns steps. Can be pickled.
+    in_window : bool
+        Whether the steps run in a window, which must stay alive.
+    """
+    is_large = isinstance(shape, TriangleMesh) and len(shape.triangles) > _MANY
+    if not (in_window and is_large):
+        return (yield from compute(cache=session_cache()))
+    elsewhere = partial(compute, cache=core.ShapeCache(core.no_rays))
+    apart = Processes(1)
+    try:
+        return (yield from apart.steps("Solid", elsewhere))
+    finally:
+        apart.close()
 
 
 def _enlarged(

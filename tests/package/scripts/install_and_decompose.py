@@ -27,14 +27,13 @@ finished = bpy.ops.wcd.decompose()
 scipy, sklearn = sys.modules["scipy"], sys.modules["sklearn"]
 labels = [item.value for item in suzanne.data.attributes["wcd_part"].data]
 
-apart = import_module(MODULE + ".operators.bridge.work.apart")
 hulls = import_module(MODULE + ".operators.bridge.work.computing_hulls")
 package = import_module(MODULE)
 progress = import_module(MODULE + ".core.steps.progress")
 answered = []
 
 
-class Processes(apart.Processes):
+class Processes(hulls.Processes):
     """Notes whether a process has answered."""
 
     def _answer(self, *call):
@@ -43,7 +42,7 @@ class Processes(apart.Processes):
         return answer
 
 
-apart.Processes, apart._MANY = Processes, 0
+hulls.Processes, hulls._MANY = Processes, 0
 asked = package.Parameters(), package.HullParameters(max_hulls=4)
 found = progress.run(hulls.build_hulls_of(suzanne, *asked, in_window=True))
 

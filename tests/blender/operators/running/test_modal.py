@@ -19,7 +19,7 @@ from stand_ins.presses import (
     values_of,
 )
 from weak_convex_decomposition.core.steps.processes import Processes
-from weak_convex_decomposition.operators.bridge.work import apart
+from weak_convex_decomposition.operators.bridge.work import computing_hulls
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
 from weak_convex_decomposition.operators.hulls import (
     WCD_OT_build_hulls,
@@ -166,8 +166,8 @@ def started(monkeypatch):
         made.append(Processes(count))
         return made[-1]
 
-    monkeypatch.setattr(apart, "_MANY", 0)
-    monkeypatch.setattr(apart, "Processes", noted)
+    monkeypatch.setattr(computing_hulls, "_MANY", 0)
+    monkeypatch.setattr(computing_hulls, "Processes", noted)
     yield made
     for processes in made:
         processes.close()
