@@ -94,15 +94,16 @@ def on_own_faces(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
 
 
 def ready_to_write(obj: bpy.types.Object, steps: Steps[Edited]) -> Steps[Edited]:
-    """Run `steps`, then read what writing asks of the object: this takes long, too."""
+    """Run `steps`, then read what writing asks of the object: this takes long, too.
+
+    They give parts of the faces that the object has.
+    """
     if obj.type != "MESH" or obj.mode == "EDIT":
         return steps
     target = Target.of(obj)
 
     def work() -> Steps[Edited]:
         found = yield from within(steps, 0.0, 0.99)
-        if found.faces is not None:
-            return found
         labels, n_parts = found.decomposition.labels, found.decomposition.n_parts
         ready = ByLabel.in_steps(target.find, labels, n_parts)
         return replace(found, ready=(yield from within(ready, 0.99, 1.0)))
