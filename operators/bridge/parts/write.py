@@ -38,7 +38,7 @@ def write_parts(
     obj: bpy.types.Object,
     decomposition: Decomposition,
     parameters: Parameters,
-    kept: Sequence[Identity] | None = None,
+    identities: Sequence[Identity] | None = None,
     by_hand: NDArray[np.bool_] | None = None,
     faces: NewFaces | None = None,
     ready: ByLabel | None = None,
@@ -51,7 +51,7 @@ def write_parts(
     decomposition : Decomposition
     parameters : Parameters
         To be recorded with it.
-    kept : sequence of Identity, optional
+    identities : sequence of Identity, optional
         Who the parts are, after an edit; by default those they share most area with.
     by_hand : (P,) bool, optional
         Faces, or points, that the user settled by hand.
@@ -68,16 +68,14 @@ def write_parts(
     check_writable(obj)
     _check_fits(obj, decomposition, faces)
     overlaid, also_shown, before = is_overlaid(obj), shown(obj), BeforeWriting.of(obj)
-    identities = kept or before.continued_by(obj, decomposition, faces)
+    identities = identities or before.continued_by(obj, decomposition, faces)
     former = erase_parts(obj)
     if faces is not None:
         faces.put_on(obj)
     decomposition, ready, identities = by_number(obj, decomposition, ready, identities)
-    restore, identities, materials = _write_mesh(
-        obj, decomposition, ready, identities, before.materials
+    identities, materials = _write_mesh(
+        obj, decomposition, ready, identities, before.materials, by_hand
     )
-    _write_layers(obj, decomposition, identities, by_hand)
-    write_restore(obj.data, restore)
     _note(obj, decomposition, ready, parameters, identities, materials, before)
     show(obj, *also_shown)
     if overlaid:
@@ -113,23 +111,6 @@ def _note(
             sharer, decomposition, parameters, identities, materials, measured_on
         )
         write_rows(sharer, identities, before.rows.get(sharer.name, {}))
-
-
-def _write_layers(
-    obj: bpy.types.Object,
-    decomposition: Decomposition,
-    identities: Sequence[Identity],
-    by_hand: NDArray[np.bool_] | None,
-) -> None:
-    """Write what the user settled; for points their colors, and estimated normals."""
-    if by_hand is not None and by_hand.any():
-        layers_of(obj).set_faces(HAND_LAYER, by_hand.astype(np.int32))
-    if not is_cloud(obj):
-        return
-    paint_points(obj, decomposition.labels, identities)
-    normals = decomposition.normals
-    if normals is not None:
-        write_attribute(obj.data, NORMAL_LAYER, "FLOAT_VECTOR", "POINT", normals)
 
 
 def check_writable(obj: bpy.types.Object) -> None:
@@ -172,10 +153,11 @@ def _write_mesh(
     ready: ByLabel,
     identities: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
-) -> tuple[Restore, Sequence[Identity], list[str]]:
-    """Write parts to a mesh without parts.
+    by_hand: NDArray[np.bool_] | None,
+) -> tuple[Sequence[Identity], list[str]]:
+    """Write parts to a mesh without parts, and how to bring it back.
 
-    Return how to bring it back, who the parts are, and the names of their materials.
+    Return who the parts are, and the names of their materials.
     """
     active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
     users = [group.name for group in obj.vertex_groups]
@@ -188,17 +170,22 @@ def _write_mesh(
         ]
     materials = _materials(obj, identities, sources)
     before = put_in_slots(obj, materials, decomposition.labels)
+    before |= {"groups": groups, "active_group": active_group, "user_groups": users}
+    write_restore(obj.data, Restore(**before))
     layers = layers_of(obj)
     numbers = np.array([identity.number for identity in identities], dtype=np.int32)
     layers.set_faces(PART_LAYER, numbers[decomposition.labels])
+    if by_hand is not None and by_hand.any():
+        layers.set_faces(HAND_LAYER, by_hand.astype(np.int32))
     for name, vertices in zip(groups, ready.vertices, strict=False):  # or no groups
         layers.fill_group(obj.vertex_groups[name], vertices)
     layers.finish()
-    restore = Restore(
-        groups=groups, active_group=active_group, user_groups=users, **before
-    )
-    shared = len(identities) if is_cloud(obj) else 1  # all parts of a cloud share one
-    return restore, identities, [each.name for each in materials] * shared
+    if not is_cloud(obj):
+        return identities, [each.name for each in materials]
+    paint_points(obj, decomposition.labels, identities)
+    if (normals := decomposition.normals) is not None:
+        write_attribute(obj.data, NORMAL_LAYER, "FLOAT_VECTOR", "POINT", normals)
+    return identities, [materials[0].name] * len(identities)  # they share it
 
 
 def _add_groups(
