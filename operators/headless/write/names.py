@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import bpy
 
@@ -22,17 +22,20 @@ _ILLEGAL = {
 _NAMELESS = "unnamed"
 
 
-def legal_names(names: Sequence[str], form: str) -> list[str]:
+def legal_names(
+    names: Sequence[str], form: str, reserved: Iterable[str] = ()
+) -> list[str]:
     """Return a legal name for each name, all different.
 
     Characters that are not legal become underscores. Where this makes names equal, all
     but the first get a number: "A b" and "A_b" become "A_b" and "A_b_2". Names that
-    are legal and different stay as they are. `form` is the format: obj, xml or usd.
+    are legal and different stay as they are. `form` is the format: obj, xml or usd. No
+    name becomes one that is `reserved`.
     """
     legal = [_legal(name, form) for name in names]
     # Names that stay as they are come first: they keep their name.
     kept = {name for name, old in zip(legal, names, strict=True) if name == old}
-    taken: set[str] = set()
+    taken = set(reserved)
     numbers: dict[str, int] = {}  # the next one to try, by name
     found = []
     for name, old in zip(legal, names, strict=True):

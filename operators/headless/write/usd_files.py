@@ -55,7 +55,7 @@ def write_usd(
     }
     own = names_of_objects("usd")
     names = [*(own[obj.name] for obj in objects), *names_of_hulls(hulls, "usd")]
-    names = legal_names([_MATERIALS, *names], "usd")[1:]
+    names = legal_names(names, "usd", reserved=[_MATERIALS])
     lines = [_HEAD]
     # Not all programs read shear in the matrix of a prim; Blender does not.
     with shear_in_meshes([*objects, *hulls]):

@@ -92,7 +92,7 @@ def bodies_of(
     owned, titles = hulls_by_owner(hulls), _titles(hulls, parameters)
     each = parameters.bodies == "EACH"
     groups = [[obj] for obj in owned] if each else [list(owned)]
-    names = list(titles.values()) if each else _free_names([name])
+    names = list(titles.values()) if each else legal_names([name], "xml", [GROUND])
     of_hulls = dict(zip(hulls, names_of_hulls(hulls, "xml", titles), strict=True))
     bodies, opened = [], []
     for group, title in zip(groups, names, strict=True):
@@ -123,14 +123,8 @@ def _titles(
 ) -> dict[str, str]:
     """Return the legal names of the objects that hulls belong to, by their names."""
     names = [obj.name for obj in hulls_by_owner(hulls)]
-    each = parameters.bodies == "EACH"
-    legal = _free_names(names) if each else legal_names(names, "xml")
-    return dict(zip(names, legal, strict=True))
-
-
-def _free_names(names: Sequence[str]) -> list[str]:
-    """Return legal names, none of which is that of the ground."""
-    return legal_names([GROUND, *names], "xml")[1:]
+    reserved = [GROUND] if parameters.bodies == "EACH" else []
+    return dict(zip(names, legal_names(names, "xml", reserved), strict=True))
 
 
 def write_meshes(folder: Path, bodies: Sequence[Body]) -> None:
