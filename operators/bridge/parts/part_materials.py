@@ -43,7 +43,10 @@ def part_materials(obj: bpy.types.Object) -> dict[int, list[bpy.types.Material]]
 
 
 def part_slots(obj: bpy.types.Object) -> dict[int, list[int]]:
-    """Return the slots that hold these materials; what is in others came by a join."""
+    """Return the slots that hold these materials, none while the mesh keeps them.
+
+    What is in slots then came with another object.
+    """
     if is_overlaid(obj) or is_cloud(obj):
         return {}
     return tagged_slots(obj.data)
