@@ -7,7 +7,7 @@ that the user renames becomes the user's, unless it is renamed in the list of pa
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import bpy
 import numpy as np
@@ -64,7 +64,7 @@ def color_of(material: bpy.types.Material) -> Color:
 
 def own_materials(
     identities: Iterable[Identity],
-    sources: Sequence[bpy.types.Material | None],
+    sources: Mapping[int, bpy.types.Material | None],
     hulls: Iterable[bpy.types.Object] = (),
 ) -> list[bpy.types.Material]:
     """Return materials for the parts of one object.
@@ -72,15 +72,16 @@ def own_materials(
     Parameters
     ----------
     identities : iterable of Identity
-    sources : sequence of bpy.types.Material or None
-        The material that each part had. It is used again if nothing else uses it;
-        otherwise it is copied, so that no two objects share one.
+    sources : mapping of int to bpy.types.Material or None
+        The materials that parts had, by their numbers. One is used again if nothing
+        else uses it; otherwise it is copied, so that no two objects share one.
     hulls : iterable of bpy.types.Object, optional
         The hulls of the object: they share the materials of its parts.
     """
     materials = []
     worn = [each for mesh in {hull.data for hull in hulls} for each in mesh.materials]
-    for identity, source in zip(identities, sources, strict=True):
+    for identity in identities:
+        source = sources.get(identity.number)
         if source is None or not is_ours(source):
             material = _new(identity.name)
             recolor(material, identity.color)
@@ -98,7 +99,7 @@ def none_missing(
 ) -> list[bpy.types.Material]:
     """Return the materials of parts, new ones in place of those the user removed."""
     return [
-        material or own_materials([identity], [None])[0]
+        material or own_materials([identity], {})[0]
         for identity, material in zip(identities, materials, strict=True)
     ]
 

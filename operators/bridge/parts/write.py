@@ -206,5 +206,4 @@ def _materials(
     """Return a material for each part of a mesh, or one for all points."""
     if is_cloud(obj):
         return [points_material(obj.data)]
-    own = [sources.get(each.number) for each in identities]
-    return own_materials(identities, own, hulls_of(obj))
+    return own_materials(identities, sources, hulls_of(obj))

@@ -70,7 +70,7 @@ def show_as_materials(obj: bpy.types.Object) -> None:
         return
     kept = kept_materials(obj.data)
     drop_kept(obj.data)
-    materials = own_materials(identities, [kept.get(i.number) for i in identities])
+    materials = own_materials(identities, kept)
     for identity, material in zip(identities, materials, strict=True):
         recolor(material, identity.color)
         for sharer in sharers(obj):

@@ -79,7 +79,7 @@ def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
         return mesh
     kept, _, targets = core.thinned_splats(points, normals.astype(np.float64))
     mesh.from_pydata(targets.vertices, [], targets.triangles.tolist())
-    for material in own_materials(found.identities, [None] * len(found.identities)):
+    for material in own_materials(found.identities, {}):
         mesh.materials.append(material)
     write_ints(mesh.polygons, "material_index", found.labels[kept])
     return mesh
