@@ -18,7 +18,6 @@ from ....core.results.hulls import HullDecomposition
 from ..homes import hand_over, within_parent
 from ..mesh.known import vertex_positions
 from ..parts.materials import discard, hull_material, none_missing
-from ..parts.palette import usual_color
 from ..parts.read import FoundParts, find_parts_on, materials_of
 from ..read.shape import stretch
 from ..read.stretching import unstretched
@@ -172,7 +171,7 @@ def _materials(
         own = none_missing(parts.identities, materials_of(obj, parts))
         return [own[part] for part in found.parts]
     rows = found.parts.tolist() if found.has_parts else range(found.n_hulls)
-    return [hull_material(row, usual_color(row)) for row in rows]
+    return [hull_material(row) for row in rows]
 
 
 def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:

@@ -21,6 +21,7 @@ from ..stored.identity import (
     rgb,
 )
 from ..stored.names import COLOR_LAYER, MATERIAL_NAME, MATERIAL_TAG
+from .palette import usual_color
 
 # The number in the tag of the material that shows the parts of all point clouds. Below
 # are those of hulls: the first, the second and so on of an object.
@@ -137,15 +138,14 @@ def points_material(cloud: bpy.types.ID) -> bpy.types.Material:
     return material
 
 
-def hull_material(row: int, color: Color) -> bpy.types.Material:
+def hull_material(row: int) -> bpy.types.Material:
     """Return the material of a hull that is of no part: the same for all objects.
 
     Parameters
     ----------
     row : int
-        Place of the hull among those of its object, from 0.
-    color : tuple of float
-        Linear; what the user gave it since stays.
+        Place of the hull among those of its object, from 0. It has the color that the
+        part with this number has at first, or what the user gave it since.
     """
     tag = _OF_HULL - row
     name = _usual_name(tag)
@@ -155,7 +155,7 @@ def hull_material(row: int, color: Color) -> bpy.types.Material:
             return material
     material = _new(name)
     material[MATERIAL_TAG] = tag
-    recolor(material, color)
+    recolor(material, usual_color(row))
     return material
 
 
