@@ -18,8 +18,7 @@ from ..files.headers import (
     read_header,
 )
 from ..formats import READ_ENDINGS
-from .ply_faces import refers_to_missing
-from .usd_faces import mesh_without_its_points
+from .face_checks import mesh_without_its_points, refers_to_missing
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {

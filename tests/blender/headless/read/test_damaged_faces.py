@@ -13,7 +13,7 @@ from weak_convex_decomposition.operators.headless.files.headers import (
     BYTE_ORDER_MARK,
     read_header,
 )
-from weak_convex_decomposition.operators.headless.read.ply_faces import (
+from weak_convex_decomposition.operators.headless.read.face_checks import (
     refers_to_missing,
 )
 
