@@ -43,14 +43,13 @@ def clear(obj: bpy.types.Object) -> None:
         own, record = beside_parts(obj).keys(), record_of(obj)
         write_record(obj, {key: record[key] for key in record if key not in own})
         return
-    if obj.type == "MESH":
-        unmark_seams(obj.data)
-        _forget_joined_cuts(obj)
     if obj.type in WORKED_ON:
         erase_parts(obj)
     else:
         erase_rows(obj)
     if obj.type == "MESH":
+        unmark_seams(obj.data)
+        _forget_joined_cuts(obj)
         _forget_color_names(obj.data)
     discard_unused(our_materials())  # also where the user removed their slots
     forget_result(obj)
