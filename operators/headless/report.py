@@ -74,11 +74,10 @@ def save_report(
 
 def _input_entry(result: InputResult) -> dict[str, Any]:
     """Return what the report says of one input."""
+    written = vars(result.written).items()
     return {
         "input": str(result.path),
-        "output": str(result.output) if result.output else None,
-        "picture": str(result.picture) if result.picture else None,
-        "hulls": str(result.hulls) if result.hulls else None,
+        **{name: str(path) if path else None for name, path in written},
         "errors": list(result.errors),
         "notes": list(result.notes),
         "seconds": round(result.seconds, 3),

@@ -78,9 +78,8 @@ def decompose_file(
         )
     errors, seconds = tuple(attempts.errors), time.perf_counter() - started
     notes, used = loaded.about, stages.stages
-    return InputResult(
-        path, results, notes, errors, output, picture, hulls, seconds, used
-    )
+    written = Targets(output, picture, hulls)
+    return InputResult(path, results, notes, errors, written, seconds, used)
 
 
 def _load(

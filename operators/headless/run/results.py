@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..request.outputs import Targets
 from ..stages import Stage
 
 
@@ -54,7 +55,7 @@ class InputResult:
         Warnings about the file as a whole.
     errors : tuple of str
         Why the input could not be read, or a result could not be written.
-    output, picture, hulls : Path or None
+    written : Targets
         The files that were written.
     seconds : float
         Time for everything.
@@ -66,9 +67,7 @@ class InputResult:
     objects: tuple[ObjectResult, ...]
     notes: tuple[str, ...]
     errors: tuple[str, ...]
-    output: Path | None
-    picture: Path | None
-    hulls: Path | None
+    written: Targets
     seconds: float
     stages: dict[str, Stage]
 
