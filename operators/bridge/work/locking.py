@@ -20,12 +20,13 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
-from ..mesh.by_label import areas_of
+from ..mesh.by_label import ByLabel, areas_of
 from ..mesh.layers import layers_of
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
+from ..read.target import Target
 from ..refusals import edit_refusal
 from ..stored.names import HAND_LAYER
 from ..stored.noted_parts import psi_by_k_of
@@ -33,7 +34,7 @@ from ..stored.record import record_of
 from .computing import decompose_object, read_seen
 from .cutting import decompose_whole_faces, gets_new_faces
 from .libraries import load_libraries
-from .run_edit import Edited, on_own_faces, ready_to_write, with_known_ranks
+from .run_edit import Edited, with_known_ranks
 from .session_cache import session_cache
 
 _NOT_CUT = (
@@ -83,17 +84,38 @@ def decompose_unlocked(
             return _decompose_rest(obj, parameters, parts, held, seen)
     if gets_new_faces(obj, parameters, seen):
         return decompose_whole_faces(obj, parameters)
-    steps, record = decompose_object(obj, parameters, seen, rough), record_of(obj)
+    steps = decompose_object(obj, parameters, seen, rough)
+    steps = _with_known_numbers(steps, record_of(obj))
+    return _ready_to_write(obj, steps, parameters, seen)
+
+
+def _ready_to_write(
+    obj: bpy.types.Object,
+    steps: Steps[Decomposition],
+    parameters: Parameters,
+    seen: SeenMesh | None,
+    by_hand: NDArray[np.bool_] | None = None,
+) -> Steps[Edited]:
+    """Find parts, then read what writing them asks of a mesh: this takes long, too."""
+    is_read, target = obj.type == "MESH" and obj.mode != "EDIT", Target.of(obj)
 
     def work() -> Steps[Edited]:
-        found = _with_known_numbers((yield from steps), record)
-        return Edited(on_own_faces(found, seen), None, parameters, seen=seen)
+        found, ready = (yield from within(steps, 0.0, 0.99)), None
+        if seen is not None:
+            found = seen.on_own_faces(found)
+        if is_read:
+            reading = ByLabel.in_steps(target.find, found.labels, found.n_parts)
+            ready = yield from within(reading, 0.99, 1.0)
+        return Edited(found, None, parameters, by_hand, seen=seen, ready=ready)
 
-    return ready_to_write(obj, work())
+    return work()
 
 
-def _with_known_numbers(found: Decomposition, record: dict[str, Any]) -> Decomposition:
-    """Return a first look with the psi of numbers of parts that it did not try."""
+def _with_known_numbers(
+    steps: Steps[Decomposition], record: dict[str, Any]
+) -> Steps[Decomposition]:
+    """Give a first look the psi of numbers of parts that it did not try."""
+    found = yield from steps
     if not found.rough:
         return found
     known = {**psi_by_k_of(record), **found.psi_by_k}
@@ -137,7 +159,7 @@ def _decompose_rest(
         notes = (*notes, _NOT_CUT)
     members = ~held[before]
 
-    def work() -> Steps[Edited]:
+    def work() -> Steps[Decomposition]:
         yield from load_libraries()
         shape, cache = (yield from reading), session_cache()
         some = members if held.any() else None
@@ -155,13 +177,9 @@ def _decompose_rest(
         ranks = np.concatenate([parts.ranks, run.ranks])
         found = with_known_ranks(found, after, ranks)
         pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
-        said = (*notes, *found.notes)
-        found = replace(found, pairs=pairs, notes=said)
-        return Edited(
-            on_own_faces(found, seen), None, parameters, parts.by_hand, seen=seen
-        )
+        return replace(found, pairs=pairs, notes=(*notes, *found.notes))
 
-    return ready_to_write(obj, work())
+    return _ready_to_write(obj, work(), parameters, seen, parts.by_hand)
 
 
 def _parameters_of_rest(

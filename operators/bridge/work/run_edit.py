@@ -24,7 +24,6 @@ from ..parts.write import check_writable, write_parts
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
 from ..read.shape import shape_in_steps
-from ..read.target import Target
 from ..stored.identity import Identity
 from ..stored.record import EVALUATED, ORIGINAL, note_mesh, noted_mesh
 from .libraries import load_libraries
@@ -86,29 +85,6 @@ class Edited:
         )
         note_mesh(obj, mesh)
         let_undo_see_all(obj)
-
-
-def on_own_faces(found: Decomposition, seen: SeenMesh | None) -> Decomposition:
-    """Return parts of a mesh as it is seen as parts of the faces that get them."""
-    return found if seen is None else seen.on_own_faces(found)
-
-
-def ready_to_write(obj: bpy.types.Object, steps: Steps[Edited]) -> Steps[Edited]:
-    """Run `steps`, then read what writing asks of the object: this takes long, too.
-
-    They give parts of the faces that the object has.
-    """
-    if obj.type != "MESH" or obj.mode == "EDIT":
-        return steps
-    target = Target.of(obj)
-
-    def work() -> Steps[Edited]:
-        found = yield from within(steps, 0.0, 0.99)
-        labels, n_parts = found.decomposition.labels, found.decomposition.n_parts
-        ready = ByLabel.in_steps(target.find, labels, n_parts)
-        return replace(found, ready=(yield from within(ready, 0.99, 1.0)))
-
-    return work()
 
 
 def edit_object(obj: bpy.types.Object, make_change: MakeChange) -> Steps[Edited]:
