@@ -61,6 +61,7 @@ def _gltf(path: Path, _up: str) -> set[str]:
     # Newer Blenders exclude what is in other scenes than the first, or in none.
     for child in bpy.context.view_layer.layer_collection.children:
         child.exclude = False
+    bpy.context.scene.frame_set(0)  # time 0; Blender shows the next frame
     return result
 
 
@@ -118,6 +119,8 @@ def _usd(path: Path, _up: str) -> set[str]:
     for child in bpy.context.view_layer.layer_collection.children:
         child.exclude = child.collection.hide_viewport
     number_in_order(bpy.data.objects)
+    scene = bpy.context.scene
+    scene.frame_set(scene.frame_start)  # that of the stage
     return result
 
 

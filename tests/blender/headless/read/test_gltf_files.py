@@ -46,3 +46,15 @@ def test_bones_bring_no_models(written):
     path, content = written()
     assert len(content["skins"]) == 1
     assert [obj.name for obj in load(path)] == ["Skin"]
+
+
+def test_animated_nodes_are_where_their_animation_begins(written):
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    for frame, place in ((0, 0), (24, 24)):
+        cube.location.x = place
+        cube.keyframe_insert("location", frame=frame)
+    path, content = written()
+    assert len(content["animations"]) == 1
+    (obj,) = load(path)
+    assert obj.matrix_world.translation.x == 0

@@ -79,6 +79,18 @@ def test_coordinates_that_are_not_numbers_have_an_error_each(tmp_path):
         bpy.ops.wcd.decompose()
 
 
+@pytest.mark.parametrize("start", [0, 101])
+def test_animated_prims_are_where_their_stage_begins(tmp_path, start):
+    samples = f"timeSamples = {{{start}: (0, 0, 0), {start + 24}: (24, 0, 0)}}"
+    prim = PLACED.format(name="A", x=0).replace(
+        "translate = (0, 0, 0)", f"translate.{samples}"
+    )
+    path = stage(tmp_path / "a.usda", prim)
+    text = path.read_text()
+    path.write_text(text.replace("upAxis", f"startTimeCode = {start}\nupAxis"))
+    assert boxes(load(path)) == {"A Rock": box(0, 0, 0)}
+
+
 def test_faces_that_blender_crashes_on(tmp_path, unexpected):
     changes = [
         ("3, 2]", "3, 4]"),
