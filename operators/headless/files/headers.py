@@ -6,6 +6,7 @@ writers of what they have written.
 
 from __future__ import annotations
 
+import re
 import struct
 from dataclasses import dataclass
 from typing import Any
@@ -175,14 +176,13 @@ def read_header(data: bytes) -> Header | None:
     data : bytes
         The whole file.
     """
-    text, mark, body = data.partition(b"end_header")
-    newline = len(body) - len(body.removeprefix(b"\r").removeprefix(b"\n"))
     orders = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
     order = None
     elements: list[Element] = []
     try:
-        for line in text.decode("latin-1").splitlines():
-            match line.split():
+        text, mark, body = re.split(rb"([\r\n]end_header)", data, maxsplit=1)
+        for line in text.splitlines():
+            match line.decode("latin-1").split():
                 case ["format", kind, _]:
                     order = orders[kind]
                 case ["element", name, n_rows]:
@@ -194,8 +194,9 @@ def read_header(data: bytes) -> Header | None:
                     _add_property(elements[-1], name, _TYPES[kind])
     except (KeyError, ValueError, IndexError):
         return None
-    if not mark or order is None:
+    if order is None:
         return None
+    newline = len(body) - len(body.removeprefix(b"\r").removeprefix(b"\n"))
     return Header(order, tuple(elements), len(text) + len(mark) + newline)
 
 

@@ -30,6 +30,8 @@ def ply(table, kind="ascii", columns=("x", "y", "z", "nx", "ny", "nz")):
     return head.encode() + table.astype(order).tobytes()
 
 
+# Ends of lines in Latin-1 are none in UTF-8, and words in comments mean nothing.
+COMMENTS = "comment Åelement more 9\ncomment end_header\nelement"
 WITH_NORMALS = {
     "a.xyz": rows(TABLE).encode(),
     "comma.xyz": rows(TABLE).replace(" ", ", ").encode(),
@@ -40,6 +42,7 @@ WITH_NORMALS = {
     "marked.xyz": f"\ufeff{rows(TABLE)}".encode(),
     "old_mac.pts": f"\n600\n{rows(TABLE)}".replace("\n", "\r").encode(),
     "ascii.ply": ply(TABLE),
+    "comments.ply": ply(TABLE).replace(b"element", COMMENTS.encode(), 1),
     "little.ply": ply(TABLE, "binary_little_endian"),
     "big.ply": ply(TABLE, "binary_big_endian"),
 }
