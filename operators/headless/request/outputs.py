@@ -12,7 +12,13 @@ from ....core.errors import DecompositionError
 from ..files.claims import check_companion, check_distinct, companion_of
 from ..files.output_folders import check_outside
 from ..files.replacing import explaining, is_stream
-from ..formats import HULL_ENDINGS, HULLS_WITHIN_ENDINGS, MODEL_ENDINGS, PICTURE_ENDINGS
+from ..formats import (
+    HULL_ENDINGS,
+    HULLS_WITHIN_ENDINGS,
+    MODEL_ENDINGS,
+    PICTURE_ENDINGS,
+    READ_ENDINGS,
+)
 
 _NAME = "{name}"
 # Standard input among the inputs, standard output for the report.
@@ -100,6 +106,11 @@ def _check_asked(output: str | None, report: Path | None, with_hulls: bool) -> N
     if report and _NAME in str(report):
         raise DecompositionError(
             f"One report tells of all inputs; leave {_NAME} out of --report."
+        )
+    ending = report.suffix.lower() if report else ""
+    if ending in (*READ_ENDINGS, *HULL_ENDINGS, *PICTURE_ENDINGS):
+        raise DecompositionError(
+            f"--report writes JSON; name a file that ends in .json, not in {ending}."
         )
 
 

@@ -115,6 +115,15 @@ def test_places_where_nothing_can_be_written(tmp_path, model, capfd):
     assert content(tmp_path) == before
 
 
+@pytest.mark.parametrize("ending", ["glb", "XML", "png", "stl"])
+def test_a_report_with_the_ending_of_another_format(tmp_path, model, ending, capfd):
+    before = content(tmp_path)
+    assert run(model, "--report", tmp_path / f"r.{ending}") == 2
+    sentence = f"name a file that ends in .json, not in .{ending.lower()}."
+    assert sentence in capfd.readouterr().err
+    assert content(tmp_path) == before
+
+
 @pytest.mark.parametrize("ending", ["urdf", "xml"])
 @pytest.mark.parametrize("name", ["a\udcff", "ctl\x01", "a\uffff"])
 def test_a_name_that_xml_cannot_hold_is_refused_beforehand(
