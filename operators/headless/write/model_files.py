@@ -100,9 +100,12 @@ def _glb(path: Path, hulls: Sequence[bpy.types.Object]) -> None:
             use_active_scene=True,
             use_mesh_vertices=with_points,
             export_attributes=with_points,
-            # Hulls are around what is seen now.
-            export_current_frame=bool(hulls),
-            export_rest_position_armature=not hulls,
+            # Hulls, in this file or another one, are around what is seen now; but
+            # around skins as they are at rest.
+            export_current_frame=True,
+            export_rest_position_armature=not any(
+                obj.parent_type == "BONE" for obj in objects
+            ),
         )
     if hulls:
         mark_glb(path, len(hulls))

@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import pytest
+import trimesh
 from hand_made import build_hulls
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
@@ -112,6 +113,42 @@ def test_glb_of_a_model_has_its_hulls_where_it_is(tmp_path):
     for name in hulls:
         box = box_of(objects[name.partition(" ")[0]])
         assert box_of(objects[name]) == pytest.approx(box, abs=1e-4), name
+
+
+def boxes_of_nodes(path):
+    """Return the boxes of what is in a .glb file, by the first words of its names."""
+    scene = trimesh.load(path)
+    found = {}
+    for name in scene.graph.nodes_geometry:
+        matrix, mesh = scene.graph[name]
+        solid = scene.geometry[mesh].copy().apply_transform(matrix)
+        found[name.partition(" ")[0]] = solid.bounds
+    return found
+
+
+def test_glb_of_a_model_alone_is_where_its_hulls_are_in_another_file(tmp_path):
+    names = sorted(obj.name for obj in add_moving())
+    model = tmp_path / "model.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
+    paths = tmp_path / "model.glb", tmp_path / "hulls.glb"
+    words = [f"--output={paths[0]}", f"--hulls={paths[1]}", "--quiet"]
+    assert main([str(model), *words]) == 0
+    found, expected = map(boxes_of_nodes, paths)
+    assert sorted(found) == sorted(expected) == names
+    for name, box in found.items():
+        assert box == pytest.approx(expected[name], abs=1e-4), name
+
+
+@pytest.mark.parametrize("words", [[], ["--with-hulls"]])
+def test_glb_has_skins_at_rest_as_hulls_are_around_them(tmp_path, words):
+    rig, skin = add_armature(), cube("Skin", 20)
+    skin.modifiers.new("Armature", "ARMATURE").object = skin.parent = rig
+    skin.vertex_groups.new(name="Bone").add(range(8), 1, "REPLACE")
+    model, path = tmp_path / "model.blend", tmp_path / "model.glb"
+    bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
+    assert main([str(model), f"--output={path}", "--quiet", *words]) == 0
+    matrix, _ = trimesh.load(path).graph.get("Bone", "Armature")
+    assert matrix == pytest.approx(np.eye(4), abs=1e-6)
 
 
 def test_the_scene_is_as_before(tmp_path):
