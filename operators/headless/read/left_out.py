@@ -1,8 +1,9 @@
-"""What of a file is left out, so that somebody says so: faces, curves and texts."""
+"""What of a file is left out, so that somebody says so: faces, layers, curves."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
@@ -10,8 +11,10 @@ import bpy
 from ...bridge.refusals import CONVERTIBLE
 from ..current_file import objects_in_view_layers
 from ..files.headers import read_header
+from ..formats import READ_ENDINGS
 from .off_files import n_faces_of_off
 
+_USD_ENDINGS = tuple(each for each in READ_ENDINGS if each.startswith(".usd"))
 # A line break is found sooner than the beginning of a line.
 _OBJ_FACE = re.compile(rb"\n[ \t]*f[ \t]")
 
@@ -41,6 +44,18 @@ def _n_faces_in(path: Path) -> int:
     header = read_header(path.read_bytes()) if ending == ".ply" else None
     elements = header.elements if header else ()
     return sum(each.n_rows for each in elements if each.name == "face")
+
+
+def layers_note(refers_to: Sequence[Path]) -> str | None:
+    """Return a sentence about layers of USD that are missing; None if none is."""
+    layers = [each for each in refers_to if each.suffix.lower() in _USD_ENDINGS]
+    missing = [layer.name for layer in layers if not layer.exists()]
+    if not missing:
+        return None
+    return (
+        "What is in layers that are missing was left out; put them where the file"
+        f" refers to them: {', '.join(missing)}."
+    )
 
 
 def convertible_note() -> str | None:

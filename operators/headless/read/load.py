@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from .finite_checks import check_finite
 from .importers import IMPORTERS
 from .instances import check_libraries, make_all_local, realize_instances
 from .known_hulls import adopt_hulls, hull_note
-from .left_out import convertible_note, faces_note
+from .left_out import convertible_note, faces_note, layers_note
 from .referred import referred_files
 
 
@@ -88,19 +89,19 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())
-    curves = convertible_note()
-    about = tuple(filter(None, (faces_note(path), hull_note(), curves)))
-    return LoadedFile(_objects_with_shape(path, curves), notes, about, refers_to)
+    others = tuple(filter(None, (layers_note(refers_to), convertible_note())))
+    about = (*filter(None, (faces_note(path), hull_note())), *others)
+    return LoadedFile(_objects_with_shape(path, others), notes, about, refers_to)
 
 
-def _objects_with_shape(path: Path, curves: str | None) -> list[bpy.types.Object]:
+def _objects_with_shape(path: Path, others: Sequence[str]) -> list[bpy.types.Object]:
     """Return the objects of the file, or raise if none has faces or points.
 
-    The error for a file without meshes ends with the note on curves.
+    The error for a file without meshes ends with notes on what it has.
     """
     objects = mesh_objects()
     if not objects:
-        more = f" {curves}" if curves else ""
+        more = " ".join(("", *others))
         raise DecompositionError(f"{path.name} has no meshes or point clouds.{more}")
     if not any(map(has_shape, objects)):
         has_edges = any(getattr(obj.data, "edges", None) for obj in objects)

@@ -4,7 +4,14 @@ import json
 
 import bpy
 import pytest
-from headless.instancing import add, collection_with_rock, instance_of, mesh_of, saved
+from headless.instancing import (
+    add,
+    collection_with_rock,
+    instance_of,
+    mesh_of,
+    rock,
+    saved,
+)
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.command_line import main
@@ -117,3 +124,27 @@ def test_instances_of_no_size_are_not_written(tmp_path, ending):
     if ending == "blend":
         bpy.ops.wm.open_mainfile(filepath=str(output))
         assert not any(obj.instance_collection for obj in bpy.data.objects)
+
+
+@pytest.mark.parametrize("has_rock", [True, False])
+def test_layers_that_are_missing_are_named(tmp_path, has_rock, capfd):
+    add("Rock", rock())
+    bpy.ops.wm.usd_export(filepath=str(tmp_path / "rock.usdc"))
+    layers = ["rock.usdc", "no.usda"] if has_rock else ["no.usda"]
+    prims = (
+        f'def "P{number}" (references = @./{layer}@</root>) {{}}\n'
+        for number, layer in enumerate(layers)
+    )
+    model, report = tmp_path / "a.usda", tmp_path / "r.json"
+    model.write_text(f"#usda 1.0\n{''.join(prims)}")
+    status = main([str(model), "--report", str(report), *QUICK])
+    (entry,) = json.loads(report.read_text())["inputs"]
+    note = (
+        "What is in layers that are missing was left out; put them where the file"
+        " refers to them: no.usda."
+    )
+    if has_rock:
+        assert (status, entry["notes"]) == (0, [note])
+    else:
+        sentence = f"a.usda has no meshes or point clouds. {note}"
+        assert (status, entry["errors"]) == (1, [sentence])
