@@ -67,9 +67,9 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
 
     The companions are among the outputs.
     """
-    read = {path.resolve() for path in inputs}
+    read = {place_of(path) for path in inputs}
     same = {_identity(path) for path in inputs} - {None}
-    alike = {place_key(path.resolve()): path for path in inputs}
+    alike = {place_key(place_of(path)): path for path in inputs}
     taken: dict[str, Path] = {}
     for output in outputs:
         place = place_of(output)
@@ -92,8 +92,8 @@ def check_distinct(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
 
 
 def place_of(path: Path) -> Path:
-    """Return where a file is in the end; a stream has no other place."""
-    return path.absolute() if is_stream(path) else path.resolve()
+    """Return where a file is in the end; streams and links in a circle stay there."""
+    return path.absolute() if is_stream(path) else Path(os.path.realpath(path))
 
 
 def _identity(path: Path) -> tuple[int, int] | None:

@@ -74,6 +74,8 @@ def targets_for(
         If a target cannot be written, is an input, or would be written twice.
     """
     _check_asked(output, report, with_hulls)
+    with explaining(Path(), "read"):
+        Path.cwd()  # it may be gone, and paths count from it
     endings = HULLS_WITHIN_ENDINGS if with_hulls else MODEL_ENDINGS
     option = "--output, with --with-hulls," if with_hulls else "--output"
     outputs = _resolved(inputs, output, option, endings)

@@ -111,3 +111,20 @@ def test_another_name_of_an_input(tmp_path, model, capfd, run):
     assert run(model, "--output", tmp_path / "other.ply") == 2
     assert "is an input, too" in capfd.readouterr().err
     assert content(tmp_path) == before
+
+
+def test_an_input_that_is_a_link_to_itself(tmp_path, model, run, capfd):
+    link = tmp_path / "link.ply"
+    link.symlink_to(link)
+    assert run(link, model, "--output", tmp_path / "{name}.glb") == 1
+    assert f"error: {link} does not exist.\n" in capfd.readouterr().err
+    assert (tmp_path / f"{model.stem}.glb").exists()
+
+
+def test_a_folder_that_is_gone_is_a_sentence(tmp_path, model, run, capfd, monkeypatch):
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert run(model, "--report", "r.json") == 2
+    assert "error: . cannot be read (No such file or " in capfd.readouterr().err
