@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from itertools import count
 
 import bpy
 
@@ -48,9 +47,12 @@ def names_that_fit(
     own = set(hulls_of(obj))
     taken = {each.name for each in bpy.data.objects if each not in own}
     fill = partial(hull_names, naming, template, kinds=kinds)
-    endings = (f" {number}" if number > 1 else "" for number in count(1))
-    tried = (_shortened(fill, obj.name, ending, longest) for ending in endings)
-    return next(names for names in tried if taken.isdisjoint(names))
+    for number in range(1, len(bpy.data.objects) + 1):
+        ending = f" {number}" if number > 1 else ""
+        shortened = _shortened(fill, obj.name, ending, longest)
+        if taken.isdisjoint(shortened):
+            return shortened
+    return _shortened(fill, obj.name, "", longest)
 
 
 def _shortened(
