@@ -48,7 +48,6 @@ def as_one_part(shape: PreparedShape) -> Decomposition:
     return Decomposition(
         labels=np.zeros(len(shape.nodes), dtype=np.int64),
         areas=np.array([area]),
-        face_counts=np.array([len(shape.nodes)]),
         ranks=np.ones(1),
         psi_before=1.0,
         psi=1.0,

@@ -57,7 +57,6 @@ def describe(
     return Decomposition(
         labels=labels,
         areas=areas.astype(np.float64) * visibility.shape.diagonal**2,
-        face_counts=np.bincount(labels),
         ranks=visibility.rank_pairs.tally(samples, n_parts).ranks(),
         psi_before=whole.psi(parameters.alpha),
         psi=pairs.tally(samples, n_parts).psi(parameters.alpha),

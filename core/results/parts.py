@@ -21,8 +21,6 @@ class Decomposition:
         largest area.
     areas : (K,) float
         Area of each part, in squared units of the shape.
-    face_counts : (K,) int
-        Number of polygons, or of points, of each part.
     ranks : (K,) float
         Convexity rank of each part (eq. 1), from 0 to 1.
     psi_before : float
@@ -59,7 +57,6 @@ class Decomposition:
 
     labels: NDArray[np.int64]
     areas: NDArray[np.float64]
-    face_counts: NDArray[np.int64]
     ranks: NDArray[np.float64]
     psi_before: float
     psi: float
@@ -74,7 +71,7 @@ class Decomposition:
 
     def __post_init__(self) -> None:
         """Protect what the next result of the same shape may share."""
-        for array in (self.labels, self.areas, self.face_counts, self.ranks):
+        for array in (self.labels, self.areas, self.ranks):
             array.flags.writeable = False
         if self.normals is not None:
             self.normals.flags.writeable = False
@@ -86,9 +83,25 @@ class Decomposition:
         return len(self.areas)
 
     @property
+    def face_counts(self) -> NDArray[np.int64]:
+        """Number of polygons, or of points, of each part, (K,)."""
+        return np.bincount(self.labels, minlength=self.n_parts)
+
+    @property
     def good_k(self) -> tuple[int, ...]:
         """Up to three good numbers of parts: a coarse one, `best_k` and a fine one."""
         return good_numbers(self.psi_by_k, self.best_k)
+
+    def pairs_at(self, places: NDArray[np.int64]) -> tuple[tuple[int, int], ...]:
+        """Return `pairs` of parts that get other numbers.
+
+        Parameters
+        ----------
+        places : (K,) int
+            The new number of each part, -1 if it goes.
+        """
+        moved = [(int(places[one]), int(places[other])) for one, other in self.pairs]
+        return tuple(pair for pair in moved if min(pair) >= 0)
 
     def __repr__(self) -> str:
         """Return the number of parts and psi in one line."""

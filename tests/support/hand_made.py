@@ -15,7 +15,6 @@ def decomposition_of(labels, notes=()):
     return Decomposition(
         labels=labels,
         areas=counts / 2,
-        face_counts=counts,
         ranks=np.linspace(1.0, 0.5, len(counts)),
         psi_before=0.5,
         psi=0.75,

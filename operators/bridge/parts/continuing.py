@@ -92,8 +92,7 @@ def by_number(
         parts,
         labels=places[parts.labels],
         areas=parts.areas[order],
-        face_counts=parts.face_counts[order],
         ranks=parts.ranks[order],
-        pairs=tuple((int(places[a]), int(places[b])) for a, b in parts.pairs),
+        pairs=parts.pairs_at(places),
     )
     return ordered, ready.in_order(order), [identities[row] for row in order]

@@ -88,18 +88,14 @@ class SeenMesh:
         every = np.zeros(len(self.own_areas), dtype=np.int64)
         every[faces] = parts
         kept, labels = np.unique(every[self.stand_ins], return_inverse=True)
-        places = {int(part): place for place, part in enumerate(kept)}
+        places = np.full(found.n_parts, -1)
+        places[kept] = np.arange(len(kept))
         return replace(
             found,
             labels=labels,
             areas=np.bincount(labels, self.own_areas).astype(np.float64),
-            face_counts=np.bincount(labels),
             ranks=found.ranks[kept],
-            pairs=tuple(
-                (places[a], places[b])
-                for a, b in found.pairs
-                if a in places and b in places
-            ),
+            pairs=found.pairs_at(places),
             notes=(*found.notes, *_sharing(counts, found.n_parts - len(kept))),
         )
 

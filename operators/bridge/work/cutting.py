@@ -145,12 +145,7 @@ def _cut(
         (yield from _measured(refined, measured, found, parameters)),
         labels=places[labels],
         areas=areas[order].astype(np.float64),
-        face_counts=np.bincount(places[labels]),
-        pairs=tuple(
-            (int(places[one]), int(places[other]))
-            for one, other in found.pairs
-            if min(places[one], places[other]) >= 0
-        ),
+        pairs=found.pairs_at(places),
         notes=found.notes,
     )
     if parameters.levels != 1:  # each part was measured by samples of its own

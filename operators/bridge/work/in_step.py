@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
@@ -29,16 +28,15 @@ def bring_in_step(obj: bpy.types.Object) -> None:
     there = {each.number for each in figures.identities}
     if figures.in_step and there <= noted:
         return
-    counts, unknown = figures.measured_on[:, 0].astype(np.int64), float("nan")
+    unknown = float("nan")
     decomposition = Decomposition(
         labels=figures.labels,
         areas=figures.measured_on[:, 1],
-        face_counts=counts,
         ranks=figures.ranks,
         psi_before=unknown,
         psi=unknown,
         psi_by_k={},
-        best_k=len(counts),
+        best_k=len(figures.ranks),
         notes=(),
     )
     parameters = noted_parameters(obj) or Parameters()
