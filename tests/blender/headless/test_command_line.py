@@ -96,7 +96,7 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
         ("a.obj b.obj --output {tmp}/b.glb", "--output needs {name}"),
         ("a.obj x/a.off --output {tmp}/{name}.glb", "written twice"),
         ("{tmp}/a.obj --output {tmp}/a.obj", "is an input, too"),
-        ("a.obj --report {tmp}/b.glb --output {tmp}/b.glb", "written twice"),
+        ("a.obj --hulls {tmp}/b.glb --output {tmp}/b.glb", "written twice"),
         ("a.obj --report {tmp}", "is a folder"),
     ]
     for arguments, message in cases:
