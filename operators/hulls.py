@@ -43,6 +43,7 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
     _settings = HULL_RUN
+    _needs_shape = True
     _refusal = staticmethod(hull_refusal)
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -155,6 +156,7 @@ class WCD_OT_refit_hull(OnActive, Computation, bpy.types.Operator):
     bl_idname = "wcd.refit_hull"
     bl_label = "Shape of This Hull"
     bl_description = "Fit another shape to what this hull is around; the others stay"
+    _needs_shape = True
     _refusal = staticmethod(no_hulls_refusal)
 
     def _begin(self, obj: bpy.types.Object) -> Steps[HullDecomposition]:

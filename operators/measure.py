@@ -23,6 +23,7 @@ class _Measure(Computation):
     """Half an operator that measures objects, or the selected faces of each."""
 
     _of_selection = False
+    _needs_shape = True
 
     def _read(
         self, context: bpy.types.Context

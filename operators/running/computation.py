@@ -38,6 +38,9 @@ class Computation(OnObjects):
     # Whether `invoke` reports at once that nothing can be done: what a timer invokes
     # has no window to report to until it runs.
     _reports_at_once = True
+    # Whether what is found fits no other shape, as hulls do; parts still do if vertices
+    # have moved.
+    _needs_shape = False
     # The names of the settings that it takes from the scene.
     _settings: tuple[str, ...] = ()
     # Whether it runs in a window, which stays alive.
@@ -102,7 +105,7 @@ class Computation(OnObjects):
         self._names.append(obj.name)
         self._targets.append(None)
         try:
-            self._targets[-1] = Target.of(obj)
+            self._targets[-1] = Target.of(obj, self._needs_shape)
             steps: Steps[Any] = self._begin(obj)
         except DecompositionError as error:
             return error

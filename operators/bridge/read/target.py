@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ..mesh.by_label import sums_of_all
+from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
 from ..mesh.layers import flush_edits
 from ..mesh.points import count_points, is_cloud
 from ..refusals import CONVERTIBLE, WORKED_ON
 from .converting import digest_of_shown
+from .shape import scene_unit, stretch
+
+# A scale that differs by less, as a share, differs by rounding, as after a turn.
+_SAME_SCALE = 1e-4
 
 
 def object_with(uid: int, name: str = "") -> bpy.types.Object | None:
@@ -25,6 +33,38 @@ def object_with(uid: int, name: str = "") -> bpy.types.Object | None:
     return next((each for each in bpy.data.objects if each.session_uid == uid), None)
 
 
+@dataclass(frozen=True, eq=False)
+class ShapeThen:
+    """The shape that an object had in the scene, wherever it was.
+
+    Attributes
+    ----------
+    faces : list of float
+        The fingerprint of its faces, or points.
+    scale : (3, 3) float
+        From its own space to the proportions and the size that it had.
+    """
+
+    faces: list[float]
+    scale: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, obj: bpy.types.Object) -> ShapeThen:
+        """Return the shape that an object has now; raise if it has no proper place."""
+        flush_edits(obj)
+        return cls(fingerprint_of(obj), stretch(obj) * scene_unit(obj))
+
+    def check(self, obj: bpy.types.Object) -> None:
+        """Raise if an object has another shape by now."""
+        flush_edits(obj)
+        scale, most = stretch(obj) * scene_unit(obj), np.abs(self.scale).max()
+        fit = fits({MEASURED_ON: self.faces}, sums_of_all(obj))
+        if not fit or np.abs(scale - self.scale).max() > _SAME_SCALE * most:
+            raise DecompositionError(
+                "The shape or scale was changed meanwhile; start again."
+            )
+
+
 @dataclass(frozen=True)
 class Target:
     """What tells whether an object is still the one that was read.
@@ -37,16 +77,20 @@ class Target:
         The `session_uid` of the object and of its data.
     state : tuple of int, or str
         Numbers of vertices and faces, or the fingerprint of a curve.
+    shape : ShapeThen or None
+        Its shape, if the object must still have it.
     """
 
     object_uid: int
     data_uid: int
     state: tuple[int, int] | str
+    shape: ShapeThen | None = field(default=None, compare=False)
 
     @classmethod
-    def of(cls, obj: bpy.types.Object) -> Target:
+    def of(cls, obj: bpy.types.Object, with_shape: bool = False) -> Target:
         """Return the target that an object is now."""
-        return cls(obj.session_uid, obj.data.session_uid, _state(obj))
+        shape = ShapeThen.of(obj) if with_shape else None
+        return cls(obj.session_uid, obj.data.session_uid, _state(obj), shape)
 
     def find(self) -> bpy.types.Object:
         """Return the object, or raise if it is gone or has changed."""
@@ -56,6 +100,8 @@ class Target:
             raise DecompositionError(
                 "The mesh was changed or deleted meanwhile; start again."
             )
+        if self.shape is not None:
+            self.shape.check(obj)
         return obj
 
 

@@ -17,6 +17,7 @@ from stand_ins.presses import (
     press,
 )
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.operators.hulls import WCD_OT_build_hulls
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
 from weak_convex_decomposition.operators.running import modal
 
@@ -66,6 +67,55 @@ def test_what_changed_meanwhile_is_left_alone(suzanne, window, cls, change, sent
     assert ("WARNING", error) in pressed.reports  # an error would open a popup
     assert [(obj.name, snapshot(obj)) for obj in bpy.data.objects] == there
     assert window.is_clean()
+
+
+def scale_along_z():
+    bpy.context.active_object.scale.z = 3
+
+
+def apply_scale():
+    bpy.ops.object.transform_apply()
+
+
+def stretch_mesh():
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(1, 1, 3))
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def turn():
+    bpy.context.active_object.rotation_euler = (1, 2, 3)
+    bpy.context.active_object.location.x = 5
+
+
+@pytest.mark.parametrize("cls", [WCD_OT_measure, WCD_OT_build_hulls])
+@pytest.mark.parametrize("change", [scale_along_z, apply_scale, stretch_mesh])
+def test_what_is_found_of_one_shape_is_not_written_to_another(
+    suzanne, window, cls, change
+):
+    suzanne.scale = (1, 2, 1)
+    pressed = press(cls, window)
+    change()
+    assert finish(pressed) == {"CANCELLED"}
+    (error,) = errors_of(pressed)
+    assert "shape or scale was changed meanwhile; start again" in error
+    assert list(bpy.data.objects) == [suzanne]
+    assert "wcd" not in suzanne
+
+
+@pytest.mark.parametrize("cls", OPERATORS)
+def test_a_moved_object_has_the_same_shape(suzanne, window, cls):
+    suzanne.scale = (1, 2, 3)
+    pressed = press(cls, window)
+    turn()
+    assert finish(pressed) == {"FINISHED"}
+
+
+def test_parts_are_written_to_a_mesh_whose_vertices_moved(suzanne, window):
+    pressed = press(WCD_OT_decompose, window)
+    stretch_mesh()
+    assert finish(pressed) == {"FINISHED"}
 
 
 def test_a_curve_gets_its_mesh_at_the_end_and_esc_leaves_none(window):
