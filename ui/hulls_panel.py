@@ -11,8 +11,21 @@ import bpy
 
 from ..operators.settings import HULLS, draw, other_error
 from ..operators.viewport.shown_figures import is_of_now, shown_figures
-from .sidebar import OUT_OF_DATE, Sidebar, draw_choices, hull_rows_of, line, result_of
+from .sidebar import (
+    OUT_OF_DATE,
+    Sidebar,
+    draw_choices,
+    hull_rows_of,
+    in_powers,
+    line,
+    result_of,
+    width_of,
+)
 
+# Letters of an error that its column has room for; and the width of the sidebar, at
+# interface scale 1, below which there is no room for numbers of vertices beside it.
+_LETTERS = 7
+_WITH_VERTICES = 265
 # Share of the width of a row, without its buttons, for the color.
 _SWATCH = 0.14
 
@@ -50,7 +63,7 @@ class WCD_PT_hulls(Sidebar, bpy.types.Panel):
             line(layout, "Volume Ratio", f"{result['volume_ratio']:.2f}")
         draw_choices(layout, "wcd.make_rigid", "kind", icon="PHYSICS")
         layout.operator("wcd.remove_hulls", text="Remove Hulls", icon="TRASH")
-        _list_hulls(layout, hulls, current)
+        _list_hulls(layout, hulls, current, width_of(context))
 
 
 def _shapes_of_parts(
@@ -64,31 +77,37 @@ def _shapes_of_parts(
 
 
 def _list_hulls(
-    layout: bpy.types.UILayout, hulls: Sequence[dict[str, Any]], current: bool
+    layout: bpy.types.UILayout,
+    hulls: Sequence[dict[str, Any]],
+    current: bool,
+    width: float,
 ) -> None:
     """Draw the list of hulls; their errors only if these are `current`."""
     box = layout.box().column(align=True)
     heading = box.row(align=True)
-    _columns(heading.split(factor=_SWATCH), "Hull", "Verts", "Error")
+    n_figures = 2 if width >= _WITH_VERTICES else 1
+    _columns(heading.split(factor=_SWATCH), "Hull", ("Verts", "Error")[-n_figures:])
     for _ in range(2):  # room for the buttons of the rows below
         heading.label(text="", icon="BLANK1")
     names = [hull["name"] for hull in hulls]
     for hull, name in zip(hulls, endings(names), strict=True):
-        error = f"{hull['error']:.3g}" if current else "–"
+        figures = str(hull["vertices"]), error_text(hull["error"]) if current else "–"
         row = box.row(align=True)
-        _columns(
-            row.split(factor=_SWATCH),
-            name,
-            str(hull["vertices"]),
-            error,
-            worn(hull["object"]),
-        )
+        material = worn(hull["object"])
+        _columns(row.split(factor=_SWATCH), name, figures[-n_figures:], material)
         shape = row.operator_menu_enum(
             "wcd.refit_hull", "shape", text="", icon="MESH_CUBE"
         )
         shape.hull = hull["name"]
         remove = row.operator("wcd.remove_hull", text="", icon="X", emboss=False)
         remove.hull = hull["name"]
+
+
+def error_text(error: float) -> str:
+    """Return the text for the error of a hull, which may be any length in the scene."""
+    text = f"{error:.3g}"
+    is_short = len(text) <= _LETTERS and "e" not in text
+    return text if is_short else in_powers(error, 1)
 
 
 def worn(hull: bpy.types.Object) -> bpy.types.Material | None:
@@ -108,8 +127,7 @@ def endings(names: Sequence[str]) -> list[str]:
 def _columns(
     split: bpy.types.UILayout,
     name: str,
-    vertices: str,
-    error: str,
+    figures: Sequence[str],
     material: bpy.types.Material | None = None,
 ) -> None:
     """Draw the columns of a row of the list of hulls, or of its heading.
@@ -125,8 +143,8 @@ def _columns(
         swatch.prop(material, "diffuse_color", text="")
     split = split.split(factor=0.34)
     split.label(text=name, translate=False)
-    numbers = split.split(factor=0.46)
-    for text in (vertices, error):
+    numbers = split.split(factor=0.46) if figures[1:] else split
+    for text in figures:
         cell = numbers.row()
         cell.alignment = "RIGHT"
         cell.label(text=text, translate=False)

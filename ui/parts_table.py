@@ -13,7 +13,7 @@ from ..operators.bridge.views.isolating import isolating
 from ..operators.running import modal
 from ..operators.viewport import picking
 from ..operators.viewport.shown_figures import shown_figures
-from .sidebar import hull_rows_of, hull_rows_of_now, width_of
+from .sidebar import hull_rows_of, hull_rows_of_now, in_powers, width_of
 
 # Rows that are seen at once, at least and at most.
 _FEWEST_ROWS = 3
@@ -117,17 +117,22 @@ def _figures(
     rank = figures.ranks[place]
     return {
         "Faces": f"{faces:,}" if faces < 10_000 else f"{faces / 1000:.0f}k",
-        "Area": _area(area),
+        "Area": brief(area),
         "Rank": f"{rank:.2f}" if math.isfinite(rank) else "–",
-        "Hull": f"{max(errors):.2f}" if errors else "–",
+        "Hull": brief(max(errors)) if errors else "–",
     }
 
 
-def _area(area: float) -> str:
-    """Return the text for an area; all are about as long, so that columns line up."""
-    if area < 0.01:
-        return f"{area:.0e}"
-    return next(f"{area:.{n}f}" for n in (2, 1, 0) if area < 10 ** (3 - n) or n == 0)
+def brief(figure: float) -> str:
+    """Return the text for an area or a length; all have about four letters.
+
+    So columns line up, and have room for them whatever the size of the object.
+    """
+    if 0.0 < figure < 0.005 or figure >= 9999.5:
+        return in_powers(figure, 0)
+    return next(
+        f"{figure:.{n}f}" for n in (2, 1, 0) if figure < 10 ** (3 - n) or n == 0
+    )
 
 
 def _cell(line: bpy.types.UILayout, name: str, text: str) -> None:

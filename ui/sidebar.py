@@ -70,6 +70,12 @@ def rank_text(obj: bpy.types.Object, measured: dict[str, Any]) -> str:
     return f"{measured['convexity_rank']:.3f}" + (f" ± {error:.3f}" if error else "")
 
 
+def in_powers(figure: float, digits: int) -> str:
+    """Return a figure as a power of ten in few letters, such as 6e4 or 3.1e-5."""
+    power = f"{figure:.{digits}e}"
+    return power.replace("e+", "e").replace("e0", "e").replace("e-0", "e-")
+
+
 def width_of(context: bpy.types.Context) -> float:
     """Return how wide the sidebar is at interface scale 1, in points."""
     return context.region.width / context.preferences.system.ui_scale

@@ -8,8 +8,8 @@ from weak_convex_decomposition.ui.chart import (
     reason_for,
 )
 from weak_convex_decomposition.ui.edit_panel import fitting
-from weak_convex_decomposition.ui.hulls_panel import endings
-from weak_convex_decomposition.ui.parts_table import headings
+from weak_convex_decomposition.ui.hulls_panel import endings, error_text
+from weak_convex_decomposition.ui.parts_table import brief, headings
 
 # At interface scale 1, in points: Blender's own, and others that are dragged to.
 _USUAL = 280
@@ -34,6 +34,23 @@ def test_the_table_has_the_figures_that_there_is_room_for(hulls, width, expected
 def test_a_scroll_bar_takes_room_from_the_figures():
     assert headings([], _USUAL, n_rows=9) == ["Faces", "Rank"]
     assert headings([], _USUAL, n_rows=10) == ["Rank"]
+
+
+@pytest.mark.parametrize(
+    ("figure", "in_parts", "in_hulls"),
+    [
+        (0.0, "0.00", "0"),
+        (6.1234e-5, "6e-5", "6.1e-5"),
+        (0.00312, "3e-3", "0.00312"),
+        (0.0881, "0.09", "0.0881"),
+        (12.34, "12.3", "12.3"),
+        (1234.0, "1234", "1.2e3"),
+        (60954.0, "6e4", "6.1e4"),
+        (2.5e11, "2e11", "2.5e11"),
+    ],
+)
+def test_figures_of_tiny_and_huge_objects_are_not_cut(figure, in_parts, in_hulls):
+    assert (brief(figure), error_text(figure)) == (in_parts, in_hulls)
 
 
 @pytest.mark.parametrize(
