@@ -31,10 +31,16 @@ def no_viewport(context: bpy.types.Context) -> str | None:
 def viewport_at(
     context: bpy.types.Context, x: int, y: int
 ) -> tuple[bpy.types.Region, int, int] | None:
-    """Return the viewport at a point of the window, and the point in its pixels."""
+    """Return the viewport at a point of the window, and the point in its pixels.
+
+    None where no ray can be told from a pixel: clipping from very near to very far
+    leaves a view without an inverse in single precision.
+    """
     for area in context.window.screen.areas:
         there = [region for region in area.regions if _holds(region, x, y)]
         if area.type == "VIEW_3D" and {r.type for r in there} == {"WINDOW"}:
+            if not there[0].data.perspective_matrix.determinant():
+                return None
             return there[0], x - there[0].x, y - there[0].y
     return None
 

@@ -1,12 +1,15 @@
 """Which part a ray in the world meets first."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
 from hand_made import activate, decompose_by_hand, in_mode
-from mathutils import Vector
+from mathutils import Matrix, Vector
 from stand_ins.presses import FRONT, seen
 from weak_convex_decomposition.operators.viewport.part_at import make_tree
+from weak_convex_decomposition.operators.viewport.viewports import ray_at, viewport_at
 
 
 @pytest.fixture
@@ -118,3 +121,20 @@ def test_no_tree_of_what_is_hidden_or_gone_raises_an_error(window, suzanne, labe
     make_tree()
     bpy.data.objects.remove(bpy.context.active_object)
     make_tree()
+
+
+def test_no_viewport_is_there_whose_view_has_no_inverse():
+    view = SimpleNamespace(
+        perspective_matrix=Matrix(), view_matrix=Matrix(), is_perspective=True
+    )
+    region = SimpleNamespace(type="WINDOW", x=10, y=20, width=100, height=80, data=view)
+    area = SimpleNamespace(type="VIEW_3D", regions=[region])
+    window = SimpleNamespace(screen=SimpleNamespace(areas=[area]))
+    context = SimpleNamespace(window=window)
+    there = viewport_at(context, 15, 30)
+    assert there == (region, 5, 10)
+    ray_at(*there)
+    view.perspective_matrix = Matrix.Diagonal((1, 1, 1, 0))  # as it is rounded
+    with pytest.raises(ValueError, match="inverse"):
+        ray_at(*there)
+    assert viewport_at(context, 15, 30) is None

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import weak_convex_decomposition as package
 from hand_made import decompose_by_hand, in_mode
+from mathutils import Matrix
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.views.images import images_of
 from weak_convex_decomposition.operators.viewport import show_sight, sight_overlay
@@ -129,16 +130,15 @@ def event(kind, x=0, y=0, alt=False, ctrl=False):
 
 def viewport(*extra, mode="OBJECT"):
     window = SimpleNamespace(type="WINDOW", x=100, y=50, width=400, height=300)
+    window.data = SimpleNamespace(perspective_matrix=Matrix())
     area = SimpleNamespace(type="VIEW_3D", regions=[window, *extra])
-    screen = SimpleNamespace(areas=[area])
-    window_of = SimpleNamespace(screen=screen)
+    window_of = SimpleNamespace(screen=SimpleNamespace(areas=[area]))
     return SimpleNamespace(mode=mode, window=window_of), window
 
 
 def test_clicks_in_the_viewport_pick_and_others_pass(cube):
-    waiting = clicking(cube)
     sidebar = SimpleNamespace(type="UI", x=450, y=50, width=50, height=300)
-    context, window = viewport(sidebar)
+    waiting, (context, window) = clicking(cube), viewport(sidebar)
     assert waiting.modal(context, event("LEFTMOUSE", 120, 70)) == (window, 20, 20)
     for passed in (
         event("LEFTMOUSE", 470, 70),  # the sidebar lies over the viewport
