@@ -88,12 +88,15 @@ def start(context: bpy.types.Context, title: str, steps: Steps[Any]) -> Running:
 def advance(run: Running) -> bool:
     """Compute for a moment; return whether all was done before.
 
-    So the results are written in a step of their own.
+    So the results are written in a step of their own. They wait while the user moves
+    something: a step to undo to would hold half of the move.
     """
     if math.isnan(run.look):
         drawn = time.perf_counter() - run.shown
         run.look = min(max(_DRAWING * drawn, _LOOKS[0]), _LOOKS[1])
     if run.job.done:
+        if _is_moving():
+            return False
         stop()
         return True
     try:
@@ -103,6 +106,14 @@ def advance(run: Running) -> bool:
         raise
     _show(run)
     return False
+
+
+def _is_moving() -> bool:
+    """Return whether the user is moving, turning or scaling something in a window."""
+    windows = bpy.context.window_manager.windows
+    running = [each for window in windows for each in window.modal_operators]
+    steps = [step for each in running for step in (each, *each.macros)]
+    return any(step.bl_idname.startswith("TRANSFORM_OT_") for step in steps)
 
 
 def stop() -> None:

@@ -9,6 +9,7 @@ from snapshot import snapshot
 from stand_ins.layout import Layout, context
 from stand_ins.presses import TIMER, finish, press
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.operators.running import modal
 from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
 
 # What only selects, shows, hides or names something, and what belongs to the run.
@@ -71,3 +72,24 @@ def test_padlocks_wait(running, suzanne):
     assert not can_lock()
     finish(running)
     assert can_lock()
+
+
+@pytest.mark.parametrize(
+    ("name", "macros"),
+    [
+        ("TRANSFORM_OT_translate", []),
+        ("OBJECT_OT_duplicate_move", ["OBJECT_OT_duplicate", "TRANSFORM_OT_translate"]),
+    ],
+)
+def test_results_wait_while_the_user_moves_something(running, window, name, macros):
+    move = SimpleNamespace(
+        bl_idname=name, macros=[SimpleNamespace(bl_idname=each) for each in macros]
+    )
+    picking = SimpleNamespace(bl_idname="WCD_OT_pick_parts", macros=[])
+    window.windows = [SimpleNamespace(modal_operators=[picking, move])]
+    while not modal.current.job.done:
+        running.modal(None, TIMER)
+    for _ in range(3):
+        assert running.modal(None, TIMER) == {"PASS_THROUGH"}
+    window.windows[0].modal_operators.remove(move)
+    assert running.modal(None, TIMER) == {"FINISHED"}
