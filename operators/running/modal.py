@@ -152,18 +152,23 @@ def show_hint(name: str, text: str | None) -> None:
 def _show_status(name: str, text: str | None) -> None:
     """Show a text in the status bar of a workspace; None shows the usual one again.
 
+    That is for all workspaces if none has the name: the user may have renamed it.
+
     While Blender closes a window it is shown a moment later: the end of an override of
     the context would crash Blender then.
     """
     if bpy.context.window not in (None, *bpy.context.window_manager.windows):
         bpy.app.timers.register(partial(_show_status, name, text))
         return
-    workspace = bpy.data.workspaces.get(name)
-    if workspace is None:
-        return
-    # Blender sets the text of the workspace in the context, not of the one called.
-    with bpy.context.temp_override(workspace=workspace):
-        workspace.status_text_set(text)
+    workspaces = bpy.data.workspaces
+    if name in workspaces:
+        there = [workspaces[name]]
+    else:
+        there = workspaces.values() if text is None else []
+    for workspace in there:
+        # Blender sets the text of the workspace in the context, not of the one called.
+        with bpy.context.temp_override(workspace=workspace):
+            workspace.status_text_set(text)
 
 
 class WCD_OT_cancel(bpy.types.Operator):

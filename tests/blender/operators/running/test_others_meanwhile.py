@@ -93,3 +93,11 @@ def test_results_wait_while_the_user_moves_something(running, window, name, macr
         assert running.modal(None, TIMER) == {"PASS_THROUGH"}
     window.windows[0].modal_operators.remove(move)
     assert running.modal(None, TIMER) == {"FINISHED"}
+
+
+def test_a_renamed_workspace_keeps_no_text_of_a_run_that_is_over(running, window):
+    workspaces = modal.bpy.data.workspaces
+    window.status = "Decompose into Convex Parts: Lines of Sight, 21%"
+    workspaces["Mine"] = workspaces.pop("Layout")
+    assert finish(running) == {"FINISHED"}
+    assert window.is_clean()
