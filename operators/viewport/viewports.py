@@ -47,11 +47,13 @@ def viewport_at(
 
 def ray_at(region: bpy.types.Region, x: int, y: int) -> tuple[Vector, Vector]:
     """Return the origin and direction, in the world, of what a pixel shows."""
-    where = region, region.data, (x, y)
-    return (
-        view3d_utils.region_2d_to_origin_3d(*where),
-        view3d_utils.region_2d_to_vector_3d(*where),
-    )
+    view = region.data
+    where = region, view, (x, y)
+    origin = view3d_utils.region_2d_to_origin_3d(*where)
+    if view.view_perspective == "CAMERA" and not view.is_perspective:
+        # Blender begins half way between the clipping planes of such a camera.
+        origin -= view.perspective_matrix.inverted().col[2].xyz
+    return origin, view3d_utils.region_2d_to_vector_3d(*where)
 
 
 def navigates(event: bpy.types.Event) -> bool:

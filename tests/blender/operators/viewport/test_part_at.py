@@ -125,7 +125,10 @@ def test_no_tree_of_what_is_hidden_or_gone_raises_an_error(window, suzanne, labe
 
 def test_no_viewport_is_there_whose_view_has_no_inverse():
     view = SimpleNamespace(
-        perspective_matrix=Matrix(), view_matrix=Matrix(), is_perspective=True
+        perspective_matrix=Matrix(),
+        view_matrix=Matrix(),
+        view_perspective="PERSP",
+        is_perspective=True,
     )
     region = SimpleNamespace(type="WINDOW", x=10, y=20, width=100, height=80, data=view)
     area = SimpleNamespace(type="VIEW_3D", regions=[region])
@@ -138,3 +141,25 @@ def test_no_viewport_is_there_whose_view_has_no_inverse():
     with pytest.raises(ValueError, match="inverse"):
         ray_at(*there)
     assert viewport_at(context, 15, 30) is None
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_rays_of_a_view_through_a_camera_begin_before_what_it_shows(kind):
+    camera = bpy.data.cameras.new("Camera")
+    camera.type, camera.clip_start, camera.clip_end = kind, 0.5, 100.0
+    obj = bpy.data.objects.new("Camera", camera)
+    obj.location, obj.rotation_euler = (3, -12, 0), (np.pi / 2, 0, 0)
+    bpy.context.scene.collection.objects.link(obj)
+    graph = bpy.context.evaluated_depsgraph_get()
+    lens = obj.calc_matrix_camera(graph, x=100, y=100)
+    view_matrix = obj.matrix_world.inverted()
+    view = SimpleNamespace(
+        perspective_matrix=lens @ view_matrix,
+        view_matrix=view_matrix,
+        view_perspective="CAMERA",
+        is_perspective=kind == "PERSP",
+    )
+    origin, towards = ray_at(SimpleNamespace(width=100, height=100, data=view), 50, 50)
+    near = -11.5 if kind == "ORTHO" else -12.0
+    assert np.allclose(origin, (3, near, 0), atol=1e-3)
+    assert np.allclose(towards, (0, 1, 0), atol=1e-5)
