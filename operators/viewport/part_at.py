@@ -78,8 +78,25 @@ def _first_seen(
         obj = obj.original
         if _hides(obj, space):
             return (obj, face) if _is_itself(obj, matrix) else None
-        start = place + direction * _BEHIND * max((place - origin).length, 1e-3)
+        step = _BEHIND * max((place - origin).length, 1e-3)
+        owner = obj.parent if HULL_TAG in obj else None
+        if owner is not None and owner.type == "MESH" and _hides(owner, space):
+            found = _first_of(owner.evaluated_get(graph), origin, direction)
+            # From behind the hull, the ray would miss what touches it from within.
+            if found is not None and (found[0] - place).length <= step:
+                return owner, found[1]
+        start = place + direction * step
     return None
+
+
+def _first_of(
+    obj: bpy.types.Object, origin: Vector, direction: Vector
+) -> tuple[Vector, int] | None:
+    """Return where a ray in the world meets an evaluated object first, and the face."""
+    to_object = obj.matrix_world.inverted_safe()
+    ray = to_object @ origin, to_object.to_3x3() @ direction
+    hit, place, _normal, face = obj.ray_cast(*ray)
+    return (obj.matrix_world @ place, face) if hit else None
 
 
 def _hides(obj: bpy.types.Object, space: bpy.types.SpaceView3D) -> bool:

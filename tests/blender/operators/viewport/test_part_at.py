@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hand_made import activate, decompose_by_hand, in_mode
 from mathutils import Matrix, Vector
-from stand_ins.presses import FRONT, seen
-from weak_convex_decomposition.operators.viewport.part_at import make_tree
+from stand_ins.presses import FRONT, seen, space_of_window
+from weak_convex_decomposition.operators.viewport.part_at import make_tree, part_along
 from weak_convex_decomposition.operators.viewport.viewports import ray_at, viewport_at
 
 
@@ -66,6 +66,26 @@ def test_hulls_hide_no_part_that_they_are_around(window, suzanne, labels, look):
         bpy.context.collection.objects.link(copy)
     assert seen(-1.2, 0.25) == (suzanne, 0)
     assert seen(0.1) == (suzanne, 2)
+
+
+@pytest.mark.parametrize("distance", [9.0, 1000.0])  # as without perspective
+def test_parts_that_touch_their_hulls_are_found(window, suzanne, labels, distance):
+    suzanne.location = (0.5, 0, 0)  # and not where rays are exact
+    suzanne.scale = (1, 1.5, 2)
+
+    def found():
+        space = space_of_window()
+        bpy.context.view_layer.update()
+        return [
+            part_along(bpy.context, space, Vector((x, -distance, z)), FRONT)
+            for x in np.linspace(-0.8, 1.8, 40)
+            for z in np.linspace(-2, 2, 30)
+        ]
+
+    before = found()
+    assert {None, (suzanne, 0), (suzanne, 3)} < set(before)
+    bpy.ops.wcd.build_hulls(pieces="PARTS")
+    assert found() == before
 
 
 def test_another_object_than_the_active_one_is_found(window, suzanne, labels):
