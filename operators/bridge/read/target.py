@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from ..mesh.by_label import sums_of_all
-from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
+from ..mesh.attributes import FloatArray
 from ..mesh.layers import flush_edits
-from ..mesh.points import count_points, is_cloud
+from ..mesh.points import count_points, is_cloud, positions_of
 from ..refusals import CONVERTIBLE, WORKED_ON
 from .converting import digest_of_shown
 from .shape import scene_unit, stretch
@@ -39,27 +38,27 @@ class ShapeThen:
 
     Attributes
     ----------
-    faces : list of float
-        The fingerprint of its faces, or points.
+    places : (V, 3) float32
+        Its vertices, or points, in its own space.
     scale : (3, 3) float
         From its own space to the proportions and the size that it had.
     """
 
-    faces: list[float]
+    places: FloatArray
     scale: NDArray[np.float64]
 
     @classmethod
     def of(cls, obj: bpy.types.Object) -> ShapeThen:
         """Return the shape that an object has now; raise if it has no proper place."""
         flush_edits(obj)
-        return cls(fingerprint_of(obj), stretch(obj) * scene_unit(obj))
+        return cls(positions_of(obj), stretch(obj) * scene_unit(obj))
 
     def check(self, obj: bpy.types.Object) -> None:
         """Raise if an object has another shape by now."""
         flush_edits(obj)
         scale, most = stretch(obj) * scene_unit(obj), np.abs(self.scale).max()
-        fit = fits({MEASURED_ON: self.faces}, sums_of_all(obj))
-        if not fit or np.abs(scale - self.scale).max() > _SAME_SCALE * most:
+        same = np.array_equal(positions_of(obj), self.places)
+        if not same or np.abs(scale - self.scale).max() > _SAME_SCALE * most:
             raise DecompositionError(
                 "The shape or scale was changed meanwhile; start again."
             )
