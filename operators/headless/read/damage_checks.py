@@ -130,7 +130,7 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
     """Raise for STL that Blender would read as an empty or incomplete mesh."""
     if n_stl_triangles(head, size) is not None:
         return
-    if not head.lstrip().lower().startswith(b"solid"):
+    if b"\0" in head or not head.lstrip().lower().startswith(b"solid"):
         raise DecompositionError(
             f"{path.name} is truncated or not an STL file: its size does not fit its"
             " header."
