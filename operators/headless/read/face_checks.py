@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..files.headers import Element, Header, whole_number
+from ..quiet import quiet_blender
 
 # What the list of the vertices of a face is called.
 _CORNERS = ("vertex_indices", "vertex_index")
@@ -117,7 +118,8 @@ def mesh_without_its_points(path: Path) -> str | None:
     except ImportError:  # not in every Blender
         return None
     try:
-        stage = Usd.Stage.Open(str(path))
+        with quiet_blender():  # what is missing is told by us
+            stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException:
         return None  # the importer reports it
     now = Usd.TimeCode.EarliestTime()

@@ -137,7 +137,9 @@ def test_layers_that_are_missing_are_named(tmp_path, has_rock, capfd):
     )
     model, report = tmp_path / "a.usda", tmp_path / "r.json"
     model.write_text(f"#usda 1.0\n{''.join(prims)}")
+    capfd.readouterr()
     status = main([str(model), "--report", str(report), *QUICK])
+    assert "_ReportErrors" not in capfd.readouterr().err  # USD's own words
     (entry,) = json.loads(report.read_text())["inputs"]
     note = (
         "What is in layers that are missing was left out; put them where the file"
