@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
-from ..mesh.attributes import read_floats
+from ..mesh.attributes import FloatArray, read_floats
+from ..mesh.known import vertex_positions
 from ..stored.names import WHOLE_MESH
 from .cut_mesh import CutMesh
 from .whole_mesh import (
@@ -61,6 +62,8 @@ class NewFaces:
     ----------
     n_wholes : int
         Number of whole faces.
+    places : (V, 3) float32
+        The vertices of the whole faces: cuts fit no others.
     wholes : (P,) int
         Whole face that each face is of.
     areas : (P,) float
@@ -70,6 +73,7 @@ class NewFaces:
     """
 
     n_wholes: int
+    places: FloatArray
     wholes: NDArray[np.int64]
     areas: NDArray[np.float64]
     pieces: Pieces | None
@@ -90,7 +94,9 @@ class NewFaces:
 
     def fit(self, obj: bpy.types.Object) -> bool:
         """Return whether these are faces of an object, which has not changed since."""
-        return len(whole_mesh_of(obj).polygons) == self.n_wholes
+        whole = whole_mesh_of(obj)
+        same = np.array_equal(vertex_positions(whole), self.places)
+        return same and len(whole.polygons) == self.n_wholes
 
     def put_on(self, obj: bpy.types.Object) -> None:
         """Give an object without parts these faces."""

@@ -53,15 +53,13 @@ class ShapeThen:
         flush_edits(obj)
         return cls(positions_of(obj), stretch(obj) * scene_unit(obj))
 
-    def check(self, obj: bpy.types.Object) -> None:
-        """Raise if an object has another shape by now."""
+    def is_of(self, obj: bpy.types.Object) -> bool:
+        """Return whether an object has the same shape still."""
         flush_edits(obj)
         scale, most = stretch(obj) * scene_unit(obj), np.abs(self.scale).max()
-        same = np.array_equal(positions_of(obj), self.places)
-        if not same or np.abs(scale - self.scale).max() > _SAME_SCALE * most:
-            raise DecompositionError(
-                "The shape or scale was changed meanwhile; start again."
-            )
+        if np.abs(scale - self.scale).max() > _SAME_SCALE * most:
+            return False
+        return np.array_equal(positions_of(obj), self.places)
 
 
 @dataclass(frozen=True)
@@ -99,8 +97,10 @@ class Target:
             raise DecompositionError(
                 "The mesh was changed or deleted meanwhile; start again."
             )
-        if self.shape is not None:
-            self.shape.check(obj)
+        if self.shape is not None and not self.shape.is_of(obj):
+            raise DecompositionError(
+                "The shape or scale was changed meanwhile; start again."
+            )
         return obj
 
 

@@ -17,6 +17,7 @@ from ..cuts.beside_faces import bound_modifier, sculpted_details
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
 from ..cuts.whole_mesh import is_cut, whole_mesh_of
+from ..mesh.known import vertex_positions
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes
@@ -93,6 +94,7 @@ def decompose_whole_faces(
     notes = reading_notes(obj, has_choice=parameters.seams != "CUT")
     matrix, mesh = stretch(obj), whole_mesh_of(obj)
     shape, made = read_mesh(mesh, matrix), CutMesh(mesh, matrix)
+    places = vertex_positions(mesh)
 
     def work() -> Steps[Edited]:
         yield from load_libraries()
@@ -107,7 +109,9 @@ def decompose_whole_faces(
         with made:
             if refined:
                 found, pieces = yield from _cut(made, refined, found, parameters)
-            faces = NewFaces(shape.n_polygons, made.wholes(), made.areas(), pieces)
+            faces = NewFaces(
+                shape.n_polygons, places, made.wholes(), made.areas(), pieces
+            )
         found = replace(found, notes=(*notes, *found.notes))
         return Edited(found, None, parameters, faces=faces)
 

@@ -26,7 +26,7 @@ from ..parts.present_parts import PresentParts, present_parts
 from ..parts.read import part_labels
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
-from ..read.target import Target
+from ..read.target import ShapeThen, Target
 from ..refusals import edit_refusal
 from ..stored.names import HAND_LAYER
 from ..stored.noted_parts import psi_by_k_of
@@ -37,6 +37,10 @@ from .libraries import load_libraries
 from .run_edit import Edited, with_known_ranks
 from .session_cache import session_cache
 
+_MOVED = (
+    "The shape or scale was changed meanwhile: these are the parts that it had before,"
+    " and Refresh measures them."
+)
 _NOT_CUT = (
     "No more faces were cut, because some parts are locked or settled by hand; unlock"
     " them, or clear Keep Edits."
@@ -97,12 +101,16 @@ def _ready_to_write(
     by_hand: NDArray[np.bool_] | None = None,
 ) -> Steps[Edited]:
     """Find parts, then read what writing them asks of a mesh: this takes long, too."""
-    is_read, target = obj.type == "MESH" and obj.mode != "EDIT", Target.of(obj)
+    is_read = obj.type == "MESH" and obj.mode != "EDIT"
+    target, then = Target.of(obj), ShapeThen.of(obj)
 
     def work() -> Steps[Edited]:
         found, ready = (yield from within(steps, 0.0, 0.99)), None
         if seen is not None:
             found = seen.on_own_faces(found)
+        if not then.is_of(target.find()):
+            unknown = np.full(found.n_parts, np.nan)
+            found = replace(found, ranks=unknown, notes=(*found.notes, _MOVED))
         if is_read:
             reading = ByLabel.in_steps(target.find, found.labels, found.n_parts)
             ready = yield from within(reading, 0.99, 1.0)

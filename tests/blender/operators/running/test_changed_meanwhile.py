@@ -1,11 +1,13 @@
 """What a user does while an operator computes: nothing of it is overwritten."""
 
+import json
 from types import SimpleNamespace
 
 import bpy
 import pytest
 import weak_convex_decomposition as package
 from hand_curves import hand_curve
+from hand_made import mesh_object
 from snapshot import snapshot
 from stand_ins.presses import (
     ESC,
@@ -112,10 +114,35 @@ def test_a_moved_object_has_the_same_shape(suzanne, window, cls):
     assert finish(pressed) == {"FINISHED"}
 
 
-def test_parts_are_written_to_a_mesh_whose_vertices_moved(suzanne, window):
+@pytest.mark.parametrize("change", [scale_along_z, stretch_mesh])
+def test_parts_of_a_shape_that_changed_are_written_without_figures(
+    suzanne, window, change
+):
     pressed = press(WCD_OT_decompose, window)
-    stretch_mesh()
+    change()
     assert finish(pressed) == {"FINISHED"}
+    assert "are the parts that it had before" in pressed.reports[0][1]
+    assert {part["convexity_rank"] for part in noted_parts(suzanne)} == {None}
+    assert bpy.ops.wcd.refresh_parts() == {"FINISHED"}
+    assert None not in {part["convexity_rank"] for part in noted_parts(suzanne)}
+
+
+def noted_parts(obj):
+    return json.loads(obj["wcd"])["parts"]
+
+
+@pytest.mark.parametrize("factor", [-1, 2])
+def test_faces_are_not_cut_where_vertices_moved(window, factor):
+    outline = [(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)]
+    vertices = [(x, y, z) for z in (0, 1) for x, y in outline]
+    walls = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+    obj = mesh_object("L", vertices, [range(5, -1, -1), range(6, 12), *walls])
+    pressed = press(WCD_OT_decompose, window, seams="CUT")
+    obj.data.vertices[0].co.x = obj.data.vertices[5].co.x = factor
+    assert finish(pressed) == {"CANCELLED"}
+    (error,) = errors_of(pressed)
+    assert "changed while it was decomposed; start again" in error
+    assert (len(obj.data.polygons), obj.data.materials[:]) == (8, [])
 
 
 def test_a_curve_gets_its_mesh_at_the_end_and_esc_leaves_none(window):
