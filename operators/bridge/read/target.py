@@ -36,6 +36,8 @@ def object_with(uid: int, name: str = "") -> bpy.types.Object | None:
 class ShapeThen:
     """The shape that an object had in the scene, wherever it was.
 
+    It is told by the mesh, which has what was done in Edit Mode once there is a target.
+
     Attributes
     ----------
     places : (V, 3) float32
@@ -50,12 +52,10 @@ class ShapeThen:
     @classmethod
     def of(cls, obj: bpy.types.Object) -> ShapeThen:
         """Return the shape that an object has now; raise if it has no proper place."""
-        flush_edits(obj)
         return cls(positions_of(obj), stretch(obj) * scene_unit(obj))
 
     def is_of(self, obj: bpy.types.Object) -> bool:
         """Return whether an object has the same shape still."""
-        flush_edits(obj)
         scale, most = stretch(obj) * scene_unit(obj), np.abs(self.scale).max()
         if np.abs(scale - self.scale).max() > _SAME_SCALE * most:
             return False
@@ -86,8 +86,9 @@ class Target:
     @classmethod
     def of(cls, obj: bpy.types.Object, with_shape: bool = False) -> Target:
         """Return the target that an object is now."""
+        state = _state(obj)
         shape = ShapeThen.of(obj) if with_shape else None
-        return cls(obj.session_uid, obj.data.session_uid, _state(obj), shape)
+        return cls(obj.session_uid, obj.data.session_uid, state, shape)
 
     def find(self) -> bpy.types.Object:
         """Return the object, or raise if it is gone or has changed."""
