@@ -9,7 +9,7 @@ from mathutils.bvhtree import BVHTree
 from ..bridge.refusals import faces_refusal
 from ..bridge.stored.names import HULL_TAG
 from .shown_parts import shown_parts
-from .viewports import ray_at
+from .viewports import ray_at, ray_within
 
 # How objects are drawn that rays go through.
 _SEEN_THROUGH = {"WIRE", "BOUNDS"}
@@ -93,9 +93,7 @@ def _first_of(
     obj: bpy.types.Object, origin: Vector, direction: Vector
 ) -> tuple[Vector, int] | None:
     """Return where a ray in the world meets an evaluated object first, and the face."""
-    to_object = obj.matrix_world.inverted_safe()
-    ray = to_object @ origin, to_object.to_3x3() @ direction
-    hit, place, _normal, face = obj.ray_cast(*ray)
+    hit, place, _normal, face = obj.ray_cast(*ray_within(obj, origin, direction))
     return (obj.matrix_world @ place, face) if hit else None
 
 
@@ -122,8 +120,7 @@ def _first_edited(
             continue
         if "tree" not in shown.kept:
             shown.kept["tree"] = BVHTree.FromObject(obj, graph)
-        to_object = obj.matrix_world.inverted_safe()
-        start, towards = to_object @ origin, to_object.to_3x3() @ direction
+        start, towards = ray_within(obj, origin, direction)
         for _ in range(_MOST_HITS):
             place, _normal, face, _far = shown.kept["tree"].ray_cast(start, towards)
             if place is None:

@@ -25,7 +25,7 @@ from ..running.on_objects import OnActive
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
 from .sight_overlay import Overlay
-from .viewports import CLICKED_MODES, navigates, ray_at, viewport_at
+from .viewports import CLICKED_MODES, navigates, ray_at, ray_within, viewport_at
 
 _HINT = (
     "Click a point of the surface to see what it sees. Enter: keep, Esc or Right-Click:"
@@ -120,9 +120,7 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             stop()
             self.report({"WARNING"}, str(error))
             return {"CANCELLED"}
-        to_object = obj.matrix_world.inverted_safe()
-        origin, towards = ray_at(region, x, y)
-        self._show(to_object @ origin, to_object.to_3x3() @ towards)
+        self._show(*ray_within(obj, *ray_at(region, x, y)))
         return {"RUNNING_MODAL"}
 
     def _show(self, origin: Vector, direction: Vector) -> None:

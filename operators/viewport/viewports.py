@@ -56,6 +56,14 @@ def ray_at(region: bpy.types.Region, x: int, y: int) -> tuple[Vector, Vector]:
     return origin, view3d_utils.region_2d_to_vector_3d(*where)
 
 
+def ray_within(
+    obj: bpy.types.Object, origin: Vector, direction: Vector
+) -> tuple[Vector, Vector]:
+    """Return a ray of the world in the space of an object."""
+    to_object = obj.matrix_world.inverted_safe()
+    return to_object @ origin, to_object.to_3x3() @ direction
+
+
 def navigates(event: bpy.types.Event) -> bool:
     """Return whether a mouse button is pressed as some turn the view or box-select.
 
