@@ -8,7 +8,7 @@ here.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -74,53 +74,71 @@ def build_hulls_of(
         raise DecompositionError(f"{reason}.")
     check_records(obj)
     notes, read = read_seen(obj, seen, for_parts=False)
-    labels = part_labels(obj)
-    if seen is not None and labels is not None:
-        labels = labels[seen.origins] if seen.corresponds else None
-    kinds = hull_shapes(obj) if labels is not None else {}
-    # Relative errors do not depend on an object's size: so, equal meshes stay equal.
-    size, unit = scene_unit(obj), 1.0
-    if hull_parameters.error_unit == "SCENE":
-        size, unit = unit, size
-    rest = labels, parameters.seed, unit, kinds
-    if processes and (labels is not None or hull_parameters.pieces != "PARTS"):
-        job = run(read), hull_parameters, core.ShapeCache(core.no_rays), *rest
-        steps = processes.steps("Cutting", core.build_hulls_in_steps, *job)
+    labels = _labels_of(obj, seen)
+    build = _builder(obj, labels, hull_parameters, parameters.seed)
+    if labels is None and hull_parameters.pieces == "PARTS":
+        steps = _with_new_parts(read, parameters, build, in_window)
+    elif processes:
+        elsewhere = partial(build, run(read), cache=core.ShapeCache(core.no_rays))
+        steps = processes.steps("Cutting", elsewhere)
     else:
-        steps = _hulls_here(read, parameters, hull_parameters, in_window, *rest)
+        steps = _without_new_parts(read, build, in_window)
+    size = 1.0 if hull_parameters.error_unit == "SCENE" else scene_unit(obj)
     return with_libraries(notes, _enlarged(steps, size))
 
 
-def _hulls_here(
-    read: Steps[Shape],
-    parameters: Parameters,
-    hull_parameters: HullParameters,
-    in_window: bool,
+def _labels_of(
+    obj: bpy.types.Object, seen: SeenMesh | None
+) -> NDArray[np.int64] | None:
+    """Return the part of each face that is read, None if there are no parts."""
+    labels = part_labels(obj)
+    if seen is None or labels is None:
+        return labels
+    return labels[seen.origins] if seen.corresponds else None
+
+
+def _builder(
+    obj: bpy.types.Object,
     labels: NDArray[np.int64] | None,
+    parameters: HullParameters,
     seed: int,
-    scene_unit: float,
-    kinds: Mapping[int, str],
-) -> Steps[HullDecomposition]:
-    """Build hulls now; find parts for them first if there are none."""
-    shape, start = (yield from read), 0.0
-    needs_parts = labels is None and hull_parameters.pieces == "PARTS"
-    if needs_parts:
-        start = 0.4
-        parts = core.decompose_in_steps(shape, parameters, session_cache())
-        labels = (yield from within(parts, 0.0, start)).labels
-    build = partial(
+) -> Callable[..., Steps[HullDecomposition]]:
+    """Return what takes the shape of an object and a `cache`, and builds its hulls."""
+    # Relative errors do not depend on an object's size: so, equal meshes stay equal.
+    unit = scene_unit(obj) if parameters.error_unit == "SCENE" else 1.0
+    return partial(
         core.build_hulls_in_steps,
-        shape,
-        hull_parameters,
+        parameters=parameters,
         labels=labels,
         seed=seed,
-        scene_unit=scene_unit,
-        kinds=kinds,
+        scene_unit=unit,
+        kinds=hull_shapes(obj) if labels is not None else {},
     )
-    found = yield from within(hulls_around(shape, build, in_window), start, 1.0)
-    if needs_parts:  # the object does not get them
-        found = replace(found, parts=np.full_like(found.parts, -1))
-    return found
+
+
+def _with_new_parts(
+    read: Steps[Shape],
+    parameters: Parameters,
+    build: Callable[..., Steps[HullDecomposition]],
+    in_window: bool,
+) -> Steps[HullDecomposition]:
+    """Find parts of a shape, and build their hulls; the object does not get them."""
+    shape = yield from read
+    finding = core.decompose_in_steps(shape, parameters, session_cache())
+    labels = (yield from within(finding, 0.0, 0.4)).labels
+    building = hulls_around(shape, partial(build, shape, labels=labels), in_window)
+    found = yield from within(building, 0.4, 1.0)
+    return replace(found, parts=np.full_like(found.parts, -1))
+
+
+def _without_new_parts(
+    read: Steps[Shape],
+    build: Callable[..., Steps[HullDecomposition]],
+    in_window: bool,
+) -> Steps[HullDecomposition]:
+    """Build hulls of a shape, or of the parts that it has."""
+    shape = yield from read
+    return (yield from hulls_around(shape, partial(build, shape), in_window))
 
 
 def hulls_around(
