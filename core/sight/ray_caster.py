@@ -66,13 +66,14 @@ def caster_in_steps(mesh: TriangleMesh, make_caster: MakeCaster) -> Steps[RayCas
     Returns
     -------
     Steps of RayCaster
-        It hits what one caster for the whole mesh hits.
+        It hits what one caster for the whole mesh hits. What `make_caster` made may
+        answer with lists; it raises a `DecompositionError` if that are no hits.
     """
     yield Progress("Ray tree", 0.0)
     n_triangles = len(mesh.triangles)
     n_trees = min(-(-n_triangles // _IN_A_TREE), _MOST_TREES)
     if n_trees == 1:
-        return make_caster(mesh)
+        return _Trees([(np.arange(n_triangles), make_caster(mesh))])
     # Slices along the longest axis: most rays miss most of them.
     low, high = mesh.bounds
     along = mesh.vertices[mesh.triangles[:, 0], (high - low).argmax()]
@@ -97,29 +98,35 @@ def _slice(mesh: TriangleMesh, rows: NDArray[np.int64]) -> TriangleMesh:
     return TriangleMesh(mesh.vertices[used], places[triangles], np.arange(len(rows)))
 
 
-def checked_hits(
+class _Trees:
+    """Casts each ray at one or several trees, and takes the nearest hit."""
+
+    def __init__(self, trees: Sequence[tuple[NDArray[np.int64], RayCaster]]) -> None:
+        self._trees = trees
+
+    def first_hit(
+        self,
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        reach: NDArray[np.float64],
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Return what the protocol says; triangles are those of the whole mesh."""
+        triangles = np.full(len(origins), -1)
+        distances = np.full(len(origins), np.inf)
+        for rows, caster in self._trees:
+            nearest = np.minimum(reach, distances)
+            rays = origins, directions, nearest
+            hits, lengths = _checked_hits(caster, len(rows), *rays)
+            nearer = (hits >= 0) & (lengths < distances)
+            triangles[nearer] = rows[hits[nearer]]
+            distances[nearer] = lengths[nearer]
+        return triangles, distances
+
+
+def _checked_hits(
     caster: RayCaster, n_triangles: int, *rays: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Ask a ray caster, and check what it answers: scripts may bring their own.
-
-    Parameters
-    ----------
-    caster : RayCaster
-    n_triangles : int
-        How many it has.
-    *rays : (M, 3) float, (M, 3) float and (M,) float
-        Origins, directions and reach.
-
-    Returns
-    -------
-    triangles : (M,) int
-    distances : (M,) float
-
-    Raises
-    ------
-    DecompositionError
-        If it answers with something else.
-    """
+    """Ask a ray caster, and check what it answers: scripts may bring their own."""
     found = caster.first_hit(*rays)
     if isinstance(found, Sequence) and len(found) == 2:
         triangles, distances = (real_numbers(each) for each in found)
@@ -147,29 +154,3 @@ def _fit(
     lengths = distances[triangles >= 0]
     far = np.isfinite(lengths) & (lengths >= 0)
     return bool((triangles < n_triangles).all() and far.all())
-
-
-class _Trees:
-    """Casts each ray at several trees, and takes the nearest hit."""
-
-    def __init__(self, trees: Sequence[tuple[NDArray[np.int64], RayCaster]]) -> None:
-        self._trees = trees
-
-    def first_hit(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Return what the protocol says; triangles are those of the whole mesh."""
-        triangles = np.full(len(origins), -1)
-        distances = np.full(len(origins), np.inf)
-        for rows, caster in self._trees:
-            nearest = np.minimum(reach, distances)
-            hits, lengths = checked_hits(
-                caster, len(rows), origins, directions, nearest
-            )
-            nearer = (hits >= 0) & (lengths < distances)
-            triangles[nearer] = rows[hits[nearer]]
-            distances[nearer] = lengths[nearer]
-        return triangles, distances

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..geometry.mesh import TriangleMesh
 from ..steps.memo import kept
 from ..steps.progress import Steps, run
-from .ray_caster import MakeCaster, RayCaster, caster_in_steps, checked_hits
+from .ray_caster import MakeCaster, RayCaster, caster_in_steps
 
 # Rays between two reports of progress, about 20 ms.
 RAYS_PER_STEP = 4096
@@ -145,7 +145,7 @@ class RayMarcher:
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Cast rays, as `RayCaster.first_hit` does, and count them."""
         self.n_cast += len(rays[0])
-        return checked_hits(self.caster, len(self.mesh.triangles), *rays)
+        return self.caster.first_hit(*rays)
 
     def in_turns(self, n_rows: int) -> Iterator[slice]:
         """Yield slices of rows, each a step's worth of work.

@@ -47,19 +47,6 @@ class BruteCaster:
         return np.where(hit, along, np.inf)
 
 
-class CountingCaster(BruteCaster):
-    """The oracle, which counts its calls and the rays that it is asked for."""
-
-    def __init__(self, mesh):
-        super().__init__(mesh)
-        self.n_calls = self.n_rays = 0
-
-    def first_hit(self, origins, directions, reach):
-        self.n_calls += 1
-        self.n_rays += len(origins)
-        return super().first_hit(origins, directions, reach)
-
-
 class WatchedCaster(BruteCaster):
     """Counts how often rays are asked for, of all casters together."""
 

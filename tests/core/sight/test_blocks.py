@@ -6,7 +6,7 @@ import large_shapes
 import numpy as np
 import pytest
 import shapes
-from brute_caster import CountingCaster
+from brute_caster import BruteCaster
 from computed import lines_of_sight, prepare
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.sight.visibility import find_lines_of_sight
@@ -37,13 +37,13 @@ def wrong(make, **values):
 
 def rays_cast(mesh, **values):
     """Return the rays that are cast between samples, and those cast before."""
-    shape = prepare(mesh, CountingCaster)
+    shape = prepare(mesh, BruteCaster)
     steps = find_lines_of_sight(shape, Parameters(samples=N_SAMPLES, **values))
     while next(steps).fraction < 0.02:
         pass  # viewpoints are looked for
-    before = shape.marcher.caster.n_rays
+    before = shape.marcher.n_cast
     run(steps)
-    return shape.marcher.caster.n_rays - before, before
+    return shape.marcher.n_cast - before, before
 
 
 @pytest.mark.parametrize("make", [shapes.l_prism, shapes.cup, building])
