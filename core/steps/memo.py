@@ -17,12 +17,12 @@ Value = TypeVar("Value")
 Owner = TypeVar("Owner")
 
 
-def digest(labels: NDArray[np.int64 | np.bool_]) -> bytes:
+def digest(labels: NDArray[np.integer | np.bool_]) -> bytes:
     """Return a hash of labels or of a mask, to be used as a key.
 
     Parameters
     ----------
-    labels : (P,) int64 or bool
+    labels : (P,) int or bool
         Not negative.
 
     Returns

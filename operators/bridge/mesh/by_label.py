@@ -10,12 +10,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.steps.memo import digest
 from ....core.steps.progress import Progress, Steps, run, within
 from ....core.steps.rows import blocks
 from .attributes import FloatArray
 from .known import (
     SLOW,
-    Known,
     corner_faces,
     corner_vertices,
     face_areas,
@@ -39,19 +39,23 @@ class ByLabel:
         The vertices of the faces of each label.
     sums : (K, 5) float
         See `sums_by_label`.
-    known : Known or None
-        What was known of the mesh that was read.
     """
 
     vertices: Sequence[list[int]]
     sums: NDArray[np.float64]
-    known: Known | None = None
 
     @classmethod
     def of(
         cls, obj: bpy.types.Object, labels: NDArray[np.integer], n_labels: int
     ) -> ByLabel:
-        """Return what labels 0…K − 1 of the faces have on an object now."""
+        """Return what labels 0…K − 1 of the faces have on an object now.
+
+        It was computed before if `read_ahead` was told these labels.
+        """
+        known = latest_of(obj.data) if getattr(obj.data, "polygons", None) else None
+        ahead = known and known.ahead.pop((digest(labels), n_labels), None)
+        if ahead is not None:
+            return ahead
         sums, mesh = sums_by_label(obj, labels, n_labels), obj.data
         if getattr(mesh, "polygons", None):
             vertices, faces = corner_vertices(mesh), corner_faces(mesh)
@@ -59,47 +63,42 @@ class ByLabel:
             vertices = faces = np.arange(len(labels))
         return cls(run(_vertices(vertices, faces, labels, n_labels)), sums)
 
-    @classmethod
-    def in_steps(
-        cls,
-        find: Callable[[], bpy.types.Object],
-        labels: NDArray[np.integer],
-        n_labels: int,
-    ) -> Steps[ByLabel | None]:
-        """Return the same in steps, None if the mesh is not the latest that was read.
-
-        Parameters
-        ----------
-        find : callable
-            Returns the object, or raises if it is gone.
-        labels : (P,) int
-        n_labels : int
-        """
-        yield Progress("Writing", 0.0)
-        mesh = find().data
-        plain = isinstance(mesh, bpy.types.Mesh) and not mesh.is_editmode
-        known = latest_of(mesh) if plain else None
-        if known is None:
-            return None
-        for name in (name for name in SLOW if name not in known.asked):
-            yield Progress("Writing", 0.1)
-            if latest_of(find().data) is not known:
-                return None
-            known.read(find().data, name)
-        places = known.asked["areas"], known.asked["centers"]
-        sums = yield from within(_sums(labels, n_labels, *places), 0.5, 0.7)
-        faces = known.asked["corner_faces"]
-        finding = _vertices(known.corners, faces, labels, n_labels)
-        return cls((yield from within(finding, 0.7, 1.0)), sums, known)
-
-    def is_of(self, obj: bpy.types.Object) -> bool:
-        """Return whether an object surely has the faces that were read."""
-        return self.known is not None and latest_of(obj.data) is self.known
-
     def in_order(self, order: NDArray[np.integer]) -> ByLabel:
         """Return the same for labels in another order."""
         vertices = [self.vertices[label] for label in order]
         return replace(self, vertices=vertices, sums=self.sums[order])
+
+
+def read_ahead(
+    find: Callable[[], bpy.types.Object], labels: NDArray[np.integer], n_labels: int
+) -> Steps[None]:
+    """Compute in steps what `ByLabel.of` will return, if it is of the latest mesh.
+
+    Parameters
+    ----------
+    find : callable
+        Returns the object, or raises if it is gone.
+    labels : (P,) int
+    n_labels : int
+    """
+    yield Progress("Writing", 0.0)
+    mesh = find().data
+    plain = isinstance(mesh, bpy.types.Mesh) and not mesh.is_editmode
+    known = latest_of(mesh) if plain else None
+    if known is None:
+        return
+    for name in (name for name in SLOW if name not in known.asked):
+        yield Progress("Writing", 0.1)
+        if latest_of(find().data) is not known:
+            return
+        known.read(find().data, name)
+    places = known.asked["areas"], known.asked["centers"]
+    sums = yield from within(_sums(labels, n_labels, *places), 0.5, 0.7)
+    faces = known.asked["corner_faces"]
+    finding = _vertices(known.corners, faces, labels, n_labels)
+    found = ByLabel((yield from within(finding, 0.7, 1.0)), sums)
+    known.ahead.clear()
+    known.ahead[digest(labels), n_labels] = found
 
 
 def sums_by_label(

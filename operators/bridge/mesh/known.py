@@ -33,6 +33,8 @@ class Known(NamedTuple):
     triangles : Triangles
     asked : dict
         The arrays of `SLOW` that were read already.
+    ahead : dict
+        What `by_label.read_ahead` keeps until it is asked for.
     """
 
     places: FloatArray
@@ -40,6 +42,7 @@ class Known(NamedTuple):
     of_triangles: IntArray
     triangles: Triangles
     asked: dict[str, NDArray[Any]]
+    ahead: dict[tuple[bytes, int], Any]
 
     def is_of(self, mesh: bpy.types.Mesh, places: FloatArray | None = None) -> bool:
         """Return whether a mesh has these vertices and faces.
@@ -110,7 +113,7 @@ def _understood(
     arrays = vertices, triangles, faces.astype(np.int64)
     for array in arrays:
         array.flags.writeable = False  # a shape need not copy it
-    _latest = Known(places, corners, faces, arrays, {})
+    _latest = Known(places, corners, faces, arrays, {}, {})
     return _latest.triangles
 
 

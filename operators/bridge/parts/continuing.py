@@ -77,15 +77,10 @@ class BeforeWriting:
 def by_number(
     obj: bpy.types.Object,
     parts: Decomposition,
-    ready: ByLabel | None,
     identities: Sequence[Identity],
 ) -> tuple[Decomposition, ByLabel, list[Identity]]:
-    """Return parts, what they have on the object, and who they are, by number.
-
-    `ready` is what they have, if that was read before and fits.
-    """
-    if ready is None or not ready.is_of(obj):
-        ready = ByLabel.of(obj, parts.labels, parts.n_parts)
+    """Return parts, what they have on the object, and who they are, by number."""
+    by_label = ByLabel.of(obj, parts.labels, parts.n_parts)
     order = np.argsort([each.number for each in identities])
     places = np.argsort(order)
     ordered = replace(
@@ -95,4 +90,4 @@ def by_number(
         ranks=parts.ranks[order],
         pairs=parts.pairs_at(places),
     )
-    return ordered, ready.in_order(order), [identities[row] for row in order]
+    return ordered, by_label.in_order(order), [identities[row] for row in order]

@@ -41,7 +41,6 @@ def write_parts(
     identities: Sequence[Identity] | None = None,
     by_hand: NDArray[np.bool_] | None = None,
     faces: NewFaces | None = None,
-    ready: ByLabel | None = None,
 ) -> None:
     """Show a decomposition on its object; everything is checked before it is written.
 
@@ -57,8 +56,6 @@ def write_parts(
         Faces, or points, that the user settled by hand.
     faces : NewFaces, optional
         The faces that the object gets, if it does not have them already.
-    ready : ByLabel, optional
-        What the parts have on the object, if that was read before.
 
     Raises
     ------
@@ -72,11 +69,11 @@ def write_parts(
     former = erase_parts(obj)
     if faces is not None:
         faces.put_on(obj)
-    decomposition, ready, identities = by_number(obj, decomposition, ready, identities)
+    decomposition, by_label, identities = by_number(obj, decomposition, identities)
     identities, materials = _write_mesh(
-        obj, decomposition, ready, identities, before.materials, by_hand
+        obj, decomposition, by_label, identities, before.materials, by_hand
     )
-    _note(obj, decomposition, ready, parameters, identities, materials, before)
+    _note(obj, decomposition, by_label, parameters, identities, materials, before)
     show(obj, *also_shown)
     if overlaid:
         show_as_overlay(obj)
@@ -98,14 +95,14 @@ def _check_fits(
 def _note(
     obj: bpy.types.Object,
     decomposition: Decomposition,
-    ready: ByLabel,
+    by_label: ByLabel,
     parameters: Parameters,
     identities: Sequence[Identity],
     materials: Sequence[str],
     before: BeforeWriting,
 ) -> None:
     """Write the record and the rows, on all objects that share the mesh."""
-    measured_on = [to_be_noted(row) for row in ready.sums]
+    measured_on = [to_be_noted(row) for row in by_label.sums]
     for sharer in sharers(obj):
         write_result(
             sharer, decomposition, parameters, identities, materials, measured_on
@@ -150,7 +147,7 @@ def _check_slots(obj: bpy.types.Object) -> None:
 def _write_mesh(
     obj: bpy.types.Object,
     decomposition: Decomposition,
-    ready: ByLabel,
+    by_label: ByLabel,
     identities: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
     by_hand: NDArray[np.bool_] | None,
@@ -177,7 +174,7 @@ def _write_mesh(
     layers.set_faces(PART_LAYER, numbers[decomposition.labels])
     if by_hand is not None and by_hand.any():
         layers.set_faces(HAND_LAYER, by_hand.astype(np.int32))
-    for name, vertices in zip(groups, ready.vertices, strict=False):  # or no groups
+    for name, vertices in zip(groups, by_label.vertices, strict=False):  # or no groups
         layers.fill_group(obj.vertex_groups[name], vertices)
     layers.finish()
     if not is_cloud(obj):

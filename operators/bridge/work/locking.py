@@ -20,7 +20,7 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
-from ..mesh.by_label import ByLabel, areas_of
+from ..mesh.by_label import areas_of, read_ahead
 from ..mesh.layers import layers_of
 from ..parts.present_parts import PresentParts, present_parts
 from ..parts.read import part_labels
@@ -101,20 +101,18 @@ def _ready_to_write(
     by_hand: NDArray[np.bool_] | None = None,
 ) -> Steps[Edited]:
     """Find parts, then read what writing them asks of a mesh: this takes long, too."""
-    is_read = obj.type == "MESH" and obj.mode != "EDIT"
     target, then = Target.of(obj), ShapeThen.of(obj)
 
     def work() -> Steps[Edited]:
-        found, ready = (yield from within(steps, 0.0, 0.99)), None
+        found = yield from within(steps, 0.0, 0.99)
         if seen is not None:
             found = seen.on_own_faces(found)
         if not then.is_of(target.find()):
             unknown = np.full(found.n_parts, np.nan)
             found = replace(found, ranks=unknown, notes=(*found.notes, _MOVED))
-        if is_read:
-            reading = ByLabel.in_steps(target.find, found.labels, found.n_parts)
-            ready = yield from within(reading, 0.99, 1.0)
-        return Edited(found, None, parameters, by_hand, seen=seen, ready=ready)
+        reading = read_ahead(target.find, found.labels, found.n_parts)
+        yield from within(reading, 0.99, 1.0)
+        return Edited(found, None, parameters, by_hand, seen=seen)
 
     return work()
 

@@ -16,7 +16,6 @@ from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Steps, within
 from ..cuts.new_faces import NewFaces
-from ..mesh.by_label import ByLabel
 from ..mesh.layers import let_undo_see_all
 from ..parts.identities import identities_after, with_sides
 from ..parts.present_parts import PresentParts, present_parts
@@ -52,8 +51,6 @@ class Edited:
         The faces that the object gets with the parts; None if it has them already.
     seen : SeenMesh or None
         The mesh as it is seen, if the parts were found on that.
-    ready : ByLabel or None
-        What the parts have on the object, read before it is written to.
     """
 
     decomposition: Decomposition
@@ -62,7 +59,6 @@ class Edited:
     by_hand: NDArray[np.bool_] | None = None
     faces: NewFaces | None = None
     seen: SeenMesh | None = None
-    ready: ByLabel | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -81,7 +77,6 @@ class Edited:
             self.identities,
             self.by_hand,
             self.faces,
-            self.ready,
         )
         note_mesh(obj, mesh)
         let_undo_see_all(obj)

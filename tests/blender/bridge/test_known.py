@@ -10,7 +10,10 @@ from weak_convex_decomposition.operators.bridge.mesh.attributes import (
     read_floats,
     read_ints,
 )
-from weak_convex_decomposition.operators.bridge.mesh.by_label import ByLabel
+from weak_convex_decomposition.operators.bridge.mesh.by_label import (
+    ByLabel,
+    read_ahead,
+)
 from weak_convex_decomposition.operators.bridge.mesh.triangles import ask
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
@@ -52,18 +55,26 @@ def test_steps_read_the_same(suzanne, mesh, monkeypatch, n_labels):
     monkeypatch.setattr(
         "weak_convex_decomposition.operators.bridge.mesh.by_label._ROOM", 1
     )
-    in_steps = run(ByLabel.in_steps(lambda: suzanne, labels, n_labels))
-    assert in_steps.is_of(suzanne)
-    assert in_steps.vertices == at_once.vertices
-    assert np.array_equal(in_steps.sums, at_once.sums)
-    assert not at_once.is_of(suzanne)
+    run(read_ahead(lambda: suzanne, labels, n_labels))
+    (ahead,) = known.latest_of(mesh).ahead.values()
+    assert ahead.vertices == at_once.vertices
+    assert np.array_equal(ahead.sums, at_once.sums)
+    assert ByLabel.of(suzanne, labels, n_labels) is ahead
+    assert ByLabel.of(suzanne, labels, n_labels) is not ahead  # it is kept no more
+
+
+def test_what_was_read_ahead_is_of_these_labels(suzanne, mesh):
+    labels = np.arange(len(mesh.polygons)) % 2
+    run(read_ahead(lambda: suzanne, labels, 2))
+    others = ByLabel.of(suzanne, 1 - labels, 2)
+    assert others.vertices == ByLabel.of(suzanne, labels, 2).vertices[::-1]
 
 
 def test_figures_are_of_the_mesh_that_is_written_to(suzanne, mesh):
     labels = np.arange(len(mesh.polygons)) % 2
-    ready = run(ByLabel.in_steps(lambda: suzanne, labels, 2))
+    run(read_ahead(lambda: suzanne, labels, 2))
     stretch(mesh, 2)
-    write_parts(suzanne, decomposition_of(labels), Parameters(), ready=ready)
+    write_parts(suzanne, decomposition_of(labels), Parameters())
     assert figures_of(suzanne).problem is None
 
 
