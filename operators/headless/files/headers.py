@@ -1,4 +1,4 @@
-"""What files say of themselves at their beginning: .ply, binary .stl, and counts.
+"""What .ply and binary .stl files say of themselves at their beginning.
 
 It finds the rows of a binary .ply by that. Readers ask it of what they are given, and
 writers of what they have written.
@@ -14,13 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .text import whole_number
+
 # Bytes of binary .stl: before the triangles, and of each of them.
 STL_HEADER = 84
 _STL_TRIANGLE = 50
-# UTF-8 text may begin with it.
-BYTE_ORDER_MARK = b"\xef\xbb\xbf"
-# No file has as many rows as a number with more digits; Python refuses thousands.
-MOST_DIGITS = 18
 # Codes of the types in .ply, as in `struct`.
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "b"),
@@ -234,17 +232,3 @@ def n_stl_triangles(head: bytes, size: int) -> int | None:
     (n_triangles,) = struct.unpack_from("<I", head, STL_HEADER - 4)
     whole = size == STL_HEADER + _STL_TRIANGLE * n_triangles
     return int(n_triangles) if whole else None
-
-
-def whole_number(text: str) -> int | None:
-    """Return the count that a text states, None if it is no count.
-
-    Parameters
-    ----------
-    text : str
-        Up to 18 digits from 0 to 9; spaces around them do not matter.
-    """
-    digits = text.strip()
-    if not (digits.isascii() and digits.isdigit() and len(digits) <= MOST_DIGITS):
-        return None
-    return int(digits)

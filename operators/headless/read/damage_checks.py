@@ -11,12 +11,8 @@ import zipfile
 from pathlib import Path
 
 from ....core.errors import DecompositionError
-from ..files.headers import (
-    BYTE_ORDER_MARK,
-    MOST_DIGITS,
-    n_stl_triangles,
-    read_header,
-)
+from ..files.headers import n_stl_triangles, read_header
+from ..files.text import BYTE_ORDER_MARK, MOST_DIGITS
 from ..formats import READ_ENDINGS
 from .face_checks import mesh_without_its_points, refers_to_missing
 

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..files.headers import Element, Header, whole_number
+from ..files.headers import Element, Header
+from ..files.text import whole_number
 from ..quiet import quiet_blender
 
 # What the list of the vertices of a face is called.

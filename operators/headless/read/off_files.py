@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from ..files.headers import BYTE_ORDER_MARK, whole_number
+from ..files.text import lines_of, whole_number
 from .damage_checks import wordy
 from .finite_checks import all_finite, not_finite
 
@@ -48,16 +47,6 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
 def n_faces_of_off(path: Path) -> int:
     """Return how many faces an .off file has, also those with too few corners."""
     return _header([*islice(lines_of(path), 2)], path.name)[1]
-
-
-def lines_of(path: Path) -> Iterator[str]:
-    """Yield the lines of a text file, without comments, spaces around and blank ones.
-
-    A byte order mark counts for nothing, and lines may end as on old Macs.
-    """
-    lines = path.read_bytes().removeprefix(BYTE_ORDER_MARK).splitlines()
-    texts = (line.partition(b"#")[0].strip().decode("latin-1") for line in lines)
-    yield from filter(None, texts)
 
 
 def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from ..files.headers import whole_number
+from ..files.text import lines_of, whole_number
 from .finite_checks import all_finite, not_finite
-from .off_files import lines_of
 
 # A line that begins with two numbers with commas in place of decimal points.
 _COMMA = r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?"

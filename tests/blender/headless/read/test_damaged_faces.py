@@ -9,10 +9,8 @@ import pytest
 from hand_made import add_ring, decompose_by_hand
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.files.headers import (
-    BYTE_ORDER_MARK,
-    read_header,
-)
+from weak_convex_decomposition.operators.headless.files.headers import read_header
+from weak_convex_decomposition.operators.headless.files.text import BYTE_ORDER_MARK
 from weak_convex_decomposition.operators.headless.read.face_checks import (
     refers_to_missing,
 )
