@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -104,8 +105,8 @@ def _bare_slots(
     now = layers.material_indices()
     if now is None:
         now = np.zeros(len(mesh.polygons), dtype=np.int32)
-    former = _former_slots(mesh, restore, ours)
-    lacking = [slot for (slots, _), its in former.items() if not slots for slot in its]
+    sources = _sources(mesh, restore, ours)
+    lacking = [slot for each in sources if not each.slots for slot in each.ours]
     without = np.isin(now, lacking)
     mixed = without.any() and not without.all()  # as after a join
     if mixed and "" not in remaining.values():
@@ -113,33 +114,50 @@ def _bare_slots(
     gone, left = [s for s in ours if s not in remaining], [*remaining.values()]
     indices = (now - np.searchsorted(gone, now)).astype(np.int32)
     layer = layers.faces(MATERIAL_LAYER)
-    for (slots, index), its in former.items():
-        before = np.full_like(now, index or 0)
-        if index is None and layer is not None:
+    for source in sources:
+        before = np.full_like(now, source.index or 0)
+        if source.index is None and layer is not None:
             before = layer
-        own, rows = list(slots) == restore.slots, np.isin(now, its)
-        indices[rows] = _moved(before[rows], slots, left, own)
+        own, rows = source.slots == restore.slots, np.isin(now, source.ours)
+        indices[rows] = _moved(before[rows], source.slots, left, own)
     if mixed:
         indices[without] = left.index("")
     no_need = not restore.had_material_index and not indices.any()
     return None if no_need else indices, remaining
 
 
-def _former_slots(
-    mesh: bpy.types.Mesh, restore: Restore, ours: list[int]
-) -> dict[tuple[tuple[str, ...], int | None], list[int]]:
-    """Return which of our slots are of objects that had the same slots before.
+@dataclass(frozen=True)
+class _Source:
+    """What objects had whose parts some of our slots are of: this one, or joined ones.
 
-    An object that was joined to this one had others. The keys are the names of the
-    materials, and the material index of all faces, None if they differ.
+    Attributes
+    ----------
+    slots : list of str
+        Names of the materials in their slots before.
+    index : int or None
+        The material index of all their faces before, None if faces had different ones.
+    ours : list of int
+        Our slots, in this mesh now.
     """
-    found: dict[tuple[tuple[str, ...], int | None], list[int]] = {}
+
+    slots: list[str]
+    index: int | None
+    ours: list[int]
+
+
+def _sources(
+    mesh: bpy.types.Mesh, restore: Restore, ours: Sequence[int]
+) -> list[_Source]:
+    """Return whose parts our slots are of: each material of ours notes it."""
+    found: dict[tuple[Any, ...], _Source] = {}
     own: dict[str, Any] = {"slots": restore.slots, "index": restore.material_index}
-    for index in ours:
-        material = mesh.materials[index]
+    for slot in ours:
+        material = mesh.materials[slot]
         noted = (material and read_note(material, FORMER_SLOTS)) or own
-        found.setdefault((tuple(noted["slots"]), noted["index"]), []).append(index)
-    return found
+        slots, index = noted["slots"], noted["index"]
+        source = found.setdefault((*slots, index), _Source(slots, index, []))
+        source.ours.append(slot)
+    return [*found.values()]
 
 
 def _our_slots(mesh: bpy.types.Mesh, restore: Restore) -> list[int]:
