@@ -17,6 +17,7 @@ from ..refusals import CONVERTIBLE
 from ..stored.names import CARRIER_TAG, HIDDEN_IN_TAG, HIDDEN_TAG, HULL_TAG
 from .converting import converted
 from .evaluated import SeenMesh
+from .place import leads_children
 from .shown_mesh import evaluated_copy
 
 
@@ -100,6 +101,9 @@ def _take_place(carrier: bpy.types.Object) -> None:
     source, layer = carrier.parent, _layer_of(carrier)
     layer.update()  # else it has no new object in Blender 4.2
     there = objects_in(layer)
+    if carrier in there and leads_children(source):
+        _leave_path(carrier)
+        layer.update()
     was_shown = source in there and not source.hide_get(view_layer=layer)
     carrier[HIDDEN_TAG] = [was_shown, not source.hide_render]
     if source in there:
@@ -110,6 +114,12 @@ def _take_place(carrier: bpy.types.Object) -> None:
         if layer.objects.active in {source, None}:  # none if it was an earlier carrier
             layer.objects.active = carrier
     source.hide_render = True
+
+
+def _leave_path(carrier: bpy.types.Object) -> None:
+    """Put a carrier where its source is, a curve that would lead it along its path."""
+    along_path = carrier.matrix_world.inverted_safe()
+    carrier.matrix_parent_inverse = along_path @ carrier.parent.matrix_world
 
 
 def _show_source(carrier: bpy.types.Object) -> None:

@@ -36,8 +36,13 @@ def _placed_by_blender(obj: bpy.types.Object) -> bool:
         return True
     if obj.parent is None:
         return False
-    follows_path = obj.parent.type == "CURVE" and obj.parent.data.use_path
-    return follows_path or obj.parent_type in {"BONE", "VERTEX", "VERTEX_3"}
+    on_parent = obj.parent_type in {"BONE", "VERTEX", "VERTEX_3"}
+    return on_parent or leads_children(obj.parent)
+
+
+def leads_children(obj: bpy.types.Object) -> bool:
+    """Return whether an object is a curve that its children follow as their path."""
+    return bool(obj.type == "CURVE" and obj.data.use_path)
 
 
 def _known_or(place: Matrix, obj: bpy.types.Object) -> Matrix:

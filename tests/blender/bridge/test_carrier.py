@@ -3,6 +3,7 @@
 from collections import Counter
 
 import bpy
+import numpy as np
 import pytest
 from hand_curves import hand_curve
 from hand_made import activate
@@ -47,6 +48,24 @@ def test_the_scale_of_the_curve_is_that_of_the_shape_that_is_read():
     found = shape.read_shape(carrier.carrier_for(hand, None))
     assert (found.vertices == expected.vertices).all()
     assert (found.triangles == expected.triangles).all()
+
+
+@pytest.mark.parametrize("follow", [False, True])
+def test_parts_of_a_path_are_where_it_is(follow):
+    """Children of a curve follow it, unless somebody says that it is no path."""
+    bpy.ops.curve.primitive_bezier_circle_add(location=(-4, 0, 1), rotation=(0.5, 1, 0))
+    ring = bpy.context.active_object
+    ring.data.bevel_depth, ring.data.use_path_follow = 0.2, follow
+    assert ring.data.use_path
+    ring.scale = (1, 2, 3)
+    bpy.context.view_layer.update()
+    bpy.ops.wcd.decompose(**FAST)
+    placed = bpy.context.active_object
+    for _ in range(2):
+        assert placed.parent == ring
+        assert np.allclose(placed.matrix_world, ring.matrix_world, atol=1e-6)
+        ring.location.x += 1.0  # it takes the parts along
+        bpy.context.view_layer.update()
 
 
 def move_a_point(hand):
