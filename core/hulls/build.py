@@ -27,7 +27,7 @@ from .cutting.cell import whole
 from .cutting.close_pieces import close_pieces
 from .fitting import Fit, fit_for
 from .joining import join_pieces
-from .notes import notes_on
+from .notes import notes_on, notes_on_parts
 from .piece import Piece, piece_of_part
 from .solid import Solid, solid_of
 
@@ -99,12 +99,13 @@ def _build(
     fit, factor = fit_for(shape, parameters, scene_unit, numbers.tolist(), kinds)
     found = yield from _find(prepared, fit, shape.diagonal / fit.unit, parts, seed)
     errors = found.errors * factor
+    notes = notes_on_parts(len(numbers), len(found.shapes), fit)
     return HullDecomposition(
         tuple(each.moved(fit.unit, shape.center) for each in found.shapes),
         errors,
         numbers[found.rows],
         found.volume_ratio,
-        (*prepared.notes, *notes_on(found.shapes, found.hulls, errors, fit)),
+        (*prepared.notes, *notes, *notes_on(found.shapes, found.hulls, errors, fit)),
         parameters.error_unit,
         fit.unit * scene_unit,
     )

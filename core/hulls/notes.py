@@ -12,6 +12,17 @@ from .convex_hull import offset
 from .fitting import Fit
 
 
+def notes_on_parts(n_parts: int, n_shapes: int, fit: Fit) -> tuple[str, ...]:
+    """Return a note on parts that share hulls, as there are more than are allowed."""
+    if fit.parameters.pieces != "PARTS" or n_shapes == n_parts:
+        return ()
+    most = fit.parameters.max_hulls
+    return (
+        f"{n_parts} parts share {n_shapes} hulls, as Most Hulls ="
+        f" {most} allows no more; raise it for one each.",
+    )
+
+
 def notes_on(
     shapes: Sequence[CollisionShape],
     hulls: Sequence[Hull],

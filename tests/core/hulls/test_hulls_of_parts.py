@@ -22,7 +22,19 @@ def test_one_shape_for_each_part():
     assert [round(shape.volume, 3) for shape in found.shapes] == [2, 1]
     boxes = hulls_of(mesh, labels, pieces="PARTS", shape="BOX")
     assert [round(shape.volume, 3) for shape in boxes.shapes] == [2, 1]
+    assert not found.notes + boxes.notes
     assert hulls_of(mesh, labels, pieces="PARTS", max_hulls=1).n_hulls == 1
+
+
+def test_parts_that_share_hulls_are_told():
+    starts = (0, 2, 4)
+    mesh = shapes.joined(*(shapes.box((x, 0, 0), (x + 1, 1, 1)) for x in starts))
+    found = hulls_of(mesh, np.repeat([0, 1, 2], 6), pieces="PARTS", max_hulls=2)
+    assert found.n_hulls == 2
+    assert found.notes == (
+        "3 parts share 2 hulls, as Most Hulls = 2 allows no more; raise it for one"
+        " each.",
+    )
 
 
 def test_parts_may_have_any_numbers():
