@@ -75,7 +75,7 @@ def _let_go() -> None:
 
 def register() -> None:
     """Register the operators, the settings, the command and the table's rows."""
-    from .bridge.untranslated import register_class
+    from .bridge.registering import register_class
     from .bridge.watching import watch
 
     for cls in _classes():

@@ -4,7 +4,7 @@ from typing import Any
 
 import bpy
 
-from ..operators.bridge.untranslated import register_class
+from ..operators.bridge.registering import register_class
 from . import menus, part_drawing, sight_drawing
 from .chart import WCD_PT_chart
 from .edit_panel import WCD_PT_edit

@@ -15,8 +15,8 @@ import bpy
 
 from ....core.parameters.hulls import SHAPES
 from ..mesh.layers import let_undo_see_all
+from ..registering import own, register_class
 from ..stored.identity import Identity, rgb
-from ..untranslated import in_english, register_class
 from . import renaming
 from .read import part_identities
 
@@ -239,7 +239,7 @@ def register() -> None:
     active = bpy.props.IntProperty(
         name="Part", description="The highlighted part", update=_highlight
     )
-    bpy.types.Object.wcd_active_part = in_english(active)
+    bpy.types.Object.wcd_active_part = own(active)
 
 
 def unregister() -> None:

@@ -7,7 +7,7 @@ import pytest
 from checkout import ROOT
 from weak_convex_decomposition import operators, ui
 from weak_convex_decomposition.operators.bridge.parts.rows import WCD_PG_part
-from weak_convex_decomposition.operators.bridge.untranslated import CONTEXT
+from weak_convex_decomposition.operators.bridge.registering import CONTEXT
 
 CLASSES = (*operators._classes(), *ui.CLASSES, WCD_PG_part)
 DRAWING = [*(ROOT / "ui").rglob("*.py"), *(ROOT / "operators").rglob("*.py")]
