@@ -16,7 +16,7 @@ from .bridge.hulls.looks import look_like
 from .bridge.hulls.one_hull import refit, remove_hull, write_refit
 from .bridge.hulls.rigid_bodies import make_rigid
 from .bridge.read.evaluated import read_as
-from .bridge.refusals import hull_refusal, no_hulls_refusal
+from .bridge.refusals import build_hulls_refusal, no_hulls_refusal
 from .bridge.removal_refusals import remove_hulls_refusal
 from .bridge.stored.noted_hulls import forget_hulls, note_mesh_of_hulls
 from .bridge.stored.record import record_of
@@ -44,7 +44,7 @@ class WCD_OT_build_hulls(Computation, bpy.types.Operator):
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "PRESET"}
     _settings = HULL_RUN
     _needs_shape = True
-    _refusal = staticmethod(hull_refusal)
+    _refusal = staticmethod(build_hulls_refusal)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""

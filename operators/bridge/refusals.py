@@ -205,13 +205,22 @@ def assign_refusal(obj: Candidate) -> str | None:
 
 
 def hull_refusal(obj: Candidate) -> str | None:
-    """Return why hulls cannot be made for an object."""
+    """Return why hulls cannot be found for an object."""
     reason = refusal(obj, writes_mesh=False) or _own_hull_refusal(obj)
     if reason is None and is_cloud(obj):
         return f"Hulls need faces, and {obj.name} has none; give it a surface first"
     if reason is None and obj.mode != "OBJECT":
         return "Hulls are objects, which are made in Object Mode only; switch the mode"
     return reason
+
+
+def build_hulls_refusal(obj: Candidate) -> str | None:
+    """Return why an object cannot have hulls, which are its children."""
+    return hull_refusal(obj) or unless(
+        obj.instance_type not in {"VERTS", "FACES"},
+        f"{obj.name} shows its children at its vertices or faces, and hulls are"
+        " children; set Instancing to None first (Object properties)",
+    )
 
 
 def no_hulls_refusal(

@@ -140,3 +140,15 @@ def test_another_shape_of_a_hull_leaves_what_the_user_gave_it(owner):
     assert hull in hulls_of(owner)
     assert hull.constraints.keys() == hull.modifiers.keys() == ["mine"]
     assert hull["mine"] == len(hull.animation_data.drivers) == 1
+
+
+@pytest.mark.parametrize("kind", ["VERTS", "FACES"])
+def test_hulls_are_not_shown_at_each_vertex(suzanne, kind):
+    suzanne.instance_type = kind
+    with pytest.raises(RuntimeError, match="set Instancing to None first"):
+        build_again()
+    suzanne.instance_type = "NONE"
+    build_again()
+    suzanne.instance_type = kind  # afterwards: they can go
+    bpy.ops.wcd.remove_hulls()
+    assert bpy.data.objects[:] == [suzanne]
