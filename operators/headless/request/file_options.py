@@ -25,6 +25,13 @@ class _Once(argparse.Action):
         setattr(namespace, self.dest, values)
 
 
+def _path(text: str) -> Path:
+    """Return a path; that of an empty text would be the folder of the user."""
+    if not text:
+        raise argparse.ArgumentTypeError("it is empty; name a file")
+    return Path(text)
+
+
 def add_files(parser: argparse.ArgumentParser) -> None:
     """Add the inputs and how they are read, and the files to write."""
     y_up = [ending for ending, up in USUAL_UP.items() if up == "Y"]
@@ -33,7 +40,7 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         "inputs",
         metavar="INPUT",
         nargs="+",
-        type=Path,
+        type=_path,
         help="models to decompose; - reads their paths from standard input, one a line",
     )
     _add_outputs(files)
@@ -86,7 +93,7 @@ def _add_outputs(files: argparse._ArgumentGroup) -> None:
         "--report",
         metavar="FILE.json",
         action=_Once,
-        type=Path,
+        type=_path,
         help="write the parameters and the parts with their areas and convexity ranks"
         " as JSON; - prints it to standard output, and results to standard error",
     )

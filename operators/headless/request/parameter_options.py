@@ -54,7 +54,7 @@ def add_option(
     elif isinstance(default, str):
         convert, metavar, shown = str, "TEXT", default
     else:
-        convert = type(default)
+        convert = _whole_number if isinstance(default, int) else _number
         metavar = "N" if isinstance(default, int) else "X"
         shown = f"{default:g}"
     group.add_argument(
@@ -91,9 +91,27 @@ def _help(info: ParameterInfo, default: str) -> str:
     return "\n".join([f"{info.help} (default: {default})", *choices])
 
 
+def _whole_number(text: str) -> int:
+    """Return the whole number in an option."""
+    return int(_written_plainly(text, int, "a whole number"))
+
+
+def _number(text: str) -> float:
+    """Return the number in an option."""
+    return float(_written_plainly(text, float, "a number"))
+
+
+def _written_plainly(text: str, kind: type[int | float], meaning: str) -> int | float:
+    """Return a number; Python alone would read 1_0, and digits of other scripts."""
+    with suppress(ValueError):
+        if text.isascii() and "_" not in text:
+            return kind(text)
+    raise argparse.ArgumentTypeError(f"{text!r} is not {meaning}")
+
+
 def count(text: str) -> int:
     """Return the number of things in an option, of which there is at least one."""
-    number = int(text)
+    number = _whole_number(text)
     if number < 1:
         raise argparse.ArgumentTypeError(f"{text} is less than 1; choose 1 or more")
     return number
@@ -118,12 +136,11 @@ def _angle(info: ParameterInfo) -> Callable[[str], float]:
     low, high = math.degrees(info.low), math.degrees(info.high)
 
     def convert(text: str) -> float:
-        degrees = float(text)
+        degrees = _number(text)
         if not low <= degrees <= high:
             raise argparse.ArgumentTypeError(
                 f"{text} is not from {low:g} to {high:g} degrees"
             )
         return math.radians(degrees)
 
-    convert.__name__ = "angle"  # argparse: "invalid angle value"
     return convert

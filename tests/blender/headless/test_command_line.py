@@ -79,10 +79,12 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
     cases = [
         ("", "INPUT"),
         ("a.obj --part 3", "unrecognized"),
-        ("a.obj --parts many", "invalid int value"),
+        ("a.obj --parts many", "'many' is not a whole number"),
+        ("a.obj --parts 1_0", "'1_0' is not a whole number"),
+        ("a.obj --alpha ٢", "'٢' is not a number"),
         ("a.obj --parts 1000", "Parts is 1000; choose a value from 0 to 256."),
         ("a.obj --cone-angle 181", "181 is not from 1 to 180 degrees"),
-        ("a.obj --cone-angle wide", "invalid angle value"),
+        ("a.obj --cone-angle wide", "'wide' is not a number"),
         ("a.obj --cone-angle nan", "nan is not from 1 to 180 degrees"),
         ("a.obj --alpha nan", "must be a number"),
         (
@@ -98,6 +100,7 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
         ("{tmp}/a.obj --output {tmp}/a.obj", "is an input, too"),
         ("a.obj --hulls {tmp}/b.glb --output {tmp}/b.glb", "written twice"),
         ("a.obj --report {tmp}", "is a folder"),
+        ("a.obj --report=", "argument --report: it is empty; name a file"),
     ]
     for arguments, message in cases:
         status = run(*arguments.replace("{tmp}", str(tmp_path)).split())

@@ -76,5 +76,11 @@ def test_outputs_are_not_dropped_or_named_by_chance(options, sentence, capsys):
     assert sentence in capsys.readouterr().err
 
 
+def test_an_empty_input_is_no_folder(capsys):
+    with pytest.raises(SystemExit):
+        parse(["a.off", ""], "wcd")
+    assert "argument INPUT: it is empty; name a file" in capsys.readouterr().err
+
+
 def test_a_setting_may_be_given_again():
     assert parse(["a.off", "--parts=2", "--parts=3"], "wcd").parameters.parts == 3
