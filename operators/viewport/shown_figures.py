@@ -37,7 +37,7 @@ _LULL = 0.5
 _Counted: TypeAlias = tuple[PartFigures | None, NDArray[np.float64] | None]
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Kept:
     """The figures of an object: what it was, and until when they are kept."""
 
@@ -45,11 +45,10 @@ class _Kept:
     mode: str
     until: float
     counted: _Counted
+    changed: float | None = None  # when its faces changed last, None if they did not
 
 
-# Of the object drawn last; and when its faces have changed since, None if not.
-_kept: _Kept | None = None
-_changed: float | None = None
+_kept: _Kept | None = None  # of the object drawn last
 
 
 def shown_figures(obj: bpy.types.Object | None) -> PartFigures | None:
@@ -65,7 +64,7 @@ def is_of_now(obj: bpy.types.Object, noted: Mapping[str, Any]) -> bool:
 
 def _counted(obj: bpy.types.Object | None) -> _Counted:
     """Return what was kept of an object; count if it may have changed."""
-    global _kept, _changed
+    global _kept
     if obj is None or obj.type not in WORKED_ON:
         return None, None
     state = obj.session_uid, obj.data.session_uid, obj.get(RESULT)
@@ -79,17 +78,17 @@ def _counted(obj: bpy.types.Object | None) -> _Counted:
             return _kept.counted
     counted, ended = _count(obj), time.perf_counter()
     until = ended + max(_PAUSE, _REST * (ended - now))
-    _kept, _changed = _Kept(state, obj.mode, until, counted), None
+    _kept = _Kept(state, obj.mode, until, counted)
     return counted
 
 
 def _due(kept: _Kept, obj: bpy.types.Object) -> float:
     """Return when an object is counted again; at infinity if it has not changed."""
     same_mode = obj.mode == kept.mode
-    if _changed is None and same_mode:
+    if kept.changed is None and same_mode:
         return math.inf
     if obj.mode == "EDIT" and len(obj.data.polygons) > _MANY:
-        return max(kept.until, (_changed or 0.0) + _LULL)
+        return max(kept.until, (kept.changed or 0.0) + _LULL)
     return kept.until if same_mode else 0.0
 
 
@@ -106,16 +105,16 @@ def _count(obj: bpy.types.Object) -> _Counted:
 
 def _forget(*_: object) -> None:
     """Count again when anything may change. Blender passes arguments to handlers."""
-    global _changed
-    _changed = time.perf_counter()
+    if _kept is not None:
+        _kept.changed = time.perf_counter()
 
 
 def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
     """Count again when the faces of the object drawn last change."""
-    kept = _kept
-    if kept is not None and any(
-        each.session_uid == kept.state[0] for each in changed_objects(graph)
-    ):
+    if _kept is None:
+        return
+    uid = _kept.state[0]
+    if any(each.session_uid == uid for each in changed_objects(graph)):
         _forget()
 
 
