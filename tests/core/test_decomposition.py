@@ -3,17 +3,12 @@ import numpy as np
 import pytest
 import shapes
 from brute_caster import BruteCaster
-from computed import decompose, graph_of, parts_of
+from computed import graph_of, parts_of, split_up
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
-
-
-def split_up(mesh, **values):
-    values = {"samples": 150, "max_parts": 5, **values}
-    return decompose(mesh, Parameters(**values))
 
 
 @pytest.mark.parametrize("make", [shapes.comb, shapes.plus, shapes.dumbbell])

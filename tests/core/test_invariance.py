@@ -4,13 +4,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of
-from weak_convex_decomposition.core.parameters.parts import Parameters
-
-
-def split_up(mesh, **values):
-    values = {"samples": 150, "max_parts": 5, **values}
-    return decompose(mesh, Parameters(**values))
+from computed import graph_of, split_up
 
 
 def same_partition(agreement, found, other, areas, polygons=None):

@@ -8,6 +8,7 @@ from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.graphs.face_graph import face_graph
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.measurement import measure_in_steps
+from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.find import find_parts
 from weak_convex_decomposition.core.parts.part_count import PartCountSearch
 from weak_convex_decomposition.core.parts.part_memo import PartMemo
@@ -27,6 +28,12 @@ def decompose(shape, parameters, members=None, make_caster=BruteCaster):
     """Return the decomposition of a shape, or of some of its faces."""
     cache = ShapeCache(make_caster)
     return run(decompose_in_steps(shape, parameters, cache, members))
+
+
+def split_up(mesh, **values):
+    """Return the decomposition of a mesh, with few samples unless told otherwise."""
+    values = {"samples": 150, "max_parts": 5, **values}
+    return decompose(mesh, Parameters(**values))
 
 
 def measure(shape, parameters, faces=None, make_caster=BruteCaster):

@@ -3,10 +3,9 @@ from dataclasses import asdict
 from types import SimpleNamespace
 
 import bpy
-import numpy as np
 import pytest
 from computed import decompose, measure
-from hand_made import give_user_data
+from hand_made import face_values, give_user_data
 from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import PRESETS
@@ -16,12 +15,6 @@ from weak_convex_decomposition.operators.scene_settings import WCD_OT_use_preset
 from weak_convex_decomposition.operators.settings import parameters_from
 
 FAST = {"samples": 300}
-
-
-def labels_of(obj):
-    labels = np.empty(len(obj.data.polygons), dtype=np.int32)
-    obj.data.attributes["wcd_part"].data.foreach_get("value", labels)
-    return labels
 
 
 @pytest.fixture
@@ -46,7 +39,7 @@ def test_the_operator_gives_what_the_core_gives(suzanne):
     mesh = read_shape(suzanne)
     expected = decompose(mesh, Parameters(**chosen), make_caster=BvhRayCaster)
     assert bpy.ops.wcd.decompose(**chosen) == {"FINISHED"}
-    assert (labels_of(suzanne) == expected.labels).all()
+    assert (face_values(suzanne.data, "wcd_part") == expected.labels).all()
     record = json.loads(suzanne["wcd"])
     assert record["parameters"] == asdict(Parameters(**chosen))
     assert record["psi"] == pytest.approx(expected.psi, abs=1e-12)
@@ -57,7 +50,7 @@ def test_the_operator_gives_what_the_core_gives(suzanne):
 
 def test_a_cube_is_one_part(cube):
     bpy.ops.wcd.decompose(**FAST)
-    assert set(labels_of(cube)) == {0}
+    assert set(face_values(cube.data, "wcd_part")) == {0}
     assert len(cube.vertex_groups) == len(cube.material_slots) == 1
     (part,) = json.loads(cube["wcd"])["parts"]
     assert part["convexity_rank"] == pytest.approx(1.0, abs=1e-3)
@@ -66,13 +59,13 @@ def test_a_cube_is_one_part(cube):
 
 def test_a_dumbbell_falls_apart_in_edit_mode_too(dumbbell):
     bpy.ops.wcd.decompose(**FAST, parts=3)
-    labels = labels_of(dumbbell)
+    labels = face_values(dumbbell.data, "wcd_part")
     bpy.ops.wcd.clear()
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.wcd.decompose(**FAST, parts=3)
     assert dumbbell.mode == "EDIT"
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert (labels_of(dumbbell) == labels).all()
+    assert (face_values(dumbbell.data, "wcd_part") == labels).all()
     assert len(set(labels)) == 3
 
 

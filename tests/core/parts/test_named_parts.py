@@ -1,13 +1,8 @@
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of
+from computed import graph_of, split_up
 from weak_convex_decomposition.core.parameters.parts import Parameters
-
-
-def split_up(mesh, **values):
-    values = {"samples": 150, "max_parts": 5, **values}
-    return decompose(mesh, Parameters(**values))
 
 
 def assert_names(agreement, decomposition, mesh, expected, at_least=0.9):
