@@ -114,6 +114,7 @@ class PartMemo:
         self.tried: dict[int, Candidate] = {}
         self._transfer: Transfer | None = None
         self._nearest: NearestSamples | None = None
+        # Once it was looked for: (None,) if the shape has no mirror plane.
         self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
         self.on_nodes: Memo[tuple[bytes, int], Labels] = Memo(64)
