@@ -47,8 +47,7 @@ def box_around(hull: Hull) -> CollisionShape:
     -------
     CollisionShape
     """
-    normals = _normals_of_largest(hull, _MOST_FACES)
-    return _smallest_box(hull, distinct_directions(normals, _NORMAL_DIGITS)[0])
+    return _smallest_box(hull, _normals_of_largest(hull, _MOST_FACES))
 
 
 def rough_box(hull: Hull) -> CollisionShape:
@@ -63,8 +62,7 @@ def rough_box(hull: Hull) -> CollisionShape:
     CollisionShape
     """
     largest, axes = _normals_of_largest(hull, _FEW_FACES), principal_axes(hull.vertices)
-    normals = np.concatenate([largest, axes])
-    return _smallest_box(hull, distinct_directions(normals, _NORMAL_DIGITS)[0])
+    return _smallest_box(hull, np.concatenate([largest, axes]))
 
 
 def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
@@ -73,6 +71,7 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
     Few of them are made: lower bounds of their volumes rule the others out. Equal ones
     are told apart by the order of the normals.
     """
+    normals, _ = distinct_directions(normals, _NORMAL_DIGITS)
     some = hull.vertices[:: -(-len(hull.vertices) // _MOST_VERTICES)]
     heights = np.ptp(some @ normals.T, axis=0)
     least = heights * _least_areas(some, normals)
