@@ -34,4 +34,16 @@ Each part has a material, which nothing else has but its hulls. Who knows what o
 `joined`           whose faces are after a join: asks slots and marks
 `views/colors`     from slots to an overlay, and back
 ================== ===================================================================
+
+A join with another object that has parts leaves its faces, with the numbers of their
+parts, and its materials in slots behind; its record is gone. So, one after the other:
+
+1. `joined` tells faces of both objects apart that have one number: by marks, by the
+   material of the part, or, for copies, because the same faces come again.
+2. `read` makes a part of each number and turn. Those that are not in the record get
+   numbers, names and colors that are free.
+3. `figures` say that parts are not listed. Refresh, an edit or a run lists them, and
+   `work/in_step` does where nobody can ask for it.
+4. `slots` gives faces back what they had, as Clear needs it: each material of a part
+   notes which slots its own object had before.
 """
