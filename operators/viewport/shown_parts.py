@@ -194,6 +194,7 @@ def _forget_changed(_: bpy.types.Scene, graph: bpy.types.Depsgraph) -> None:
 
 HANDLERS = {
     "depsgraph_update_post": _forget_changed,
+    "frame_change_post": _forget_changed,  # Blender tells of animation here alone
     "undo_post": stop,
     "redo_post": stop,
     "load_pre": stop,

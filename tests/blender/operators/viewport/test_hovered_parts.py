@@ -3,10 +3,13 @@
 from types import SimpleNamespace
 
 import bpy
+import numpy as np
+import pytest
 from hand_made import decompose_by_hand
 from stand_ins.presses import cube_at, space_of_window
 from weak_convex_decomposition.operators.bridge.read.target import object_with
 from weak_convex_decomposition.operators.viewport import picking
+from weak_convex_decomposition.operators.viewport.shown_parts import shown_parts
 from weak_convex_decomposition.ui import part_drawing
 
 
@@ -71,3 +74,33 @@ def test_an_object_is_found_again_also_by_another_name(window):
     assert object_with(uid, name) == first
     bpy.data.objects.remove(first)
     assert object_with(uid, name) is None
+
+
+def turn_by_modifier(obj):
+    turn = obj.modifiers.new("Turn", "SIMPLE_DEFORM")
+    return turn, "angle"
+
+
+def grow_by_key(obj):
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Large")
+    for point in key.data:
+        point.co *= 2.0
+    return key, "value"
+
+
+@pytest.mark.parametrize("move", [turn_by_modifier, grow_by_key])
+def test_parts_are_drawn_where_animation_moves_them(window, move):
+    cube = cube_at(0)
+    decompose_by_hand(cube, 3)
+    owner, path = move(cube)
+    for frame in (1, 9):
+        setattr(owner, path, (frame - 1) / 8)
+        owner.keyframe_insert(path, frame=frame)
+    bpy.context.scene.frame_set(1)
+    before = shown_parts(cube)
+    bpy.context.scene.frame_set(9)
+    after = shown_parts(cube)
+    assert np.abs(before.corners).max() == pytest.approx(1.0)
+    assert np.abs(after.corners).max() > 1.1
+    assert shown_parts(cube) is after  # it is read once a frame
