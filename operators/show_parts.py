@@ -113,7 +113,7 @@ class WCD_OT_frame_parts(_Show, bpy.types.Operator):
 
     def _work(self, obj: bpy.types.Object) -> None:
         points = points_of_parts(obj, _members(obj))
-        frame_points(bpy.context.space_data, points)
+        frame_points(bpy.context, points)
 
 
 class WCD_OT_select_boundary(_Show, bpy.types.Operator):

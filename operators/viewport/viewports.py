@@ -85,11 +85,16 @@ def points_of_parts(
     return moved(places, np.array(obj.matrix_world))
 
 
-def frame_points(space: bpy.types.SpaceView3D, points: NDArray[np.float64]) -> None:
-    """Move a view so that it shows points, from the side it shows now."""
+def frame_points(context: bpy.types.Context, points: NDArray[np.float64]) -> None:
+    """Move a view so that it shows points, from the side it shows now.
+
+    It is the one under the cursor, or from the sidebar of a Quad View the one in
+    perspective.
+    """
     if len(points) == 0:
         return
-    region = space.region_3d
+    space = context.space_data
+    region = context.region_data or space.region_3d
     low, high = points.min(axis=0), points.max(axis=0)
     radius = max(float(np.linalg.norm(high - low)) / 2, 10 * space.clip_start)
     if region.view_perspective == "CAMERA":
