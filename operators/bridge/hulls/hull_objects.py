@@ -179,11 +179,16 @@ def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
     # All names at once: Blender looks through all objects for each that is asked for.
     local = {each.name for each in bpy.data.objects if each.library is None}
     taken = local.intersection(names)
+    own = hulls_of(obj) if taken else []
+    taken -= {hull.name for hull in own if not has_more(hull)}
     if taken:
-        taken -= {hull.name for hull in hulls_of(obj) if not has_more(hull)}
-    if taken:
+        first = min(taken)
+        holder = bpy.data.objects[first, None]
         raise DecompositionError(
-            f"There is an object {min(taken)} already; rename it or choose another"
+            f"Another object has a hull {first} already; put {{name}} into Template, or"
+            " choose another Naming."
+            if HULL_TAG in holder and holder not in own
+            else f"There is an object {first} already; rename it or choose another"
             " Naming."
         )
 

@@ -80,3 +80,14 @@ def test_hulls_have_the_names_of_their_bodies(tmp_path, ending, bodies):
     else:
         (names,) = found.values()
         assert names == sorted(name for two in expected.values() for name in two)
+
+
+def test_a_template_without_the_name_of_the_object_is_the_culprit(tmp_path, capsys):
+    for x in (0, 3):
+        bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0))
+    model = tmp_path / "model.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
+    words = [f"--hulls={tmp_path / 'a.glb'}", "--naming=template", "--template=x{n}"]
+    assert main([str(model), *words, "--quiet"]) == 1
+    sentence = "Another object has a hull x1 already; put {name} into Template, or"
+    assert sentence in capsys.readouterr().err
