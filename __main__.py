@@ -33,8 +33,9 @@ def _end(status: int) -> None:
 
 
 def _on_interrupts(handler: object) -> None:
-    """Set what Ctrl-C and a request to end do; what is ignored stays so."""
-    for number in (signal.SIGINT, signal.SIGTERM):
+    """Set what Ctrl-C and requests to end do; what is ignored stays so."""
+    hangup = getattr(signal, "SIGHUP", None)  # Windows has none
+    for number in filter(None, (signal.SIGINT, signal.SIGTERM, hangup)):
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, handler)
 

@@ -1,4 +1,7 @@
-"""Ctrl-C and a request to end (SIGTERM) stop a run in one way: KeyboardInterrupt."""
+"""Ctrl-C and other requests to end stop a run in one way: KeyboardInterrupt.
+
+These are SIGTERM, and SIGHUP, which comes when a terminal is closed or a line drops.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_HANGUP = getattr(signal, "SIGHUP", None)  # Windows has none
+_SIGNALS = tuple(filter(None, (signal.SIGINT, signal.SIGTERM, _HANGUP)))
 
 
 class Interrupts:
@@ -18,7 +22,9 @@ class Interrupts:
         self._came = False
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
-        """Handle a signal."""
+        """Handle a signal; the shell and the system each send that of a terminal."""
+        if self._came and number == _HANGUP:
+            return  # the report of what was done is being written
         self._came = True
         raise KeyboardInterrupt
 

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM, at the start and in the middle: what is done is reported."""
+"""Ctrl-C, SIGTERM and SIGHUP at any time: what is done is reported."""
 
 import json
 import os
@@ -15,6 +15,8 @@ from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read import load
 from weak_convex_decomposition.operators.headless.write import model_files
 
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+
 
 @pytest.fixture
 def model(tmp_path):
@@ -26,7 +28,7 @@ def model(tmp_path):
     return tmp_path / "in" / "a.ply"
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", SIGNALS)
 def test_the_report_has_what_was_finished(tmp_path, model, monkeypatch, capfd, number):
     decompose_file = command_line.decompose_file
 
@@ -37,7 +39,7 @@ def test_the_report_has_what_was_finished(tmp_path, model, monkeypatch, capfd, n
         return decompose_file(path, *rest)
 
     monkeypatch.setattr(command_line, "decompose_file", interrupted)
-    handlers = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
+    handlers = [signal.getsignal(each) for each in SIGNALS]
     inputs = [str(model.with_stem(name)) for name in "abc"]
     outputs = ["--output", f"{tmp_path}/{{name}}.glb", "--report", f"{tmp_path}/r.json"]
     capfd.readouterr()
@@ -50,8 +52,25 @@ def test_the_report_has_what_was_finished(tmp_path, model, monkeypatch, capfd, n
     assert sorted(content(tmp_path)) == sorted(
         ["a.glb", "r.json", "in/a.ply", "in/b.ply", "in/c.ply"]
     )
-    after = [signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)]
+    after = [signal.getsignal(each) for each in SIGNALS]
     assert after == handlers
+
+
+def test_a_terminal_that_closes_sends_two_signals(tmp_path, model, monkeypatch):
+    report = command_line._report
+
+    def interrupted(*arguments):
+        os.kill(os.getpid(), signal.SIGHUP)
+        report(*arguments)
+
+    monkeypatch.setattr(command_line, "_report", interrupted)
+    monkeypatch.setattr(
+        command_line,
+        "decompose_file",
+        lambda *_: os.kill(os.getpid(), signal.SIGHUP) or time.sleep(10),
+    )
+    assert main([str(model), f"--report={tmp_path / 'r.json'}", *QUICK]) == 130
+    assert json.loads((tmp_path / "r.json").read_text())["interrupted"] is True
 
 
 class WCD_OT_interrupted(bpy.types.Operator):
@@ -84,7 +103,7 @@ def test_a_report_of_all_is_not_interrupted(tmp_path, model):
     assert (found["interrupted"], found["not_done"]) == (False, [])
 
 
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+@pytest.mark.parametrize("name", [each.name for each in SIGNALS])
 def test_while_a_library_is_imported(tmp_path, model, name):
     """The signal comes exactly there, on every computer."""
     (tmp_path / "slow").mkdir()
@@ -101,7 +120,7 @@ def test_while_a_library_is_imported(tmp_path, model, name):
     assert (process.returncode, out, err) == (130, "", "error: Interrupted.\n")
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", SIGNALS)
 def test_while_blender_is_loaded(tmp_path, model, number):
     words = [model, "--output", tmp_path / "a.glb", *QUICK, "--quiet"]
     process = start(*words)
