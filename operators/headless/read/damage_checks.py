@@ -153,6 +153,12 @@ def _check_ply(path: Path) -> None:
             f"{path.name} cannot be read: its header is not one of a .ply file."
         )
     _check_line_ends(path, data[: header.size])
+    vertices = [each.properties for each in header.elements if each.name == "vertex"]
+    if not any({*"xyz"} <= each.keys() for each in vertices):
+        raise DecompositionError(
+            f"{path.name} has no element vertex with x, y and z, which Blender reads in"
+            " small letters alone; rename what there is."
+        )
     if not header.is_whole(data):
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")
     if not header.order and _NO_NUMBER.search(data, header.size):

@@ -121,7 +121,9 @@ def _unreadable(path: Path, message: str) -> DecompositionError:
         named = rf"""(["']?)(?:{whole}|\S*{re.escape(path.name)})\1"""
         reason = re.sub(named, lambda _: f'"{path.name}"', reason)
         reason = reason.rpartition(": ")[2]
+    ending = path.suffix.lower()
+    or_else = ", or has faces of more than 255 corners" if ending == ".ply" else ""
     return DecompositionError(
-        f"{path.name} cannot be read as {path.suffix.lower()}: it is incomplete,"
-        f" damaged or of another kind ({reason})."
+        f"{path.name} cannot be read as {ending}: it is incomplete, damaged or of"
+        f" another kind{or_else} ({reason})."
     )
