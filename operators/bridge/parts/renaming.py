@@ -22,8 +22,11 @@ from ..views.face_sets_and_colors import show_colors
 from ..watching import REPLACED
 from .figures import JOINED
 from .materials import color_of, discard_unused, own_material
+from .palette import free_color
 from .part_materials import is_overlaid, mark_group, part_slots
 
+# The default of the colors of parts, which none has: Blender has one for all of them.
+UNSET: Color = (-1.0, -1.0, -1.0)
 # The latest name that was typed and not taken: the object, the number of the part and
 # the name. It is not in Blender's data, because undo would bring it back.
 refused: tuple[int, int, str] | None = None
@@ -142,10 +145,14 @@ def color_of_part(obj: bpy.types.Object, number: int) -> Color:
 def recolor_part(obj: bpy.types.Object, number: int, color: Color) -> None:
     """Give a part of an object a color, on all that shows it; other objects stay.
 
-    Parts of a mesh that is linked from a library keep theirs.
+    Where the user resets the color to its default, it is the first of the palette that
+    no other part has. Parts of a mesh that is linked from a library keep theirs.
     """
     part = None if library_refusal(obj) else _noted(obj, number)
     if part:
+        if min(color) < 0.0:
+            others = (row.number for row in obj.wcd_parts if row.number != number)
+            color = free_color(color_of_part(obj, each) for each in others)
         _change(obj, replace(part, color=color))
         show_colors(obj)
 

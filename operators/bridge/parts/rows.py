@@ -96,6 +96,7 @@ WCD_PG_part.__annotations__ = {
         subtype="COLOR",
         min=0.0,
         max=1.0,
+        default=renaming.UNSET,
         get=_color,
         set=_recolor,
     ),

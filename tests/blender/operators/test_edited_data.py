@@ -10,6 +10,10 @@ from hand_made import (
     mesh_object,
 )
 from snapshot import snapshot
+from weak_convex_decomposition.operators.bridge.parts.renaming import (
+    UNSET,
+    recolor_part,
+)
 
 MODES = pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 EDITS = {
@@ -33,6 +37,17 @@ def test_a_new_decomposition_keeps_locked_parts(monkey):
     assert {row.name for row in monkey.wcd_parts if row.locked} == {"Left", "Part 04"}
     assert record_of(monkey)["parameters"]["parts"] == 5
     check_in_step(monkey)
+
+
+def test_a_color_that_is_reset_is_free(monkey):
+    """As the key for Reset to Default Value over a swatch asks for."""
+    colors = [row.color[:] for row in monkey.wcd_parts]
+    monkey.wcd_parts[2].color = (1, 0, 0)
+    recolor_part(monkey, 2, UNSET)
+    assert [row.color[:] for row in monkey.wcd_parts] == colors
+    monkey.wcd_parts[0].color = colors[1]
+    recolor_part(monkey, 1, UNSET)
+    assert monkey.wcd_parts[1].color[:] == colors[0]
 
 
 def test_a_new_name_reaches_the_objects_that_share_the_mesh(monkey):

@@ -57,6 +57,15 @@ def shown_for_a_moment(hands):
     assert outlined > 200 > 20 > still, (outlined, still)
 
 
+def color_reset(hands):
+    """Reset a color by its key, over the swatch: it is not black then."""
+    row = bpy.context.active_object.wcd_parts[1]
+    before, row.color = row.color[:], (1.0, 0.0, 0.0)
+    yield from hands.find("wcd_parts[1].color", columns=(0.2,))
+    yield from hands.press("BackSpace")
+    yield lambda: np.allclose(bpy.context.active_object.wcd_parts[1].color, before)
+
+
 def steps(hands):
     hands.open_panels("WCD_PT_parts", "WCD_PT_edit")
     yield from hands.fill_screen()
@@ -67,6 +76,7 @@ def steps(hands):
 
     call = "wcd.split_parts(parts=2)"
     yield from edited(hands, call, n_parts + 1, columns=(0.55,))
+    yield from color_reset(hands)
 
     for row in (1, 2):
         place = yield from hands.find(f"wcd_parts[{row}].chosen", columns=(_TICK,))
