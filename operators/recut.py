@@ -212,10 +212,16 @@ class WCD_OT_choose_part_count(_Recut, bpy.types.Operator):
     def _wanted(self, context: bpy.types.Context) -> Parameters:
         return replace(super()._wanted(context), parts=self.parts)
 
+    def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
+        self._scene = bpy.context.scene.name  # the user may look at another one soon
+        return super()._begin(obj)
+
     def _commit(self, obj: bpy.types.Object, value: Edited) -> str:
         said = super()._commit(obj, value)
-        # Last: with Live on, this asks for parts that the object has by now.
-        bpy.context.scene.wcd.parts = self.parts
+        scene = bpy.data.scenes.get(self._scene)
+        if scene is not None:
+            # Last: with Live on, this asks for parts that the object has by now.
+            scene.wcd.parts = self.parts
         return said
 
 

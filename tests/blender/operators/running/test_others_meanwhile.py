@@ -9,6 +9,7 @@ from snapshot import snapshot
 from stand_ins.layout import Layout, context
 from stand_ins.presses import TIMER, finish, press
 from weak_convex_decomposition.operators.decompose import WCD_OT_decompose
+from weak_convex_decomposition.operators.recut import WCD_OT_choose_part_count
 from weak_convex_decomposition.operators.running import modal
 from weak_convex_decomposition.ui.parts_table import WCD_UL_parts
 
@@ -58,6 +59,16 @@ def test_names_and_colors_that_are_set_meanwhile_stay(running, suzanne):
     assert finish(running) == {"FINISHED"}
     row = next(row for row in suzanne.wcd_parts if row.name == "Head")
     assert tuple(row.color) == (1.0, 0.0, 0.0)
+
+
+def test_a_number_that_was_chosen_is_set_where_it_was(suzanne, window):
+    decompose_by_hand(suzanne, 4)
+    here, other = bpy.context.scene, bpy.data.scenes.new("Other")
+    pressed = press(WCD_OT_choose_part_count, window, parts=3)
+    with bpy.context.temp_override(scene=other, view_layer=other.view_layers[0]):
+        assert finish(pressed) == {"FINISHED"}
+    assert len(suzanne.wcd_parts) == here.wcd.parts == 3
+    assert other.wcd.parts == 0
 
 
 def test_padlocks_wait(running, suzanne):
