@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .hulls.refit import refit_in_steps as refit_in_steps
     from .measurement import measure_in_steps as measure_in_steps
     from .parts.describe import describe as describe
+    from .parts.describe import notes_on_count as notes_on_count
     from .parts.editing import Change as Change
     from .parts.editing import compacted as compacted
     from .parts.editing import give as give
@@ -64,6 +65,7 @@ _HOMES = {
     "match_parts": "parts.matching",
     "settled": "parts.matching",
     "describe": "parts.describe",
+    "notes_on_count": "parts.describe",
     "mirror_pairs": "parts.pairs",
     "PartMemo": "parts.part_memo",
     "smooth_seams": "parts.seams.smoothing",

@@ -101,7 +101,7 @@ def notes_on(found: Decomposition, by: PartPsi) -> tuple[str, ...]:
     tuple of str
         Sentences to the user.
     """
-    on_count = _notes_on_count(by.parameters, max(found.psi_by_k))
+    on_count = notes_on_count(by.parameters, max(found.psi_by_k))
     return _notes_on_shells(by.transfer) + (on_count or _notes_on_faces(found, by))
 
 
@@ -144,8 +144,20 @@ def _notes_on_shells(transfer: Transfer) -> tuple[str, ...]:
     )
 
 
-def _notes_on_count(parameters: Parameters, most: int) -> tuple[str, ...]:
-    """Return a note if the shape cannot be split into the number of parts asked for."""
+def notes_on_count(parameters: Parameters, most: int) -> tuple[str, ...]:
+    """Return a note if a shape cannot be split into the number of parts asked for.
+
+    Parameters
+    ----------
+    parameters : Parameters
+    most : int
+        The largest number of parts that could be made.
+
+    Returns
+    -------
+    tuple of str
+        Sentences to the user.
+    """
     wanted = parameters.parts or parameters.min_parts
     # By default the search may well end with one part: that deserves no note.
     alone = not parameters.parts and wanted == Parameters.min_parts

@@ -183,7 +183,9 @@ def _decompose_rest(
         ranks = np.concatenate([parts.ranks, run.ranks])
         found = with_known_ranks(found, after, ranks)
         pairs = yield from within(core.mirror_pairs(memo, labels), 0.9, 1.0)
-        return replace(found, pairs=pairs, notes=(*notes, *found.notes))
+        most = int(held.sum()) + max(run.psi_by_k)
+        on_count = core.notes_on_count(parameters, most)
+        return replace(found, pairs=pairs, notes=(*notes, *found.notes, *on_count))
 
     return _ready_to_write(obj, work(), parameters, seen, parts.by_hand)
 

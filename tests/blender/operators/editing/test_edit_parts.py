@@ -159,3 +159,12 @@ def test_the_most_and_fewest_parts_of_a_run_include_locked_ones(monkey):
     parts, wanted = present_parts(monkey), Parameters(min_parts=5, max_parts=8)
     rest = locking._parameters_of_rest(wanted, parts, parts.locked)
     assert (rest.min_parts, rest.max_parts) == (3, 6)
+
+
+def test_too_many_parts_are_told_beside_locked_ones_too(monkey):
+    monkey.wcd_parts[0].locked = True
+    bpy.ops.wcd.decompose(parts=90, samples=300)
+    (note,) = record_of(monkey)["notes"]
+    assert note.startswith(f"Only {len(monkey.wcd_parts)} of the 90 parts could")
+    bpy.ops.wcd.decompose(parts=8, samples=300)
+    assert record_of(monkey)["notes"] == []
