@@ -107,7 +107,12 @@ def _identity(path: Path) -> tuple[int, int] | None:
 
 def place_key(place: Path) -> str:
     """Return what is equal for paths that some disks take for one."""
-    return unicodedata.normalize("NFC", str(place)).casefold()
+    return _composed(place).casefold()
+
+
+def _composed(path: Path) -> str:
+    """Return a path with each accent and its letter as one character."""
+    return unicodedata.normalize("NFC", str(path))
 
 
 def _twice(output: Path, other: Path) -> str:
@@ -116,9 +121,11 @@ def _twice(output: Path, other: Path) -> str:
         return (
             f"{output} would be written twice; give inputs and outputs distinct names."
         )
+    look_alike = len({_composed(output), _composed(other)}) == 1
+    ways = "how accents are stored" if look_alike else "upper and lower case"
     return (
-        f"{output} and {other} differ in upper and lower case alone, and are one file"
-        " on some disks; give them distinct names."
+        f"{output} and {other} differ in {ways} alone, and are one file on some disks;"
+        " give them distinct names."
     )
 
 

@@ -145,6 +145,10 @@ def test_outputs_that_collide_are_refused(tmp_path, model, capfd, run):
     (tmp_path / "link.json").symlink_to(tmp_path / "r.glb")
     cases = [
         (("--output={}/a.glb", "--hulls={}/A.GLB"), "differ in upper and lower case"),
+        (
+            ("--output={}/\u00e9.glb", "--hulls={}/e\u0301.glb"),
+            "how accents are stored",
+        ),
         (("--output={}/w.obj", "--report={}/w.mtl"), "would be written twice"),
         (("--output={}/r.glb", "--report={}/link.json"), "would be written twice"),
         (("--hulls={}/z.xml", "--report={}/z_xml"), "would be written twice"),
