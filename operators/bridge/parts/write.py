@@ -73,7 +73,12 @@ def write_parts(
     identities, materials = _write_mesh(
         obj, decomposition, by_label, identities, before.materials, by_hand
     )
-    _note(obj, decomposition, by_label, parameters, identities, materials, before)
+    measured_on = [to_be_noted(row) for row in by_label.sums]
+    for sharer in sharers(obj):
+        write_result(
+            sharer, decomposition, parameters, identities, materials, measured_on
+        )
+        write_rows(sharer, identities, before.rows.get(sharer.name, {}))
     show(obj, *also_shown)
     if overlaid:
         show_as_overlay(obj)
@@ -90,24 +95,6 @@ def _check_fits(
         raise DecompositionError(
             "The mesh was changed while it was decomposed; start again."
         )
-
-
-def _note(
-    obj: bpy.types.Object,
-    decomposition: Decomposition,
-    by_label: ByLabel,
-    parameters: Parameters,
-    identities: Sequence[Identity],
-    materials: Sequence[str],
-    before: BeforeWriting,
-) -> None:
-    """Write the record and the rows, on all objects that share the mesh."""
-    measured_on = [to_be_noted(row) for row in by_label.sums]
-    for sharer in sharers(obj):
-        write_result(
-            sharer, decomposition, parameters, identities, materials, measured_on
-        )
-        write_rows(sharer, identities, before.rows.get(sharer.name, {}))
 
 
 def check_writable(obj: bpy.types.Object) -> None:
