@@ -36,6 +36,8 @@ class Change:
         Side of the parts that were mirrored: "L" for positive X, "R" for negative X.
     by_hand : (P,) bool or None
         The polygons whose part the user settled; a new run keeps them in it.
+    notes : tuple of str
+        Sentences to the user.
     """
 
     labels: NDArray[np.int64]
@@ -43,6 +45,7 @@ class Change:
     mirrored: dict[int, int] = field(default_factory=dict)
     side: str = "L"
     by_hand: NDArray[np.bool_] | None = None
+    notes: tuple[str, ...] = ()
 
 
 def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Change:

@@ -70,6 +70,7 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
     ) -> Steps[core.Change]:
         labels = parts.labels.copy()
         ranks: dict[int, float] = {}
+        notes: list[str] = []
         free = len(parts.identities)
         parameters = replace(parts.parameters, parts=n_parts, levels=1)
         for turn, part in enumerate(chosen):
@@ -81,9 +82,12 @@ def splitting(chosen: Sequence[int], n_parts: int) -> MakeChange:
             labels[members] = numbers[found.labels]
             ranks |= dict(zip(numbers.tolist(), found.ranks.tolist(), strict=True))
             free += found.n_parts - 1
+            short = core.notes_on_count(parameters, max(found.psi_by_k))
+            notes += [f"{parts.identities[part].name}: {each}" for each in short]
         if free == len(parts.identities):
             raise _nothing_split(parts.identities[chosen[0]].name, n_parts)
-        return core.Change(labels, ranks, by_hand=np.isin(parts.labels, chosen))
+        by_hand = np.isin(parts.labels, chosen)
+        return core.Change(labels, ranks, by_hand=by_hand, notes=tuple(notes))
 
     return change
 

@@ -103,7 +103,7 @@ def edit_object(obj: bpy.types.Object, make_change: MakeChange) -> Steps[Edited]
         steps = make_change(shape, memo, parts)
         change = yield from within(steps, 0.5, 1.0)
         found, identities = _described(memo, parts, change)
-        found = replace(found, notes=(*notes, *found.notes))
+        found = replace(found, notes=(*notes, *found.notes, *change.notes))
         by_hand = parts.by_hand
         if change.by_hand is not None:
             by_hand = by_hand | change.by_hand

@@ -168,3 +168,11 @@ def test_too_many_parts_are_told_beside_locked_ones_too(monkey):
     assert note.startswith(f"Only {len(monkey.wcd_parts)} of the 90 parts could")
     bpy.ops.wcd.decompose(parts=8, samples=300)
     assert record_of(monkey)["notes"] == []
+
+
+def test_a_split_into_too_many_parts_is_told(monkey):
+    chosen = [row.name for row in monkey.wcd_parts if row.chosen]
+    bpy.ops.wcd.split_parts(parts=50)
+    notes = record_of(monkey)["notes"]
+    assert [note.partition(": Only ")[0] for note in notes] == chosen
+    assert all(" of the 50 parts could be made" in note for note in notes)
