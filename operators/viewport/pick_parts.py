@@ -147,7 +147,9 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         if turning is not None and not merging:
             self._asked = self._cut_last = 0
             modal.stop()  # the cut that runs, if any
-            turning.take_back()
+            if not turning.take_back():
+                n_before = turning.n_before
+                self.report({"WARNING"}, f"Undo cannot go back to {n_before} parts")
         if merging or turning is not None:
             picking.tell(bpy.context)
             return {"RUNNING_MODAL"}

@@ -55,15 +55,22 @@ class Turning:
         """Return that nothing was asked for yet."""
         return cls(obj.session_uid, n_parts_of(obj), _state(obj))
 
-    def take_back(self) -> None:
-        """Undo the steps."""
+    def take_back(self) -> bool:
+        """Undo the steps; return whether that was far enough.
+
+        Blender keeps as many steps as the user allows, and none without Global Undo.
+        """
         for _ in range(self.n_steps):
-            obj = bpy.context.active_object
-            if obj is None or obj.session_uid != self.object:
-                return
-            if _state(obj) == self.before or not bpy.ops.ed.undo.poll():
-                return
+            if self._is_back() or not bpy.ops.ed.undo.poll():
+                break
             bpy.ops.ed.undo()
+        return self._is_back()
+
+    def _is_back(self) -> bool:
+        """Return whether there is nothing to take back, or it is another object."""
+        obj = bpy.context.active_object
+        gone = obj is None or obj.session_uid != self.object
+        return gone or _state(obj) == self.before
 
 
 def keeps(event: bpy.types.Event) -> bool:

@@ -62,3 +62,17 @@ def test_right_click_stops_the_cut_that_runs(viewport, monkeypatch):
     assert len(bpy.context.active_object.wcd_parts) == 4
     viewport.event("MOUSEMOVE", "NOTHING")
     assert len(bpy.context.active_object.wcd_parts) == 4  # the other is not cut later
+
+
+def test_a_number_that_undo_does_not_reach_is_told(viewport):
+    bpy.context.scene.wcd.samples = 100
+    edit = bpy.context.preferences.edit
+    steps, edit.undo_steps = edit.undo_steps, 2
+    bpy.ops.ed.undo_push(message="before")
+    for _ in range(5):
+        viewport.event("WHEELUPMOUSE", alt=True)
+    viewport.event("ESC")
+    edit.undo_steps = steps
+    assert 4 < len(bpy.context.active_object.wcd_parts) < 9
+    assert ("WARNING", "Undo cannot go back to 4 parts") in viewport.pressed.reports
+    assert viewport.status.endswith("Esc: end")
