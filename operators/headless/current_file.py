@@ -1,6 +1,8 @@
-"""The file that is open in Blender: emptied before a load, and its objects."""
+"""The file that is open in Blender: emptied before a load, its objects, their names."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import bpy
 
@@ -9,6 +11,9 @@ from ..bridge.hulls.listed import is_hull
 from ..bridge.mesh.points import count_points, is_cloud
 from ..bridge.refusals import WORKED_ON
 from .quiet import quiet_blender
+
+# Most names in a sentence.
+_MOST_NAMES = 3
 
 
 def open_empty_file() -> None:
@@ -42,3 +47,10 @@ def objects_in_view_layers() -> set[bpy.types.Object]:
 def has_shape(obj: bpy.types.Object) -> bool:
     """Return whether one of `mesh_objects` has faces, or is a cloud with points."""
     return bool(count_points(obj) if is_cloud(obj) else obj.data.polygons)
+
+
+def some_of(names: Sequence[str]) -> str:
+    """Return the first of many names for a note, and how many more there are."""
+    more = len(names) - _MOST_NAMES
+    shown = ", ".join(names[:_MOST_NAMES])
+    return f"{shown} and {more} more" if more > 0 else shown

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TextIO
 
@@ -16,8 +16,6 @@ from .stages import Stages
 # Time between two lines of progress at least.
 _TERMINAL_SECONDS = 0.1
 _LOG_SECONDS = 2.0
-# Most names in a sentence.
-_MOST_NAMES = 3
 
 
 class StreamError(Exception):
@@ -112,13 +110,6 @@ class Screen:
 def progress_title(title: str, number: int, total: int) -> str:
     """Return the title of an object's progress, with its number if there are many."""
     return f"{title} (object {number:,} of {total:,})" if total > 1 else title
-
-
-def some_of(names: Sequence[str]) -> str:
-    """Return the first of many names for a note, and how many more there are."""
-    more = len(names) - _MOST_NAMES
-    shown = ", ".join(names[:_MOST_NAMES])
-    return f"{shown} and {more} more" if more > 0 else shown
 
 
 def write(stream: TextIO, text: str) -> None:

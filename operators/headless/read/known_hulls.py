@@ -10,7 +10,7 @@ import bpy
 from ....core.parameters.hull_names import UNREAL_PREFIXES
 from ...bridge.hulls.listed import is_hull
 from ...bridge.stored.names import HULL_TAG
-from ..screen import some_of
+from ..current_file import some_of
 from ..shear import put_below
 
 # How Unreal knows hulls: UCX_Name_01, of the mesh called Name.

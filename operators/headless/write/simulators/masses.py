@@ -10,7 +10,7 @@ import numpy as np
 from ..... import core
 from .....core.geometry.mesh import TriangleMesh
 from .....core.solids.mass_properties import MassProperties, combined_mass
-from ...screen import some_of
+from ...current_file import some_of
 from ..placed_meshes import Float64Array, matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.

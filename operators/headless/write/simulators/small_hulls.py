@@ -9,7 +9,7 @@ import numpy as np
 from .....core.geometry.mesh import TriangleMesh
 from .....core.solids.volume import signed_volume
 from .....core.steps.progress import run
-from ...screen import some_of
+from ...current_file import some_of
 from ..placed_meshes import Float64Array
 from .bodies import Body, Geometry
 
