@@ -105,7 +105,7 @@ BAD_FILES = {
     "grouped.ply": (headed("ascii", b"600", b"6_00"), "header is not one"),
     "negative.ply": (headed("ascii", b"vertex 6", b"vertex -6"), "header is not one"),
     "endless.ply": (headed("ascii", b"end_header", b""), "header is not one"),
-    "places.ply": (headed("ascii", b"float x", b"float u"), "cannot be read"),
+    "places.ply": (headed("ascii", b"float x", b"float u"), "x, y and z, which"),
 }
 
 
