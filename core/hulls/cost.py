@@ -27,6 +27,9 @@ _POWER = 4
 # Norm of the errors of both sides of a cut. By a higher one, cuts through the middle of
 # a gap seem better than those beside it, which leave one side convex.
 _NORM = 1.75
+# Costs are rounded, so that noise does not decide between equal ones.
+_DIGITS = 6
+COST_STEP = 10.0**-_DIGITS
 
 
 def cost_of_sides(
@@ -122,5 +125,5 @@ def _price(added: float, solid_volume: float) -> float:
 
 
 def _rounded(cost: float | np.floating[Any]) -> float:
-    """Return a rounded cost, so that noise does not decide between equal costs."""
-    return round(float(cost), 6)
+    """Return a rounded cost."""
+    return round(float(cost), _DIGITS)

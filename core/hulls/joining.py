@@ -9,14 +9,14 @@ from itertools import count
 import numpy as np
 
 from ..steps.progress import Progress, Steps, within
-from .cost import cost_of_joint, error_of_joint, least_cost
+from .cost import COST_STEP, cost_of_joint, error_of_joint, least_cost
 from .piece import Piece, join
 
 # Pieces count as neighbors if their bounding boxes are at most this far apart along
 # each axis; the longest side is 2.
 _NEAR = 0.03
-# Errors are bounded up to where another joint costs less, and a little more: costs are
-# rounded, and each time something must be found out.
+# Errors are bounded up to where another joint costs less, and a little more: each time
+# something must be found out.
 _BEYOND = 1.01
 
 # Cost, numbers of two pieces, the joined piece, and whether the cost is by its stated
@@ -156,13 +156,22 @@ def _next_joint(
         else:
             yield Progress("Joining", 0.0)
             next_cost = queue[0][0] if queue else np.inf
-            limit = error_of_joint(joint, next_cost, solid_volume) * _BEYOND
+            limit = _error_beyond(joint, next_cost, solid_volume)
             limit = max(limit, joint.fit.max_error if close else 0.0)
             error = joint.bound.up_to(limit)
             sure = error <= limit
         cost = cost_of_joint(joint, error, solid_volume)
         heapq.heappush(queue, (cost, one, other, joint, sure))
     return None
+
+
+def _error_beyond(joint: Piece, cost: float, solid_volume: float) -> float:
+    """Return an error with which a joint costs more than another, also when rounded.
+
+    A joint that costs the same would come off the queue again and again.
+    """
+    more = error_of_joint(joint, cost + COST_STEP, solid_volume)
+    return max(error_of_joint(joint, cost, solid_volume) * _BEYOND, more)
 
 
 def _touch(one: Piece, other: Piece) -> bool:

@@ -1,8 +1,12 @@
 """Which pieces are joined if there are too many."""
 
+from itertools import islice
+
 import numpy as np
 import shapes
 from computed import build_hulls
+from weak_convex_decomposition.core.cache import ShapeCache, no_rays
+from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.hulls.joining import part_again
 from weak_convex_decomposition.core.hulls.piece import Piece
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
@@ -18,6 +22,15 @@ def test_joins_go_by_errors_that_estimates_miss(monkeypatch):
     # The hull of the dice would add less volume, but be far from both in the middle.
     assert found.n_hulls == 3
     assert found.errors.max() < 0.1
+
+
+def test_joints_that_cost_the_same_but_for_rounding_come_to_an_end():
+    """Faces of a cube that are a part each: flat hulls, whose joints cost nothing."""
+    mesh = shapes.box(divisions=2)
+    labels, cache = np.arange(mesh.n_polygons), ShapeCache(no_rays)
+    parameters = HullParameters(pieces="PARTS", max_hulls=6)
+    steps = build_hulls_in_steps(mesh, parameters, cache, labels)
+    assert sum(1 for _ in islice(steps, 5000)) < 5000
 
 
 class Known:
