@@ -150,13 +150,25 @@ def _cut(
         labels=places[labels],
         areas=areas[order].astype(np.float64),
         pairs=found.pairs_at(places),
-        notes=found.notes,
+        notes=(*found.notes, *_notes_on_patches(found.n_parts - len(order))),
     )
     if parameters.levels != 1:  # each part was measured by samples of its own
         after = replace(after, ranks=found.ranks[order])
     if len(labels) == n_wholes:
         return after, None
     return after, Pieces(cuts, near, made.stretch, of_pieces)
+
+
+def _notes_on_patches(n_left_out: int) -> tuple[str, ...]:
+    """Return a note if parts were left out that are mere patches within faces."""
+    if n_left_out == 0:
+        return ()
+    one = n_left_out == 1
+    what = "1 part is a mere patch" if one else f"{n_left_out} parts are mere patches"
+    return (
+        f"{what} within a face, and left out, as faces are cut right across alone;"
+        " subdivide the mesh to keep such parts.",
+    )
 
 
 def _measured(

@@ -1,5 +1,7 @@
 """Faces cut along seams: what cuts keep, and the way back."""
 
+import re
+
 import bpy
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
     edited_since_cut,
     is_cut,
 )
+from weak_convex_decomposition.operators.bridge.stored.record import record_of
 from weak_convex_decomposition.operators.headless.command_line import main
 
 FAST = {"samples": 200, "containers": "HOLLOW", "max_parts": 4}
@@ -234,3 +237,12 @@ def test_the_command_line_writes_the_cut_faces(angle, tmp_path):
     assert main([str(source), "--output", str(output), *options]) == 0
     lines = output.read_text(encoding="utf-8").splitlines()
     assert sum(line.startswith("f ") for line in lines) == 11
+
+
+def test_parts_within_a_face_are_left_out_with_a_note():
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.wcd.decompose(parts=4, seams="CUT")
+    obj = bpy.context.object
+    (note,) = record_of(obj)["notes"]
+    words = r"(\d) parts? (?:is a|are) mere patch(?:es)? within a face, and left out"
+    assert int(re.match(words, note)[1]) == 4 - len(obj.wcd_parts) > 0
