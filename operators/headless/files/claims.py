@@ -121,7 +121,7 @@ def _twice(output: Path, other: Path) -> str:
         return (
             f"{output} would be written twice; give inputs and outputs distinct names."
         )
-    look_alike = len({_composed(output), _composed(other)}) == 1
+    look_alike = _composed(output) == _composed(other)
     ways = "how accents are stored" if look_alike else "upper and lower case"
     return (
         f"{output} and {other} differ in {ways} alone, and are one file on some disks;"
