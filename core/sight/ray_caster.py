@@ -66,8 +66,9 @@ def caster_in_steps(mesh: TriangleMesh, make_caster: MakeCaster) -> Steps[RayCas
     Returns
     -------
     Steps of RayCaster
-        It hits what one caster for the whole mesh hits. What `make_caster` made may
-        answer with lists; it raises a `DecompositionError` if that are no hits.
+        It hits what one caster for the whole mesh hits. Answers of what
+        `make_caster` made may be lists; a `DecompositionError` is raised if they are
+        no hits.
     """
     yield Progress("Ray tree", 0.0)
     n_triangles = len(mesh.triangles)

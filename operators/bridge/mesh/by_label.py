@@ -52,12 +52,14 @@ class ByLabel:
 
         It was computed before if `read_ahead` was told these labels.
         """
-        known = latest_of(obj.data) if getattr(obj.data, "polygons", None) else None
-        ahead = known and known.ahead.pop((digest(labels), n_labels), None)
-        if ahead is not None:
-            return ahead
-        sums, mesh = sums_by_label(obj, labels, n_labels), obj.data
-        if getattr(mesh, "polygons", None):
+        mesh = obj.data
+        has_faces = bool(getattr(mesh, "polygons", None))
+        known = latest_of(mesh) if has_faces else None
+        key = digest(labels), n_labels
+        if known is not None and key in known.ahead:
+            return known.ahead.pop(key)
+        sums = sums_by_label(obj, labels, n_labels)
+        if has_faces:
             vertices, faces = corner_vertices(mesh), corner_faces(mesh)
         else:
             vertices = faces = np.arange(len(labels))

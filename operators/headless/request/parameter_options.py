@@ -7,10 +7,12 @@ import math
 import textwrap
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from typing import Any
+from typing import Any, TypeVar
 
 from ....core.parameters.parameter import ParameterInfo
 from .option_names import option, word
+
+_Number = TypeVar("_Number", int, float)
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
@@ -93,15 +95,15 @@ def _help(info: ParameterInfo, default: str) -> str:
 
 def _whole_number(text: str) -> int:
     """Return the whole number in an option."""
-    return int(_written_plainly(text, int, "a whole number"))
+    return _written_plainly(text, int, "a whole number")
 
 
 def _number(text: str) -> float:
     """Return the number in an option."""
-    return float(_written_plainly(text, float, "a number"))
+    return _written_plainly(text, float, "a number")
 
 
-def _written_plainly(text: str, kind: type[int | float], meaning: str) -> int | float:
+def _written_plainly(text: str, kind: type[_Number], meaning: str) -> _Number:
     """Return a number; Python alone would read 1_0, and digits of other scripts."""
     with suppress(ValueError):
         if text.isascii() and "_" not in text:
