@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import bpy
 from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
@@ -9,7 +11,7 @@ from mathutils.bvhtree import BVHTree
 from ..bridge.refusals import faces_refusal
 from ..bridge.stored.names import HULL_TAG
 from .shown_parts import shown_parts
-from .viewports import ray_at, ray_within
+from .viewports import ray_at, ray_within, shown_along
 
 # How objects are drawn that rays go through.
 _SEEN_THROUGH = {"WIRE", "BOUNDS"}
@@ -26,10 +28,12 @@ def part_at(
 
     What hides a part hides it from here, too, except for collision hulls, which are
     around the very parts. In Edit Mode the objects that are edited hide each other, and
-    other objects hide nothing.
+    other objects hide nothing. What is beyond a Clipping Region neither is seen nor
+    hides anything.
     """
     area = next(a for a in context.window.screen.areas if region in a.regions[:])
-    return part_along(context, area.spaces.active, *ray_at(region, x, y))
+    space, ray = area.spaces.active, ray_at(region, x, y)
+    return part_along(context, space, *ray, shown_along(space, region.data, *ray))
 
 
 def make_tree() -> None:
@@ -45,12 +49,16 @@ def part_along(
     space: bpy.types.SpaceView3D,
     origin: Vector,
     direction: Vector,
+    within: tuple[float, float] = (0.0, math.inf),
 ) -> tuple[bpy.types.Object, int] | None:
-    """Return the object and the number of the first part along a ray in the world."""
+    """Return the object and the number of the first part along a ray in the world.
+
+    Nothing counts that is not `within` two distances from the origin.
+    """
     if context.mode == "EDIT_MESH":
-        hit = _first_edited(context, origin, direction)
+        hit = _first_edited(context, origin, direction, within)
     else:
-        hit = _first_seen(context, space, origin, direction)
+        hit = _first_seen(context, space, origin, direction, within)
     if hit is None:
         return None
     obj, face = hit
@@ -65,15 +73,16 @@ def _first_seen(
     space: bpy.types.SpaceView3D,
     origin: Vector,
     direction: Vector,
+    within: tuple[float, float],
 ) -> tuple[bpy.types.Object, int] | None:
     """Return the first object along a ray in Object Mode, and its face there."""
-    graph = context.evaluated_depsgraph_get()
-    start = origin
+    graph, (near, far) = context.evaluated_depsgraph_get(), within
+    start = begin = origin + direction * near
     for _ in range(_MOST_HITS):
         hit, place, _normal, face, obj, matrix = context.scene.ray_cast(
             graph, start, direction
         )
-        if not hit:
+        if not hit or (place - origin).length > far:
             return None
         obj = obj.original
         if _hides(obj, space):
@@ -81,7 +90,7 @@ def _first_seen(
         step = _BEHIND * max((place - origin).length, 1e-3)
         owner = obj.parent if HULL_TAG in obj else None
         if owner is not None and owner.type == "MESH" and _hides(owner, space):
-            found = _first_of(owner.evaluated_get(graph), origin, direction)
+            found = _first_of(owner.evaluated_get(graph), begin, direction)
             # From behind the hull, the ray would miss what touches it from within.
             if found is not None and (found[0] - place).length <= step:
                 return owner, found[1]
@@ -110,22 +119,27 @@ def _is_itself(obj: bpy.types.Object, matrix: Matrix) -> bool:
 
 
 def _first_edited(
-    context: bpy.types.Context, origin: Vector, direction: Vector
+    context: bpy.types.Context,
+    origin: Vector,
+    direction: Vector,
+    within: tuple[float, float],
 ) -> tuple[bpy.types.Object, int] | None:
     """Return the first object along a ray in Edit Mode, and its face there."""
-    graph, found = context.evaluated_depsgraph_get(), []
+    graph, (near, far), found = context.evaluated_depsgraph_get(), within, []
     for obj in context.objects_in_mode:
         shown = shown_parts(obj)
         if shown is None:
             continue
         if "tree" not in shown.kept:
             shown.kept["tree"] = BVHTree.FromObject(obj, graph)
-        start, towards = ray_within(obj, origin, direction)
+        start, towards = ray_within(obj, origin + direction * near, direction)
         for _ in range(_MOST_HITS):
             place, _normal, face, _far = shown.kept["tree"].ray_cast(start, towards)
             if place is None:
                 break
             distance = (obj.matrix_world @ place - origin).length
+            if distance > far:
+                break
             if not shown.hidden[face]:
                 found.append((distance, obj.name, (obj, face)))
                 break

@@ -18,6 +18,8 @@ from ..bridge.mesh.points import is_cloud, positions_of
 
 # Clicks in other modes paint, sculpt or pose.
 CLICKED_MODES = {"OBJECT", "EDIT_MESH"}
+# Shadings that leave out what is beyond a Clipping Region.
+_CLIPPING = {"WIREFRAME", "SOLID"}
 # How much wider the view is than what it frames.
 _MARGIN = 1.1
 
@@ -54,6 +56,30 @@ def ray_at(region: bpy.types.Region, x: int, y: int) -> tuple[Vector, Vector]:
         # Blender begins half way between the clipping planes of such a camera.
         origin -= view.perspective_matrix.inverted().col[2].xyz
     return origin, view3d_utils.region_2d_to_vector_3d(*where)
+
+
+def shown_along(
+    space: bpy.types.SpaceView3D,
+    view: bpy.types.RegionView3D,
+    origin: Vector,
+    direction: Vector,
+) -> tuple[float, float]:
+    """Return from where to where a ray is within the Clipping Region (Alt B).
+
+    Both are distances from the origin; the first is larger where it is nowhere.
+    """
+    near, far = 0.0, math.inf
+    if view.use_clip_planes and space.shading.type in _CLIPPING:
+        for *normal, offset in view.clip_planes[:4]:  # Blender sets no more
+            height = origin.dot(normal) + offset
+            slope = direction.dot(normal)
+            if slope > 0:
+                near = max(near, -height / slope)
+            elif slope < 0:
+                far = min(far, -height / slope)
+            elif height < 0:
+                far = -math.inf
+    return near, far
 
 
 def ray_within(

@@ -10,6 +10,7 @@ from weak_convex_decomposition.operators.hulls import WCD_OT_build_hulls
 from weak_convex_decomposition.operators.measure import WCD_OT_measure
 from weak_convex_decomposition.operators.running import modal
 from weak_convex_decomposition.operators.viewport.part_at import part_along
+from weak_convex_decomposition.operators.viewport.viewports import shown_along
 
 FRONT = Vector((0.0, 1.0, 0.0))
 OPERATORS = (WCD_OT_decompose, WCD_OT_measure, WCD_OT_build_hulls)
@@ -40,7 +41,9 @@ def space_of_window():
 def seen(x, z=0.0):
     """Return the object and part that are seen at x from the front."""
     bpy.context.view_layer.update()
-    return part_along(bpy.context, space_of_window(), Vector((x, -9.0, z)), FRONT)
+    space, ray = space_of_window(), (Vector((x, -9.0, z)), FRONT)
+    within = shown_along(space, space.region_3d, *ray)
+    return part_along(bpy.context, space, *ray, within)
 
 
 def select(*objects):

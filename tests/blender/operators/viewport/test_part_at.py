@@ -118,6 +118,29 @@ def test_isolated_parts_alone_are_found(window, suzanne, labels):
     assert seen(-1.2, 0.25) == (suzanne, 0)
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_a_clipping_region_leaves_parts_out(window, suzanne, labels, mode):
+    bpy.ops.mesh.primitive_cube_add(location=(0.1, -3, 0.25), size=1)
+    activate(suzanne)
+    in_mode(suzanne, mode)
+    view = space_of_window().region_3d
+    view.use_clip_planes = True
+
+    def seen_between(low, high, x=0.1, shift=0.0):
+        planes = (0, 1, 0, -low), (0, -1, 0, high), (1, 0, 0, shift)
+        view.clip_planes = [*planes, *[(0, 0, 0, 0)] * 3]
+        return seen(x, 0.25)
+
+    assert seen_between(-2, 5) == (suzanne, 2)  # the cube is before the region
+    assert seen_between(-9, 5) == ((suzanne, 2) if mode == "EDIT" else None)
+    assert seen_between(0.2, 5)[0] == suzanne  # from within
+    assert seen_between(-2, -1.5) is None
+    assert seen_between(3, 5) is None
+    assert seen_between(-2, 5, shift=-1.0) is None
+    space_of_window().shading.type = "MATERIAL"  # which leaves nothing out
+    assert seen_between(3, 5, x=-1.2) == (suzanne, 0)
+
+
 def test_the_mesh_is_read_again_when_it_changes(window, suzanne, labels):
     assert seen(0.1) == (suzanne, 2)
     decompose_by_hand(suzanne, 1)

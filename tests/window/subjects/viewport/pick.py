@@ -122,6 +122,22 @@ def renamed(hands, chin):
     yield lambda: rows()[0] == chin
 
 
+def clipped(hands):
+    """Check that a Clipping Region around the brow leaves out the chin."""
+    region = hands.region("WINDOW")
+    sides = {"xmin": 0.3, "xmax": 0.7, "ymin": 0.45, "ymax": 0.8}
+    sizes = {"x": region.width, "y": region.height}
+    with hands.context():
+        bpy.ops.view3d.clip_border(
+            **{side: int(share * sizes[side[0]]) for side, share in sides.items()}
+        )
+    assert (yield from hover(hands, CHIN)) is None
+    assert (yield from hover(hands, BROW))
+    hands.picture("clipped", hands.area)
+    hands.area.spaces.active.region_3d.use_clip_planes = False
+    assert (yield from hover(hands, CHIN))
+
+
 def by_the_wheel(hands):
     """Alt and the wheel change the number of parts; without Alt the view moves.
 
@@ -169,6 +185,7 @@ def steps(hands):
     _, chin = yield from choosing(hands)
     yield from by_the_menu(hands, chin)
     yield from renamed(hands, chin)
+    yield from clipped(hands)
     yield from by_the_wheel(hands)
     yield from hover(hands, NOWHERE)
     assert picking.current.part() is None
