@@ -16,18 +16,17 @@ DISTANCE_HELP = "How much farther the parts are from the center of the shape"
 
 
 def exploding(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
-    """Return the modifier that moves an object's parts apart, None without one."""
-    return tagged_modifier(obj, EXPLODE_TAG)
+    """Return the modifier that moves an object's parts apart, None without one.
+
+    One whose node group lost its distance is none: it needs another group.
+    """
+    modifier = tagged_modifier(obj, EXPLODE_TAG)
+    return modifier if modifier and _distance_of(modifier.node_group) else None
 
 
 def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
     """Return the owner of the property that holds the distance, and its path."""
-    sockets = modifier.node_group.interface.items_tree
-    identifier = next(
-        socket.identifier
-        for socket in sockets
-        if socket.in_out == "INPUT" and socket.socket_type == "NodeSocketFloat"
-    )
+    identifier = _distance_of(modifier.node_group)
     if bpy.app.version >= (5, 2):  # inputs were custom properties before
         return getattr(modifier.properties.inputs, identifier), "value"
     return modifier, f'["{identifier}"]'
@@ -37,7 +36,8 @@ def explode(obj: bpy.types.Object, distance: float) -> None:
     """Move the parts of an object away from its center; its mesh stays as it is."""
     modifier = exploding(obj)
     if modifier is None:
-        modifier = obj.modifiers.new(_NAME, "NODES")
+        modifier = tagged_modifier(obj, EXPLODE_TAG)
+        modifier = modifier or obj.modifiers.new(_NAME, "NODES")
         modifier.node_group = _node_group()
     owner, path = slider(modifier)
     if path == "value":
@@ -52,10 +52,18 @@ def implode(obj: bpy.types.Object) -> None:
     remove_modifier(obj, EXPLODE_TAG)
 
 
+def _distance_of(group: bpy.types.NodeTree) -> str:
+    """Return the identifier of the input that is the distance, '' without one."""
+    sockets = (s for s in group.interface.items_tree if s.item_type == "SOCKET")
+    kind = "INPUT", "NodeSocketFloat"
+    found = (s.identifier for s in sockets if (s.in_out, s.socket_type) == kind)
+    return next(found, "")
+
+
 def _node_group() -> bpy.types.GeometryNodeTree:
     """Return the node group that all exploded views share; make it if missing."""
     for group in bpy.data.node_groups:
-        if EXPLODE_TAG in group and group.library is None:
+        if EXPLODE_TAG in group and group.library is None and _distance_of(group):
             return group
     group = new_node_group(_NAME, EXPLODE_TAG)
     distance = group.interface.new_socket(

@@ -14,6 +14,7 @@ from hand_made import (
     moved_apart,
 )
 from snapshot import snapshot
+from stand_ins.layout import drawn
 from weak_convex_decomposition.operators.bridge.parts.figures import figures_of
 from weak_convex_decomposition.operators.bridge.stored.record import (
     EVALUATED,
@@ -26,6 +27,7 @@ from weak_convex_decomposition.operators.bridge.views.exploding import (
     slider,
 )
 from weak_convex_decomposition.operators.running import joins
+from weak_convex_decomposition.ui.use_panel import WCD_PT_use
 
 
 def call(name, **options):
@@ -54,6 +56,23 @@ def test_exploded_views_end(suzanne):
     assert bpy.ops.wcd.implode() == {"FINISHED"}
     assert snapshot(suzanne) == before
     assert not bpy.data.node_groups
+
+
+def test_a_view_without_its_distance_gets_it_again(suzanne):
+    labels = decompose_by_hand(suzanne, 4)
+    call("explode")
+    sockets = bpy.data.node_groups[0].interface
+    inside = sockets.new_panel("Panel")
+    sockets.move_to_parent(sockets.items_tree["Distance"], inside, 0)
+    assert exploding(suzanne)
+    sockets.remove(sockets.items_tree["Distance"])
+    assert "Exploded View" in drawn(WCD_PT_use).texts()
+    call("explode", distance=0.7)
+    assert len(suzanne.modifiers) == 1
+    expected = moved_apart(suzanne.data, labels, 0.7)
+    assert centers(suzanne) == pytest.approx(expected, abs=1e-5)
+    assert bpy.ops.wcd.implode() == {"FINISHED"}
+    assert not suzanne.modifiers
 
 
 def torus_beside(suzanne, colors="MATERIALS"):
