@@ -58,7 +58,7 @@ def write_hulls(
     """
     kinds = [shape.kind for shape in found.shapes]
     names = names_that_fit(obj, parameters.naming, parameters.template, kinds)
-    _check_free(names, obj)
+    _check_free(names, obj, parameters)
     former = own_collection(obj)
     erase_hulls(obj, kept=former)
     collection = collection_for(obj, former)
@@ -174,7 +174,9 @@ def _materials(
     return [hull_material(row) for row in rows]
 
 
-def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
+def _check_free(
+    names: Sequence[str], obj: bpy.types.Object, parameters: HullParameters
+) -> None:
     """Raise if an object that is no hull of `obj` has a name that a hull needs."""
     # All names at once: Blender looks through all objects for each that is asked for.
     local = {each.name for each in bpy.data.objects if each.library is None}
@@ -184,12 +186,14 @@ def _check_free(names: Sequence[str], obj: bpy.types.Object) -> None:
     if taken:
         first = min(taken)
         holder = bpy.data.objects[first, None]
+        is_hull = HULL_TAG in holder and holder not in own
+        nameless = "{name" not in parameters.template
+        remedy = "rename it"
+        if is_hull and parameters.naming == "TEMPLATE" and nameless:
+            remedy = "put {name} into Template,"
         raise DecompositionError(
-            f"Another object has a hull {first} already; put {{name}} into Template, or"
-            " choose another Naming."
-            if HULL_TAG in holder and holder not in own
-            else f"There is an object {first} already; rename it or choose another"
-            " Naming."
+            f"{'Another object has a hull' if is_hull else 'There is an object'}"
+            f" {first} already; {remedy} or choose another Naming."
         )
 
 

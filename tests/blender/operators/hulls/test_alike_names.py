@@ -1,4 +1,4 @@
-"""Objects whose long names begin alike: what is cut off their hulls' names differs."""
+"""Hulls that would have the names of others: they differ, or a sentence says why."""
 
 import bpy
 import pytest
@@ -30,3 +30,22 @@ def test_all_of_them_get_hulls(naming):
     assert len(names) == 3
     assert max(len(name.encode()) for name in names) <= longest
     assert {bool(name.count(" 2")) for name in names} == {True, False}
+
+
+@pytest.mark.parametrize(
+    ("settings", "remedy"),
+    [
+        ({}, "rename it"),
+        ({"naming": "TEMPLATE", "template": "{name!s} {n}"}, "rename it"),
+        ({"naming": "TEMPLATE", "template": "x{n}"}, "put {name} into Template,"),
+    ],
+)
+def test_a_name_that_another_hull_has_is_blamed_on_its_cause(settings, remedy):
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    build(cube, **settings)
+    copy = cube.copy()
+    bpy.context.collection.objects.link(copy)
+    cube.name, copy.name = "Renamed", "Cube"
+    with pytest.raises(RuntimeError, match=f"{remedy} or choose another Naming"):
+        build(copy, **settings)
