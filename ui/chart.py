@@ -13,6 +13,7 @@ from typing import Any
 import bpy
 
 from ..core.results.psi import good_numbers
+from ..operators.bridge.stored.names import HAND_LAYER
 from ..operators.bridge.stored.noted_parts import psi_by_k_of
 from .panels import WCD_PT_parts
 from .sidebar import Sidebar, paragraph, result_of
@@ -40,11 +41,13 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw a row for each number of parts, and say which are good and why."""
-        result = result_of(context.active_object)
+        obj = context.active_object
+        result, by_hand = result_of(obj), HAND_LAYER in obj.data.attributes
         psi_by_k = psi_by_k_of(result)
         gains, best = gains_of(psi_by_k), result["best_k"]
         good = good_numbers(psi_by_k, best)
-        for text in (offer_of(good), reason_for(best, gains), details_of(result)):
+        details = None if by_hand else details_of(result)  # edits count as neither
+        for text in (offer_of(good), reason_for(best, gains), details):
             if text:
                 paragraph(self.layout, text, context, icon="SOLO_ON")
         column = self.layout.column(align=True)

@@ -169,6 +169,17 @@ def test_the_star_is_on_the_best_number_and_says_why(suzanne, best, why):
     assert why is None or why in " ".join(layout.texts())
 
 
+def test_parts_split_by_hand_are_no_details(suzanne):
+    result = decomposition_of(bands(suzanne, 4))
+    result = replace(result, psi_by_k={1: 0.5, 3: 1.0}, best_k=3)
+    write_parts(suzanne, result, Parameters(**FAST))
+    text = "3 parts of the whole, and 1 more in their details."
+    assert text in " ".join(drawn(WCD_PT_chart).texts())
+    bpy.ops.wcd.split_parts()
+    assert len(suzanne.wcd_parts) == 5
+    assert "details" not in " ".join(drawn(WCD_PT_chart).texts())
+
+
 def test_of_many_numbers_those_near_the_best_have_bars(suzanne):
     found = decomposition_of(bands(suzanne, 7))
     tried = {k: float(k) for k in range(1, 101)}
