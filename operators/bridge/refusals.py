@@ -206,11 +206,12 @@ def assign_refusal(obj: Candidate) -> str | None:
 
 def hull_refusal(obj: Candidate) -> str | None:
     """Return why hulls cannot be found for an object."""
+    is_mesh = obj is not None and obj.type == "MESH" and not is_cloud(obj)
+    if is_mesh and obj.mode != "OBJECT":
+        return "Hulls are objects, which are made in Object Mode only; switch the mode"
     reason = refusal(obj, writes_mesh=False) or _own_hull_refusal(obj)
     if reason is None and is_cloud(obj):
         return f"Hulls need faces, and {obj.name} has none; give it a surface first"
-    if reason is None and obj.mode != "OBJECT":
-        return "Hulls are objects, which are made in Object Mode only; switch the mode"
     return reason
 
 

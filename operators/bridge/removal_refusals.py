@@ -11,6 +11,7 @@ from collections.abc import Callable, Container
 from .mesh.seams import has_marked_seams
 from .read.carrier import is_copy
 from .refusals import (
+    CONVERTIBLE,
     LEAVE_EDIT_MODE,
     WORKED_ON,
     Candidate,
@@ -30,6 +31,8 @@ def clear_refusal(obj: Candidate, has_hulls: Callable[[Candidate], bool]) -> str
     """Return why nothing can be cleared from an object."""
     if record_if_ours(obj) and obj.type not in WORKED_ON:
         return _object_refusal(obj)  # the user made a curve of it, or the like
+    if obj is not None and obj.type in CONVERTIBLE:
+        return f"{obj.name} is not a mesh and has no parts; select a mesh with parts"
     reason = refusal(obj, writes_mesh=False)
     if reason is None and has_parts(obj) and not beside_parts(obj):
         reason = library_refusal(obj)  # parts of a linked mesh are the library's

@@ -227,7 +227,7 @@ def _refusal(context: bpy.types.Context) -> str | None:
     if reason := no_viewport(context):
         return reason
     if context.mode not in CLICKED_MODES:
-        return "Parts are picked in Object or Edit Mode; switch the mode"
+        return "Parts are picked in Object Mode, or a mesh's Edit Mode; switch the mode"
     reason = faces_refusal(context.active_object)
     noted = (obj for obj in context.visible_objects if RESULT in obj)
     return reason and (None if any(not faces_refusal(obj) for obj in noted) else reason)

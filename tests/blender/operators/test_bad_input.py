@@ -30,6 +30,8 @@ def test_not_a_mesh(name):
 
 def test_nothing_to_clear(suzanne):
     refused(bpy.ops.wcd.clear, "Suzanne has no parts to clear")
+    bpy.ops.object.text_add()
+    refused(bpy.ops.wcd.clear, "Text is not a mesh and has no parts; select a mesh")
 
 
 @pytest.mark.parametrize(
@@ -47,6 +49,7 @@ def test_buttons_say_what_they_miss(suzanne, name, match):
 def test_another_mode(suzanne):
     bpy.ops.object.mode_set(mode="SCULPT")
     refused(bpy.ops.wcd.decompose, "Object or Edit Mode")
+    refused(bpy.ops.wcd.build_hulls, "Hulls are objects, which are made in Object Mode")
 
 
 @pytest.mark.parametrize("name", ["decompose", "measure", "build_hulls"])
