@@ -13,7 +13,8 @@ from mathutils import Vector
 from numpy.typing import NDArray
 
 from ...core.geometry.frames import moved
-from ..bridge.mesh.known import corner_faces, corner_vertices
+from ..bridge.mesh.attributes import corner_vertices
+from ..bridge.mesh.known import corner_faces
 from ..bridge.mesh.points import is_cloud, positions_of
 
 # Clicks in other modes paint, sculpt or pose.

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
 from ....core.geometry.mesh import TriangleMesh
+from ..mesh.attributes import vertex_positions
 from ..mesh.corner_normals import give_back_normals, keep_normals
-from ..mesh.known import vertex_positions
 from ..read.stretching import stretched, unstretched
 
 # Layers of faces while they are cut: the number of the whole face, that of the triangle

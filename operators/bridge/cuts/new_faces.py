@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
-from ..mesh.attributes import FloatArray, read_floats
-from ..mesh.known import vertex_positions
+from ..mesh.attributes import FloatArray, read_floats, vertex_positions
 from ..stored.names import WHOLE_MESH
 from .cut_mesh import CutMesh
 from .whole_mesh import (

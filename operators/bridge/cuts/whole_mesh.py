@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..mesh.attributes import (
     IntArray,
+    corner_vertices,
     read_floats,
     read_ints,
     read_labels,
@@ -24,7 +25,6 @@ from ..mesh.attributes import (
 )
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
-from ..mesh.known import corner_vertices
 from ..mesh.seams import BLENDERS_LAYERS, unmark_seams, users_seams
 from ..parts.slots import bare_materials
 from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH

@@ -16,7 +16,7 @@ from ....core.geometry.primitives import CollisionShape
 from ....core.parameters.hulls import HullParameters
 from ....core.results.hulls import HullDecomposition
 from ..homes import hand_over, within_parent
-from ..mesh.known import vertex_positions
+from ..mesh.attributes import vertex_positions
 from ..parts.materials import discard, hull_material, none_missing
 from ..parts.read import FoundParts, find_parts_on, materials_of
 from ..read.shape import stretch

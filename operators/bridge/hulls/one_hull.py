@@ -18,7 +18,7 @@ from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
 from ....core.steps.progress import Steps
 from ..homes import within_parent
-from ..mesh.known import vertex_positions
+from ..mesh.attributes import vertex_positions
 from ..read.evaluated import read_as
 from ..read.shape import read_shape, scene_unit, stretch
 from ..read.stretching import stretched

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+import bpy
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
@@ -117,6 +118,32 @@ def write_attribute(
         attribute = data.attributes.new(name, kind, domain)
     write = write_ints if "INT" in kind else write_floats
     write(attribute.data, _FIELDS[kind][0], values)
+
+
+def vertex_positions(mesh: bpy.types.Mesh) -> FloatArray:
+    """Return the positions of the vertices, (V, 3)."""
+    places = mesh.attributes.get("position")
+    if places is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_floats(mesh.vertices, "co", 3)
+    return read_floats(places.data, "vector", 3)  # a hundred times faster
+
+
+def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
+    """Return the vertex of each corner, (C,)."""
+    return _of_corners(mesh, ".corner_vert", "vertex_index")
+
+
+def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
+    """Return the edge from each corner to the next one of its face, (C,)."""
+    return _of_corners(mesh, ".corner_edge", "edge_index")
+
+
+def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:
+    """Return an attribute of the corners, or the property with the same numbers."""
+    corners = mesh.attributes.get(attribute)
+    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
+        return read_ints(mesh.loops, name)
+    return read_ints(corners.data, "value")  # a hundred times faster
 
 
 def _read(elements: Any, name: str, width: int, dtype: DTypeLike) -> NDArray[Any]:

@@ -13,16 +13,8 @@ from numpy.typing import NDArray
 from ....core.steps.memo import digest
 from ....core.steps.progress import Progress, Steps, run, within
 from ....core.steps.rows import blocks
-from .attributes import FloatArray
-from .known import (
-    SLOW,
-    corner_faces,
-    corner_vertices,
-    face_areas,
-    face_centers,
-    finite,
-    latest_of,
-)
+from .attributes import FloatArray, corner_vertices
+from .known import SLOW, corner_faces, face_areas, face_centers, finite, latest_of
 from .points import is_cloud, vertices_now
 
 # Bytes for which vertices each label has: all labels at once are quicker.

@@ -13,13 +13,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import BoolArray, IntArray
-from .known import corner_faces, of_corners
-
-
-def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
-    """Return the edge from each corner to the next one of its face, (C,)."""
-    return of_corners(mesh, ".corner_edge", "edge_index")
+from .attributes import BoolArray, corner_edges
+from .known import corner_faces
 
 
 def edge_sides(

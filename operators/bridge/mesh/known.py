@@ -13,7 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.steps.progress import Progress, Steps, as_steps, run
-from .attributes import FloatArray, IntArray, read_floats, read_ints
+from .attributes import (
+    FloatArray,
+    IntArray,
+    corner_vertices,
+    read_floats,
+    read_ints,
+    vertex_positions,
+)
 from .triangles import Asked, ask, cut_in_steps
 
 Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
@@ -146,19 +153,6 @@ def forget() -> None:
     _latest = None
 
 
-def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
-    """Return the vertex of each corner, (C,)."""
-    return of_corners(mesh, ".corner_vert", "vertex_index")
-
-
-def of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:
-    """Return an attribute of the corners, or the property with the same numbers."""
-    corners = mesh.attributes.get(attribute)
-    if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode
-        return read_ints(mesh.loops, name)
-    return read_ints(corners.data, "value")  # a hundred times faster
-
-
 def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[Any]:
     """Return an array of `SLOW`, which is kept for the next time if it may be."""
     known = latest_of(mesh)
@@ -176,14 +170,6 @@ def _faces_of_triangles(mesh: bpy.types.Mesh) -> IntArray:
     """Return the face of each triangle, (T,)."""
     mesh.calc_loop_triangles()
     return read_ints(mesh.loop_triangle_polygons, "value")
-
-
-def vertex_positions(mesh: bpy.types.Mesh) -> FloatArray:
-    """Return the positions of the vertices, (V, 3)."""
-    places = mesh.attributes.get("position")
-    if places is None or mesh.is_editmode:  # attributes look empty in Edit Mode
-        return read_floats(mesh.vertices, "co", 3)
-    return read_floats(places.data, "vector", 3)  # a hundred times faster
 
 
 def finite(figures: FloatArray) -> FloatArray:

@@ -13,11 +13,12 @@ import numpy as np
 from .attributes import (
     FloatArray,
     IntArray,
+    corner_vertices,
     read_attribute,
     write_attribute,
     write_floats,
 )
-from .known import corner_faces, corner_vertices
+from .known import corner_faces
 from .points import is_cloud
 
 

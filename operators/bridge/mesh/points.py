@@ -9,8 +9,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from .attributes import FloatArray, read_attribute, read_floats
-from .known import vertex_positions
+from .attributes import FloatArray, read_attribute, read_floats, vertex_positions
 
 # Names that programs and importers give to attributes with normals.
 _NORMALS = ("normal", "Normal", "normals", "Normals", "custom_normal", "N")

@@ -13,9 +13,16 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import BoolArray, IntArray, read_flags, read_ints, write_flags
-from .corners import corner_edges
-from .known import corner_faces, corner_vertices
+from .attributes import (
+    BoolArray,
+    IntArray,
+    corner_edges,
+    corner_vertices,
+    read_flags,
+    read_ints,
+    write_flags,
+)
+from .known import corner_faces
 from .layers import flush_edits
 
 

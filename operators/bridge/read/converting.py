@@ -16,8 +16,7 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ....core.errors import DecompositionError
-from ..mesh.attributes import read_ints
-from ..mesh.known import corner_vertices, vertex_positions
+from ..mesh.attributes import corner_vertices, read_ints, vertex_positions
 from ..refusals import CONVERTIBLE
 
 # What to do about an object that gives no faces, by its type.

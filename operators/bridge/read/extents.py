@@ -6,8 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import FloatArray
-from ..mesh.known import vertex_positions
+from ..mesh.attributes import FloatArray, vertex_positions
 from ..stored.record import EVALUATED
 from .evaluated import which_mesh
 from .shown_mesh import differs

@@ -13,7 +13,8 @@ from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
 from ....core.geometry.shape import Shape
 from ....core.steps.progress import Progress, Steps, as_steps, run
-from ..mesh.known import triangles_in_steps, vertex_positions
+from ..mesh.attributes import vertex_positions
+from ..mesh.known import triangles_in_steps
 from ..mesh.layers import flush_edits
 from ..mesh.points import is_cloud, normals_of, positions_of
 from .converting import lent_mesh

@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray
-from ..mesh.known import corner_faces, corner_vertices
+from ..mesh.attributes import IntArray, corner_vertices
+from ..mesh.known import corner_faces
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import is_cloud
 from .names import PART_LAYER, RESTORE

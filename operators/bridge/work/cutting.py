@@ -17,7 +17,7 @@ from ..cuts.beside_faces import bound_modifier, sculpted_details
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
 from ..cuts.whole_mesh import is_cut, whole_mesh_of
-from ..mesh.known import vertex_positions
+from ..mesh.attributes import vertex_positions
 from ..parts.write import check_writable
 from ..read.evaluated import SeenMesh
 from ..read.reading_notes import reading_notes

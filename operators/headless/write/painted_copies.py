@@ -18,6 +18,7 @@ from ....core.errors import DecompositionError
 from ...bridge.mesh.attributes import (
     FloatArray,
     IntArray,
+    corner_vertices,
     read_floats,
     read_ints,
     read_labels,
@@ -25,7 +26,7 @@ from ...bridge.mesh.attributes import (
     write_floats,
     write_ints,
 )
-from ...bridge.mesh.known import corner_faces, corner_vertices
+from ...bridge.mesh.known import corner_faces
 from ...bridge.mesh.points import count_points, is_cloud, positions_of
 from ...bridge.parts.palette import UNPAINTED
 from ...bridge.parts.read import find_parts_on

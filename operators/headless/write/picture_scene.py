@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from .... import core
 from ....core.geometry.frames import moved
-from ...bridge.mesh.attributes import write_ints
-from ...bridge.mesh.known import corner_vertices
+from ...bridge.mesh.attributes import corner_vertices, write_ints
 from ...bridge.mesh.points import is_cloud, normals_of, positions_of, read_vectors
 from ...bridge.parts.materials import discard_unused, our_materials, own_materials
 from ...bridge.parts.read import find_parts_on

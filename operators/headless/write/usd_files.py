@@ -14,8 +14,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...bridge.mesh.attributes import read_floats, read_ints
-from ...bridge.mesh.known import corner_vertices, vertex_positions
+from ...bridge.mesh.attributes import (
+    corner_vertices,
+    read_floats,
+    read_ints,
+    vertex_positions,
+)
 from ...bridge.mesh.points import is_cloud, positions_of
 from ...bridge.views.face_sets_and_colors import point_colors
 from ..shear import has_shear, shear_in_meshes, without_shear
