@@ -6,35 +6,18 @@ A custom property of the cut mesh points to it, so that Blender saves it.
 
 from __future__ import annotations
 
-import json
-from hashlib import blake2b
-from typing import Any
-
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import (
-    IntArray,
-    corner_vertices,
-    read_floats,
-    read_ints,
-    read_labels,
-    values_of,
-    write_attribute,
-)
+from ..mesh.attributes import IntArray, read_labels, write_attribute
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
-from ..mesh.seams import BLENDERS_LAYERS, unmark_seams, users_seams
-from ..parts.slots import bare_materials
-from ..stored.names import CUT_STATE, FACE_SETS, WHOLE_LAYER, WHOLE_MESH
+from ..mesh.seams import unmark_seams
+from ..stored.names import CUT_STATE, WHOLE_LAYER, WHOLE_MESH
 from ..stored.record import beside_parts, record_of, write_record
-from ..stored.restore import read_restore, sharers
-from .beside_faces import has_work_beside_faces
-
-# Beginnings of the names of attributes that are no edits: ours, and what is selected or
-# hidden.
-_PASSING = ("wcd_", ".select", ".hide", ".uv_select", ".vs.", ".es.", ".pn.")
+from ..stored.restore import sharers
+from .users_work import face_state, has_work_beside_faces
 
 
 def whole_mesh_of(obj: bpy.types.Object) -> bpy.types.Mesh:
@@ -55,7 +38,7 @@ def edited_since_cut(obj: bpy.types.Object) -> bool:
     """Return whether the user edited a mesh after its faces were cut."""
     if not is_cut(obj):
         return False
-    if obj.data.get(CUT_STATE) != _state_of(obj):
+    if obj.data.get(CUT_STATE) != face_state(obj):
         return True
     return has_work_beside_faces(obj, obj.data[WHOLE_MESH])
 
@@ -70,7 +53,7 @@ def whole_faces(obj: bpy.types.Object) -> IntArray:
 def note_whole(obj: bpy.types.Object, faces: NDArray[np.int64]) -> None:
     """Note the whole face of each face, and the state, of an object without parts."""
     write_attribute(obj.data, WHOLE_LAYER, "INT", "FACE", faces)
-    obj.data[CUT_STATE] = _state_of(obj)
+    obj.data[CUT_STATE] = face_state(obj)
 
 
 def forget_whole(mesh: bpy.types.Mesh) -> None:
@@ -157,47 +140,3 @@ def _copy_key_values(former: bpy.types.Mesh, mesh: bpy.types.Mesh) -> None:
             there = former.shape_keys.key_blocks.get(key.name)
             if there is not None and there.value != key.value:
                 key.value = there.value
-
-
-def _state_of(obj: bpy.types.Object) -> str:
-    """Return a digest of what the user could have edited on the faces of a mesh."""
-    mesh, restore = obj.data, read_restore(obj.data)
-    digest = blake2b(digest_size=16)
-
-    def add(name: str, values: Any) -> None:
-        digest.update(name.encode())
-        digest.update(np.ascontiguousarray(values).tobytes())
-
-    add("faces", read_ints(mesh.polygons, "loop_total"))
-    add("corners", corner_vertices(mesh))
-    add("edges", read_ints(mesh.edges, "vertices", 2))
-    add("seams", () if mesh.is_editmode else users_seams(mesh))
-    for attribute in sorted(mesh.attributes, key=lambda each: each.name):
-        if attribute.name.startswith(_PASSING):
-            continue
-        if attribute.name in {"material_index", FACE_SETS, *BLENDERS_LAYERS}:
-            continue
-        values = values_of(attribute)
-        if np.any(values):  # Edit Mode drops layers without any value
-            add(f"{attribute.name} {attribute.domain}", values)
-    indices, names = bare_materials(obj, restore)
-    if indices is not None and indices.any():
-        add("materials", indices)
-    groups = [g.name for g in obj.vertex_groups]
-    ours = set(restore.groups) if restore else set()
-    users = [name for name in groups if name not in ours]
-    weights = [
-        (vertex.index, groups[g.group], g.weight)
-        for vertex in mesh.vertices
-        for g in vertex.groups
-        if g.group < len(groups) and groups[g.group] not in ours
-    ]
-    for key in getattr(mesh.shape_keys, "key_blocks", ()):
-        add(key.name, read_floats(key.data, "co", 3))
-    noted = {
-        key: str(value.to_dict() if hasattr(value, "to_dict") else value)
-        for key, value in mesh.items()
-        if not key.startswith("wcd")
-    }
-    digest.update(json.dumps([names, users, weights, noted]).encode())
-    return digest.hexdigest()

@@ -13,9 +13,9 @@ from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
 from ....core.steps.progress import Progress, Steps, within
-from ..cuts.beside_faces import bound_modifier, sculpted_details
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
+from ..cuts.users_work import bound_modifier, sculpted_details
 from ..cuts.whole_mesh import is_cut, whole_mesh_of
 from ..mesh.attributes import vertex_positions
 from ..parts.write import check_writable

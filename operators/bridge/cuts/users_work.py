@@ -1,20 +1,39 @@
-"""What the user did to a cut mesh beside its geometry, and whole faces would lose.
+"""What the user did to a cut mesh, and whole faces would lose.
 
-It is compared with the mesh with the whole faces, which nobody edits.
+A digest of what is on the faces is noted when they are cut. The rest is compared with
+the mesh with the whole faces, which nobody edits.
 """
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator
+from hashlib import blake2b
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ..mesh.attributes import read_labels
+from ..mesh.attributes import (
+    IntArray,
+    corner_vertices,
+    read_floats,
+    read_ints,
+    read_labels,
+    values_of,
+)
 from ..mesh.layers import ObjectModeLayers
+from ..mesh.seams import BLENDERS_LAYERS, users_seams
+from ..parts.slots import bare_materials
 from ..stored.names import FACE_SETS, WHOLE_LAYER
+from ..stored.restore import read_restore
 from ..views.face_sets_and_colors import users_face_sets
 
+# Beginnings of the names of attributes that are no edits: ours, and what is selected or
+# hidden.
+_PASSING = ("wcd_", ".select", ".hide", ".uv_select", ".vs.", ".es.", ".pn.")
+# Names of others that are none, or are compared in another way.
+_APART = {"material_index", FACE_SETS, *BLENDERS_LAYERS}
 # The types of modifiers that keep something by the numbers of vertices or faces. How
 # they tell that they do, and the object whose mesh it is, if it is another one's.
 _BOUND = {
@@ -23,6 +42,60 @@ _BOUND = {
     "LAPLACIANDEFORM": ("is_bind", ""),
     "CORRECTIVE_SMOOTH": ("is_bind", ""),
 }
+
+
+def face_state(obj: bpy.types.Object) -> str:
+    """Return a digest of what the user could have edited on the faces of a mesh."""
+    digest = blake2b(digest_size=16)
+    indices, materials = bare_materials(obj, read_restore(obj.data))
+    for name, values in _arrays(obj.data, indices):
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(values).tobytes())
+    digest.update(json.dumps([materials, *_named(obj)]).encode())
+    return digest.hexdigest()
+
+
+def _arrays(
+    mesh: bpy.types.Mesh, indices: IntArray | None
+) -> Iterator[tuple[str, Any]]:
+    """Yield arrays that the user could have edited, with their names.
+
+    The `indices` are those of the user's materials.
+    """
+    yield "faces", read_ints(mesh.polygons, "loop_total")
+    yield "corners", corner_vertices(mesh)
+    yield "edges", read_ints(mesh.edges, "vertices", 2)
+    yield "seams", () if mesh.is_editmode else users_seams(mesh)
+    for attribute in sorted(mesh.attributes, key=lambda each: each.name):
+        if attribute.name in _APART or attribute.name.startswith(_PASSING):
+            continue
+        values = values_of(attribute)
+        if np.any(values):  # Edit Mode drops layers without any value
+            yield f"{attribute.name} {attribute.domain}", values
+    if indices is not None and indices.any():
+        yield "materials", indices
+    for key in getattr(mesh.shape_keys, "key_blocks", ()):
+        yield key.name, read_floats(key.data, "co", 3)
+
+
+def _named(obj: bpy.types.Object) -> list[Any]:
+    """Return the user's groups, weights and custom properties."""
+    mesh, restore = obj.data, read_restore(obj.data)
+    groups = [g.name for g in obj.vertex_groups]
+    ours = set(restore.groups) if restore else set()
+    users = [name for name in groups if name not in ours]
+    weights = [
+        (vertex.index, groups[g.group], g.weight)
+        for vertex in mesh.vertices
+        for g in vertex.groups
+        if g.group < len(groups) and groups[g.group] not in ours
+    ]
+    noted = {
+        key: str(value.to_dict() if hasattr(value, "to_dict") else value)
+        for key, value in mesh.items()
+        if not key.startswith("wcd")
+    }
+    return [users, weights, noted]
 
 
 def has_work_beside_faces(obj: bpy.types.Object, whole: bpy.types.Mesh) -> bool:
