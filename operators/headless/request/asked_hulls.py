@@ -73,6 +73,8 @@ def useless_options(
     )
     useless = [(names, without) for is_so, names, without in rules if is_so and names]
     named = {name for names, _ in useless for name in names}
+    if values["pieces"] == "PARTS" and ".blend" in (i.suffix.lower() for i in inputs):
+        named.add("max_vertices")  # parts there may have shapes of their own
     useless += _without_another(given.keys() - named, values)
     return tuple(f"{_options(names)} {without}." for names, without in useless)
 

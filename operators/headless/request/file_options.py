@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +26,21 @@ class _Once(argparse.Action):
         setattr(namespace, self.dest, values)
 
 
-def _path(text: str) -> Path:
-    """Return a path; that of an empty text would be the folder of the user."""
+def _name(text: str) -> str:
+    """Return the name of a file, as it is given; paths drop what shows that it is none.
+
+    The path of an empty text is the folder of the user.
+    """
     if not text:
         raise argparse.ArgumentTypeError("it is empty; name a file")
-    return Path(text)
+    if text.endswith(("/", os.sep)):
+        raise argparse.ArgumentTypeError(f"{text} is a folder; name a file")
+    return text
+
+
+def _path(text: str) -> Path:
+    """Return the path of a file."""
+    return Path(_name(text))
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
@@ -66,16 +77,22 @@ def _add_outputs(files: argparse._ArgumentGroup) -> None:
         "--output",
         metavar="OUTPUT",
         action=_Once,
+        type=_name,
         help="write the model with its parts",
     )
     files.add_argument(
         "--picture",
         metavar="PICTURE.png",
         action=_Once,
+        type=_name,
         help="write a picture of the parts, seen from the front and the back",
     )
     files.add_argument(
-        "--hulls", metavar="HULLS", action=_Once, help="write collision hulls"
+        "--hulls",
+        metavar="HULLS",
+        action=_Once,
+        type=_name,
+        help="write collision hulls",
     )
     files.add_argument(
         "--hulls-format",

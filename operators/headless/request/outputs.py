@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from ..formats import (
 )
 
 _NAME = "{name}"
+_FIELD = re.compile(r"\{[a-z]+\}", re.IGNORECASE)
 # Standard input among the inputs, standard output for the report.
 STANDARD_STREAM = Path("-")
 
@@ -124,6 +126,12 @@ def _resolved(
         return [None] * len(inputs)
     if Path(pattern).suffix.lower() not in endings:
         raise DecompositionError(f"{option} has to end in one of {' '.join(endings)}.")
+    unknown = set(_FIELD.findall(pattern)) - {_NAME}
+    if unknown:
+        raise DecompositionError(
+            f"{option} has {min(unknown)} in it; write {_NAME}, which stands for the"
+            " name of each input, or leave it out."
+        )
     if len(inputs) > 1 and _NAME not in pattern:
         raise DecompositionError(
             f"{option} needs {_NAME} in it, which stands for the name of each input,"

@@ -24,13 +24,18 @@ ANGLES = "--cone-angle, --psi-pairs change nothing without --sight cone."
         ("--hulls=b.glb --max-error=.1", ()),
         ("--hulls=b.glb --pieces=parts --max-error=.1", ("--max-error changes",)),
         ("--hulls=b.glb --shape=box --max-vertices=9", ("--max-vertices changes",)),
+        ("b.blend --hulls={name}.obj --pieces=parts --shape=box --max-vertices=9", ()),
+        (
+            "b.blend --hulls={name}.obj --shape=box --max-vertices=9",
+            ("--max-vertices",),
+        ),
         ("--hulls=b.glb --cone-angle=50", ("--cone-angle changes nothing for hulls",)),
     ],
 )
 def test_options_that_need_another_value_of_another(options, notes):
-    words = ["a.off", "--output=a.glb", *options.split()]
+    words = ["a.off", *options.split(), "--output={name}.glb"]
     if "for hulls" in "".join(notes):
-        words.remove("--output=a.glb")
+        words.remove("--output={name}.glb")
     found = parse(words, "wcd").notes
     assert len(found) == len(notes)
     assert all(map(str.startswith, found, notes))
@@ -68,6 +73,10 @@ def test_objects_that_keep_their_parts_are_named(tmp_path, capsys, option, is_na
         ("--output=a.glb --output=a.glb", "argument --output: it is given twice"),
         ("--report r.json --report=-", "argument --report: it is given twice"),
         ("--report o/{name}.json", "leave {name} out of --report"),
+        ("--output={Name}.glb", "--output has {Name} in it; write {name}"),
+        ("--hulls={stem}_{name}.glb", "--hulls has {stem} in it; write {name}"),
+        ("--output=a.glb/", "argument --output: a.glb/ is a folder; name a file"),
+        ("--report=r.json/", "argument --report: r.json/ is a folder; name a file"),
     ],
 )
 def test_outputs_are_not_dropped_or_named_by_chance(options, sentence, capsys):
