@@ -34,10 +34,8 @@ def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
 
 def explode(obj: bpy.types.Object, distance: float) -> None:
     """Move the parts of an object away from its center; its mesh stays as it is."""
-    modifier = exploding(obj)
-    if modifier is None:
-        modifier = tagged_modifier(obj, EXPLODE_TAG)
-        modifier = modifier or obj.modifiers.new(_NAME, "NODES")
+    modifier = tagged_modifier(obj, EXPLODE_TAG) or obj.modifiers.new(_NAME, "NODES")
+    if exploding(obj) is None:
         modifier.node_group = _node_group()
     owner, path = slider(modifier)
     if path == "value":
