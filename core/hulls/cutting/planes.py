@@ -68,7 +68,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         yield Progress("Cutting", turn / len(directions))
         ordered, heights, chords = sketch.along(direction)
         low, high = heights[[0, -1]]
-        offsets = np.linspace(low, high, _PLANES + 2)[1:-1]
+        offsets = _off_faces(np.linspace(low, high, _PLANES + 2)[1:-1], heights)
         first = ordered.added_volumes(heights, chords, offsets)
         # Rounded, so that noise does not decide between equal planes. Flat faces may
         # lie between the evenly spaced planes, so their levels are tried too.
@@ -79,7 +79,8 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         near = levels[np.abs(levels.mean(axis=1) - best) < step][:_MOST_LEVELS]
         flat = _flat_levels(levels if is_block else near, heights)
         beside = np.concatenate([near, flat]) + _BESIDE
-        others = np.union1d(best + _BETWEEN * step, beside)
+        between = _off_faces(best + _BETWEEN * step, heights)
+        others = np.union1d(between, beside)
         second = ordered.added_volumes(heights, chords, others)
         offsets = np.concatenate([offsets, others])
         volumes, flush = np.concatenate([first, second]), flat + _BESIDE
@@ -182,6 +183,20 @@ def _sketch_of(cell: Cell) -> _Sketch:
 def _with_thickness(cell: Cell, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return points of a piece, those of a sheet as thick as its hull."""
     return thickened(points, THIN) if cell.is_sheet else points
+
+
+def _off_faces(
+    offsets: NDArray[np.float64], heights: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return offsets (K,) of planes, with two beside each plane that points lie on.
+
+    Rounding would decide on which side these points are. `heights` are those of all
+    points, ascending.
+    """
+    beside = offsets[:, None] + _BESIDE
+    ends = np.searchsorted(heights, offsets[:, None] + _BESIDE / 2)
+    clear = ends[:, 0] == ends[:, 1]
+    return np.sort(np.concatenate([offsets[clear], beside[~clear].ravel()]))
 
 
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -65,6 +65,16 @@ def test_rounding_of_turned_blocks_does_not_matter(turn):
     assert build_hulls(mesh, HullParameters(max_error=0.002)).n_hulls == 2
 
 
+@pytest.mark.parametrize("noise", [0, 1e-15])
+def test_rounding_of_faces_on_evenly_spaced_planes_does_not_matter(noise):
+    # Two tetrahedra; the plane between them is four fifths of the way along its normal.
+    corners = np.array([(0, 0, 0), (5, 1, 0), (0, 2, 0), (1, 1, 0), (0, 1, 3)], float)
+    corners += noise * np.random.default_rng(1).standard_normal((5, 3))
+    faces = [(0, 3, 1), (1, 3, 2), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+    found = build_hulls(shapes.mesh_of(corners, faces), HullParameters())
+    assert found.n_hulls == 2
+
+
 def test_faces_halfway_are_cut_along():
     stem, bar = ((1, 2), (0, 1), (0, 2)), ((0, 4), (0, 1), (2, 4))
     t_shape = shapes.blocks((4, 1, 4), stem, bar)
