@@ -10,7 +10,28 @@ from numpy.typing import NDArray
 # Heights of points above planes computed at once: more fit into no processor's cache.
 HEIGHTS_AT_ONCE = 100_000
 
+# Decimal digits of what processors and libraries, which round differently, agree on.
+_SURE_DIGITS = 10
+
 Real = TypeVar("Real", np.float32, np.float64)
+
+
+def settled(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return numbers rounded so far that they are the same on any processor.
+
+    Later steps tell equal ones apart, or take sides of a plane: a last digit would
+    decide.
+
+    Parameters
+    ----------
+    numbers : (...) float
+        Where the longest side of the shape is 2.
+
+    Returns
+    -------
+    (...) float
+    """
+    return np.round(numbers, _SURE_DIGITS)
 
 
 def unit(vectors: NDArray[Real]) -> NDArray[Real]:
@@ -155,9 +176,31 @@ def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.linalg.eigh(spread.T @ spread)[1].T
 
 
+def coordinates_along(
+    directions: NDArray[Real], points: NDArray[Real]
+) -> NDArray[Real]:
+    """Return the coordinates of points along directions, to the bit on any processor.
+
+    Matrix products are rounded as the processor likes, and the last digit decides on
+    which side of a plane points in it are.
+
+    Parameters
+    ----------
+    directions : (D, 3) float32 or float64
+    points : (..., 3) of the same dtype
+
+    Returns
+    -------
+    (..., D) of the same dtype
+    """
+    x, y, z = np.moveaxis(points, -1, 0)[..., None]
+    across, up, out = directions.T
+    return x * across + y * up + z * out
+
+
 def moved(points: NDArray[Real], matrix: NDArray[Real]) -> NDArray[Real]:
     """Return points, (..., 3), moved by a matrix (4, 4) from their space to another."""
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
+    return coordinates_along(matrix[:3, :3], points) + matrix[:3, 3]
 
 
 def heights_above(
@@ -169,13 +212,13 @@ def heights_above(
     ----------
     planes : (P, 4) float
         Unit normal n and offset d of each plane.
-    points : (M, 3) float
+    points : (..., 3) float
 
     Returns
     -------
-    (M, P) float
+    (..., P) float
     """
-    return points @ planes[:, :3].T + planes[:, 3]
+    return coordinates_along(planes[:, :3], points) + planes[:, 3]
 
 
 def with_normals(

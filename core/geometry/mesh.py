@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -126,8 +127,7 @@ class TriangleMesh:
     @cached_property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal, in the units of the object."""
-        low, high = self.bounds
-        return float(np.linalg.norm(high - low))
+        return math.dist(*self.bounds)
 
     def normalized_in_steps(self) -> Steps[TriangleMesh]:
         """Return the mesh centered at the origin, with a bounding box of diagonal 1.

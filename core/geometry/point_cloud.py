@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -85,7 +86,7 @@ class PointCloud:
     @property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal, in the units of the object."""
-        return float(np.linalg.norm(np.ptp(self.points, axis=0)))
+        return math.dist(self.points.min(axis=0), self.points.max(axis=0))
 
     @property
     def plane(self) -> NDArray[np.float64] | None:

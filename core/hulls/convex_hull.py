@@ -9,7 +9,13 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-from ..geometry.frames import HEIGHTS_AT_ONCE, heights_above, principal_axes
+from ..geometry.frames import (
+    HEIGHTS_AT_ONCE,
+    coordinates_along,
+    heights_above,
+    principal_axes,
+    settled,
+)
 from ..geometry.primitives import Hull
 from ..steps.rows import blocks
 
@@ -82,10 +88,10 @@ def thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
         Two for each point of flat ones.
     """
     center = points.mean(axis=0)
-    for axis in principal_axes(points):
-        heights = (points - center) @ axis
+    for axis in settled(principal_axes(points)):
+        heights = coordinates_along(axis[None], points - center)
         if np.ptp(heights) < thin:
-            flat = points - heights[:, None] * axis
+            flat = points - heights * axis
             points = np.concatenate([flat + thin / 2 * axis, flat - thin / 2 * axis])
     return points
 
@@ -211,5 +217,5 @@ def _tetrahedron(points: NDArray[np.float64]) -> list[int]:
         lengths = np.linalg.norm(offsets, axis=1)
         rows.append(int(lengths.argmax()))
         direction = offsets[rows[-1]] / lengths.max()
-        offsets = offsets - np.outer(offsets @ direction, direction)
+        offsets = offsets - coordinates_along(direction[None], offsets) * direction
     return rows

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..geometry.frames import settled
 from ..geometry.mesh import TriangleMesh
 from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
@@ -194,7 +195,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         rows[samples.triangles],
         chords,
         volumes,
-        float(np.sqrt(surface.areas.sum() / _SAMPLES)),
+        float(settled(np.sqrt(surface.areas.sum() / _SAMPLES))),
         closed,
         overlap,
     )

@@ -90,7 +90,9 @@ def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
         heights_above(plane[None], places)[:, 0]
         for places in (cell.points, cell.boundary, cell.chords)
     ]
-    below, above = [each <= 0 for each in heights], [each >= 0 for each in heights]
+    below = [each <= 0 for each in heights]
+    # Points in the plane are on both sides, but volumes count once.
+    above = [*(each >= 0 for each in heights[:2]), ~below[2]]
     return _side(cell, plane, below, rim, face), _side(cell, -plane, above, rim, face)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.frames import settled
 from ...steps.progress import Progress, Steps, within
 from ..cost import cost_of_sides
 from ..enclosing.shapes import roughly_around
@@ -196,7 +197,7 @@ def _middle(cell: Cell) -> NDArray[np.float64]:
     """Return the plane across the longest side of a piece's box, (1, 4)."""
     box = roughly_around(cell.hull, "BOX")
     normal = box.axes[np.round(box.sizes, 6).argmax()]
-    return np.append(normal, -normal @ box.center)[None]
+    return settled(np.append(normal, -normal @ box.center)[None])
 
 
 def _distinct(planes: NDArray[np.float64]) -> Iterator[NDArray[np.float64]]:

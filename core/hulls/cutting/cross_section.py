@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import cross, frames, heights_above
+from ...geometry.frames import coordinates_along, cross, frames, heights_above
 from ..solid import Solid
 
 # Distance between the sample points of a cross-section; the longest side is 2.
@@ -36,7 +36,7 @@ def contour(
         Start and end of each segment. The inside of the shape is on its left, seen
         from the side that n points to.
     """
-    heights = corners @ plane[:3] + plane[3]
+    heights = heights_above(plane[None], corners)[..., 0]
     under = heights <= 0
     n_under = under.sum(axis=1)
     met = np.flatnonzero((n_under > 0) & (n_under < 3))
@@ -111,14 +111,15 @@ class Section:
         -------
         (M, 3) float
         """
-        flat = within @ self.axes.T
+        flat = coordinates_along(self.axes, within)
         steps = [
             np.arange(low + 0.39 * _GRAIN, high, _GRAIN)
             for low, high in zip(flat.min(axis=0), flat.max(axis=0), strict=True)
         ]
         columns, rows = np.nonzero(_is_inside(self.segments, *steps).T)
-        spots = np.stack([steps[0][columns], steps[1][rows]], axis=1)
-        return spots @ self.axes - self.plane[3] * self.plane[:3]
+        across, up = steps[0][columns, None], steps[1][rows, None]
+        (right, top), normal = self.axes, self.plane[:3]
+        return across * right + up * top - self.plane[3] * normal
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Return which points of the plane are inside the cross-section.
@@ -132,7 +133,7 @@ class Section:
         (M,) bool
             False where the contour is open on the point's line along the first axis.
         """
-        across, up = (points @ self.axes.T).T[..., None]
+        across, up = coordinates_along(self.axes, points).T[..., None]
         (x0, y0), (x1, y1) = self.segments.transpose(1, 2, 0)
         turns = (y1 > up).astype(np.int64) - (y0 > up)
         rise = np.where(y1 == y0, 1.0, y1 - y0)
@@ -156,7 +157,7 @@ def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
     """
     axes = np.concatenate(frames(plane[None, :3]))
     rim = contour(solid.corners, plane)
-    return Section(plane, axes, rim, rim @ axes.T)
+    return Section(plane, axes, rim, coordinates_along(axes, rim))
 
 
 def lines_of(
@@ -200,7 +201,7 @@ def meeting_points(
         The plane that cuts it.
     """
     ways, moments = lines
-    falls = ways @ plane[:3]
+    falls = coordinates_along(plane[None, :3], ways)[:, 0]
     firm = np.abs(falls) > _PARALLEL
     ways, moments, falls = ways[firm], moments[firm], falls[firm, None]
     normals = np.broadcast_to(plane[:3], ways.shape)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import principal_axes
+from ...geometry.frames import principal_axes, settled
 from ...steps.progress import Progress, Steps
 from ..convex_hull import THIN, thickened
 from .cell import Cell
@@ -79,8 +79,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         near = levels[np.abs(levels.mean(axis=1) - best) < step][:_MOST_LEVELS]
         flat = _flat_levels(levels if is_block else near, heights)
         beside = np.concatenate([near, flat]) + _BESIDE
-        between = _off_faces(best + _BETWEEN * step, heights)
-        others = np.union1d(between, beside)
+        others = np.union1d(_off_faces(best + _BETWEEN * step, heights), beside)
         second = ordered.added_volumes(heights, chords, others)
         offsets = np.concatenate([offsets, others])
         volumes, flush = np.concatenate([first, second]), flat + _BESIDE
@@ -94,7 +93,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     volumes = np.concatenate(added)
     shortened = np.round(np.concatenate(gains), _DIGITS)
     order = np.lexsort((-shortened, np.round(volumes, _DIGITS)))
-    return np.concatenate(planes)[order[np.isfinite(volumes)[order]]]
+    return settled(np.concatenate(planes)[order[np.isfinite(volumes)[order]]])
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.frames import settled
 from ...geometry.primitives import CollisionShape
 from .holes import HoleEdges
 from .line_crossings import TURNS, LineCrossings, as_seen, in_order
@@ -16,7 +17,7 @@ from .shape_chords import chord_in
 # Axes of the lines, turned so that they run along no edge and no face of most models.
 # They are part of what is meant by the inside of an open mesh.
 AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
-AXES *= np.sign(np.linalg.det(AXES))
+AXES = settled(AXES * np.sign(np.linalg.det(AXES)))
 # Lines through a collision shape along the longer side of its bounding box.
 _LINES = 40
 # Factor by which volumes are raised, for what lies between the lines: it raises the

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...geometry.cutting.halving import edge_lengths, halved
+from ...geometry.frames import settled
 
 # Patches looked at in one round; with more to halve, the highest ones go first.
 _MOST_PATCHES = 60_000
@@ -80,7 +81,7 @@ class PatchSearch:
             corners = _smaller(self._corners[rows], self._high[rows])
             low, high = bounds_of(corners, level)
             if low.max() > max(self._reached, enough):
-                self.place = corners[[low.argmax()]].mean(axis=1)
+                self.place = corners[[settled(low).argmax()]].mean(axis=1)
             self._reached = max(self._reached, float(low.max()))
             others = np.delete(self._corners, rows, axis=0)
             self._corners = np.concatenate([others, corners])
