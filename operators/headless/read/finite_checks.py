@@ -6,6 +6,8 @@ Blender's importers make them 0.
 from __future__ import annotations
 
 import re
+import zlib
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,22 +26,32 @@ _ANY_SUSPECT = re.compile(_SUSPECT, re.IGNORECASE)
 _BEHIND = rb"[ \t]([^#\n]*?" + _SUSPECT + rb"[^#\n]*)"
 _IN_OBJ = re.compile(rb"^[ \t]*v" + _BEHIND, re.IGNORECASE | re.MULTILINE)
 _IN_STL = re.compile(rb"^[ \t]*vertex" + _BEHIND, re.IGNORECASE | re.MULTILINE)
+# Vertices in .fbx: in text form, and before their bytes in binary form.
+_IN_FBX = re.compile(rb"\bVertices:(?:[^{}:]*\{\s*a:)?([^:}]*)")
+_FBX_ARRAY = re.compile(rb"\x08Vertices([df])(.{12})", re.DOTALL)
 _STL_TRIANGLE = np.dtype(
     [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 )
 
 
 def check_finite(path: Path) -> None:
-    """Check that all coordinates in an .obj, .stl or .ply file are finite.
+    """Check that all coordinates of vertices in a file are finite.
+
+    USD files keep such numbers when they are imported, and are not checked here; our
+    readers check what they read.
+
+    Parameters
+    ----------
+    path : Path
+        File that Blender has imported, and so finds no other fault with.
 
     Raises
     ------
     DecompositionError
         If some are not.
     """
-    finders = {".obj": _obj_is_finite, ".stl": _stl_is_finite, ".ply": _ply_is_finite}
-    is_finite = finders.get(path.suffix.lower())
-    if is_finite and not is_finite(path.read_bytes()):
+    is_finite = _FINDERS.get(path.suffix.lower())
+    if is_finite and not is_finite(path):
         raise not_finite(path)
 
 
@@ -60,8 +72,9 @@ def _is_finite(word: bytes) -> bool:
     """Return whether a word is a finite number, or none at all."""
     try:
         return abs(float(word)) <= _LARGEST
-    except ValueError:  # such as "-nan(ind)"
-        return not word.lstrip(b"+-").lower().startswith((b"nan", b"inf"))
+    except ValueError:  # such as "-nan(ind)" or "1.#IND"
+        start = word.lstrip(b"+-").lower()
+        return not (start.startswith((b"nan", b"inf")) or b"#" in word)
 
 
 def _lines_are_finite(data: bytes, line: re.Pattern[bytes]) -> bool:
@@ -70,13 +83,14 @@ def _lines_are_finite(data: bytes, line: re.Pattern[bytes]) -> bool:
     return all(map(_is_finite, words))
 
 
-def _obj_is_finite(data: bytes) -> bool:
+def _obj_is_finite(path: Path) -> bool:
     """Return whether all positions are finite."""
-    return _lines_are_finite(data.replace(b"\\\n", b" "), _IN_OBJ)
+    return _lines_are_finite(path.read_bytes().replace(b"\\\n", b" "), _IN_OBJ)
 
 
-def _stl_is_finite(data: bytes) -> bool:
+def _stl_is_finite(path: Path) -> bool:
     """Return whether all corners are finite."""
+    data = path.read_bytes()
     n_triangles = n_stl_triangles(data, len(data))
     if n_triangles is not None:
         triangles = np.frombuffer(data, _STL_TRIANGLE, n_triangles, STL_HEADER)
@@ -84,8 +98,9 @@ def _stl_is_finite(data: bytes) -> bool:
     return _lines_are_finite(data, _IN_STL)
 
 
-def _ply_is_finite(data: bytes) -> bool:
+def _ply_is_finite(path: Path) -> bool:
     """Return whether all positions are finite; normals and others are not checked."""
+    data = path.read_bytes()
     header = read_header(data)
     if header is None or not header.elements:
         return True  # the importer reports it
@@ -113,3 +128,49 @@ def _rows_are_finite(body: bytes, n_rows: int, names: list[str]) -> bool:
         for column in columns
         if column < len(row)
     )
+
+
+def _fbx_is_finite(path: Path) -> bool:
+    """Return whether all vertices are finite; of shape keys, too."""
+    data = path.read_bytes()
+    if data.startswith(b";"):  # text
+        return _lines_are_finite(data.replace(b",", b" "), _IN_FBX)
+    return all(map(all_finite, _fbx_arrays(data)))
+
+
+def _fbx_arrays(data: bytes) -> Iterator[NDArray[Any]]:
+    """Yield the vertices of each mesh in a binary file."""
+    for found in _FBX_ARRAY.finditer(data):
+        length, is_packed, size = np.frombuffer(found[2], "<u4").tolist()
+        content = data[found.end() : found.end() + size]
+        if is_packed:
+            content = zlib.decompress(content)
+        yield np.frombuffer(content, f"<{found[1].decode()}", length)
+
+
+def _gltf_is_finite(path: Path) -> bool:
+    """Return whether all positions are finite, as the add-on that imports them reads.
+
+    Meshes that no node has are not imported.
+    """
+    from io_scene_gltf2.io.imp.gltf2_io_binary import BinaryData  # Blender's add-on
+    from io_scene_gltf2.io.imp.gltf2_io_gltf import glTFImporter
+
+    read = glTFImporter(str(path), {"import_user_extensions": []})
+    read.read()
+    meshes = {node.mesh for node in read.data.nodes or ()} - {None}
+    attributes = [
+        each.attributes for mesh in meshes for each in read.data.meshes[mesh].primitives
+    ]
+    accessors = {each["POSITION"] for each in attributes if "POSITION" in each}
+    return all(all_finite(BinaryData.decode_accessor(read, k)) for k in accessors)
+
+
+_FINDERS: dict[str, Callable[[Path], bool]] = {
+    ".obj": _obj_is_finite,
+    ".stl": _stl_is_finite,
+    ".ply": _ply_is_finite,
+    ".fbx": _fbx_is_finite,
+    ".glb": _gltf_is_finite,
+    ".gltf": _gltf_is_finite,
+}

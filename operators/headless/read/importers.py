@@ -12,6 +12,7 @@ from pathlib import Path
 
 import bpy
 
+from ....core.errors import DecompositionError
 from ...bridge.mesh.attributes import read_ints, write_attribute
 from ...bridge.stored.names import COLOR_LAYER
 from ..formats import FBX, GLTF, axes, enable
@@ -70,6 +71,11 @@ def _fbx(path: Path, _up: str) -> set[str]:
     if "fbx_import" in dir(bpy.ops.wm):  # newer Blenders; it reads text FBX, too
         result = set(bpy.ops.wm.fbx_import(filepath=str(path)))
         _count_users()
+    elif path.read_bytes().startswith(b";"):
+        raise DecompositionError(
+            f"{path.name} is .fbx in text form, which Blender 4.5 and later reads; save"
+            " it in binary form, or use a newer Blender."
+        )
     else:
         enable(FBX)
         result = set(bpy.ops.import_scene.fbx(filepath=str(path)))

@@ -70,7 +70,6 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
     """
     with explaining(path, "read"):
         check_file(path)
-        check_finite(path)
     ending = path.suffix.lower()
     open_empty_file()
     try:
@@ -82,6 +81,7 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
         raise _unreadable(path, "the importer gave up")
     check_libraries(path)
     with explaining(path, "read"):
+        check_finite(path)
         refers_to = referred_files(path)
     with quiet_blender():
         adopt_hulls()

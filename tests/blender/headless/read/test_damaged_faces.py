@@ -235,14 +235,13 @@ def test_text_that_blender_cannot_read(tmp_path, unexpected):
 def test_the_reasons_of_importers_name_the_file_in_quotes(tmp_path):
     folder = tmp_path / "a folder: 1"
     folder.mkdir()
-    heads = b"; FBX 7.3.0 project file\n", b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0"
+    content = b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0hello"
     for name in ("a.fbx", "it's.fbx"):
-        for head in heads:
-            (folder / name).write_bytes(head + b"hello")
-            with pytest.raises(DecompositionError) as caught:
-                load(folder / name)
-            reason = str(caught.value).partition("(")[2]
-            assert reason.count(f'"{name}"') == 1
-            assert reason.count('"') == 2
-            assert reason.replace("it's", "").replace("n't", "").count("'") == 0
-            assert "folder" not in reason
+        (folder / name).write_bytes(content)
+        with pytest.raises(DecompositionError) as caught:
+            load(folder / name)
+        reason = str(caught.value).partition("(")[2]
+        assert reason.count(f'"{name}"') == 1
+        assert reason.count('"') == 2
+        assert reason.replace("it's", "").replace("n't", "").count("'") == 0
+        assert "folder" not in reason
