@@ -15,6 +15,7 @@ from ..files.headers import n_stl_triangles, read_header
 from ..files.text import BYTE_ORDER_MARK, MOST_DIGITS
 from ..formats import READ_ENDINGS
 from .face_checks import mesh_without_its_points, refers_to_missing
+from .ply_names import misnamed
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {
@@ -148,16 +149,17 @@ def _check_ply(path: Path) -> None:
     """Raise for PLY that Blender would read in part, or crash on."""
     data = path.read_bytes()
     header = read_header(data)
+    if header:
+        _check_line_ends(path, data[: header.size])
+    what = misnamed(header, data)
+    if what:
+        raise DecompositionError(
+            f"{path.name} has {what}, which Blender reads in small letters alone;"
+            " rename what there is."
+        )
     if header is None:
         raise DecompositionError(
             f"{path.name} cannot be read: its header is not one of a .ply file."
-        )
-    _check_line_ends(path, data[: header.size])
-    vertices = [each.properties for each in header.elements if each.name == "vertex"]
-    if not any({*"xyz"} <= each.keys() for each in vertices):
-        raise DecompositionError(
-            f"{path.name} has no element vertex with x, y and z, which Blender reads in"
-            " small letters alone; rename what there is."
         )
     if not header.is_whole(data):
         raise DecompositionError(f"{path.name} is truncated: its end is missing.")

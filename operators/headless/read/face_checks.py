@@ -32,7 +32,7 @@ def refers_to_missing(header: Header, data: bytes) -> bool:
     return not ((corners >= 0) & (corners < n_vertices)).all()
 
 
-def _place_of_corners(element: Element) -> int | None:
+def place_of_corners(element: Element) -> int | None:
     """Return which property of a face lists its vertices, None if there is none."""
     if element.name != "face" or not element.n_rows:
         return None
@@ -48,7 +48,7 @@ def _text_corners(header: Header, data: bytes) -> NDArray[Any]:
     rows = [row for row in data[header.size :].splitlines() if row.strip()]
     found: list[bytes] = []
     for element in header.elements:
-        place = _place_of_corners(element)
+        place = place_of_corners(element)
         if place is not None:
             kinds = list(element.properties.values())
             table = _equal_rows(rows[: element.n_rows]) if len(kinds) == 1 else None
@@ -95,7 +95,7 @@ def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:
     """Return the vertices of all faces of a file in binary form, of any shape."""
     start = header.size
     for element in header.elements:
-        place = _place_of_corners(element)
+        place = place_of_corners(element)
         table = element.table(header.order, data, start)
         if table is not None:
             if place is not None:

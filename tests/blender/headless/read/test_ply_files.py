@@ -32,6 +32,39 @@ def test_vertices_whose_coordinates_have_other_names(tmp_path, axes):
         load(tmp_path / "a.ply")
 
 
+@pytest.mark.parametrize(
+    "words",
+    ["element Face", "ELEMENT face", "property LIST", "property Float", "END_HEADER"],
+)
+def test_words_of_the_header_in_capitals(tmp_path, words):
+    text = prism(16)  # as many points as a cloud needs
+    (tmp_path / "a.ply").write_text(text.replace(words.lower(), words))
+    with pytest.raises(DecompositionError, match=f'"{words}.*", which Blender reads'):
+        load(tmp_path / "a.ply")
+
+
+def test_names_that_blender_does_not_need_may_have_capitals(tmp_path):
+    more = "comment Element Face\nelement Camera 0\nproperty int ID\nend_header"
+    text = prism(5, corners="Vertex_Indices").replace("end_header", more)
+    (tmp_path / "a.ply").write_text(text)
+    (obj,) = load(tmp_path / "a.ply")
+    assert len(obj.data.polygons) == 7
+
+
+def test_one_of_several_properties_of_faces_has_their_vertices(tmp_path):
+    text = prism(5, corners="Vertex_Indices\nproperty int flag")
+    lines = text.splitlines()
+    lines[-7:] = [f"{line} 0" for line in lines[-7:]]
+    for name, refused in (("Vertex_Indices", True), ("vertex_index", False)):
+        text = "\n".join(lines).replace("Vertex_Indices", name)
+        (tmp_path / "a.ply").write_text(text)
+        if refused:
+            with pytest.raises(DecompositionError, match="without vertex_indices or"):
+                load(tmp_path / "a.ply")
+        else:
+            assert load(tmp_path / "a.ply")
+
+
 def test_faces_of_many_corners(tmp_path):
     (tmp_path / "a.ply").write_text(prism(255))
     (obj,) = load(tmp_path / "a.ply")
