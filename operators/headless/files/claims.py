@@ -153,7 +153,7 @@ class Goals:
             for each in map(place_key, (place, *place.parents)):
                 if each in self._places:
                     found[each] = (
-                        f"{self._places[each]} is read as well: {user.name} refers to"
+                        f"{self._places[each]} is read as well: {user} refers to"
                         " it; give the output another name."
                     )
         self._refused |= found

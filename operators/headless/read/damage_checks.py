@@ -71,7 +71,7 @@ def check_file(path: Path) -> None:
         raise DecompositionError(f"{path} is a folder; name a file in it.")
     if ending not in READ_ENDINGS:
         raise DecompositionError(
-            f"{path.name} has an ending that is not read; these are:"
+            f"{path} has an ending that is not read; these are:"
             f" {' '.join(READ_ENDINGS)}."
         )
     _check_content(path, ending)
@@ -81,7 +81,7 @@ def _check_content(path: Path, ending: str) -> None:
     """Raise if the content does not fit the ending, or is cut short."""
     head, tail, size = _ends_of(path)
     if size == 0:
-        raise DecompositionError(f"{path.name} is empty.")
+        raise DecompositionError(f"{path} is empty.")
     _check_mark(path, head)
     if ending in _SIGNATURES and not head.startswith(_SIGNATURES[ending]):
         raise _mislabelled(path)
@@ -101,7 +101,7 @@ def _check_content(path: Path, ending: str) -> None:
 def _mislabelled(path: Path) -> DecompositionError:
     """Return the error for a file whose content does not fit its ending."""
     return DecompositionError(
-        f"{path.name} is not a {path.suffix.lower()} file inside, or is damaged."
+        f"{path} is not a {path.suffix.lower()} file inside, or is damaged."
     )
 
 
@@ -109,7 +109,7 @@ def _check_mark(path: Path, head: bytes) -> None:
     """Raise for text that begins with a mark, unless we read it ourselves."""
     if path.suffix.lower() not in _READ_BY_US and _MARKED.match(head):
         raise DecompositionError(
-            f"{path.name} begins with a byte order mark, which hides its first line;"
+            f"{path} begins with a byte order mark, which hides its first line;"
             " save it as UTF-8 without that."
         )
 
@@ -129,16 +129,15 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
         return
     if b"\0" in head or not head.lstrip().lower().startswith(b"solid"):
         raise DecompositionError(
-            f"{path.name} is truncated or not an STL file: its size does not fit its"
-            " header."
+            f"{path} is truncated or not an STL file: its size does not fit its header."
         )
     if b"endsolid" not in tail.lower():
-        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+        raise DecompositionError(f"{path} is truncated: its end is missing.")
     data = path.read_bytes()
     _check_line_ends(path, data)
     if _STL_CAPITALS.search(data):
         raise DecompositionError(
-            f"{path.name} has its words in capital letters, which Blender cannot read;"
+            f"{path} has its words in capital letters, which Blender cannot read;"
             " write them in small letters."
         )
     if _STL_WORD.search(data):
@@ -154,20 +153,20 @@ def _check_ply(path: Path) -> None:
     what = misnamed(header, data)
     if what:
         raise DecompositionError(
-            f"{path.name} has {what}, which Blender reads in small letters alone;"
+            f"{path} has {what}, which Blender reads in small letters alone;"
             " rename what there is."
         )
     if header is None:
         raise DecompositionError(
-            f"{path.name} cannot be read: its header is not one of a .ply file."
+            f"{path} cannot be read: its header is not one of a .ply file."
         )
     if not header.is_whole(data):
-        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+        raise DecompositionError(f"{path} is truncated: its end is missing.")
     if not header.order and _NO_NUMBER.search(data, header.size):
         raise wordy(path)
     if refers_to_missing(header, data):
         raise DecompositionError(
-            f"{path.name} has a face that refers to vertices that are missing; export"
+            f"{path} has a face that refers to vertices that are missing; export"
             " it again."
         )
 
@@ -175,11 +174,11 @@ def _check_ply(path: Path) -> None:
 def _check_usd(path: Path) -> None:
     """Raise for USD that Blender would misread or crash on."""
     if path.suffix.lower() == ".usdz" and not zipfile.is_zipfile(path):
-        raise DecompositionError(f"{path.name} is truncated: its end is missing.")
+        raise DecompositionError(f"{path} is truncated: its end is missing.")
     name = mesh_without_its_points(path)
     if name:
         raise DecompositionError(
-            f"{path.name} has a mesh, {name}, with faces that refer to missing points,"
+            f"{path} has a mesh, {name}, with faces that refer to missing points,"
             " or have too few or too many corners; export it again."
         )
 
@@ -187,7 +186,7 @@ def _check_usd(path: Path) -> None:
 def wordy(path: Path) -> DecompositionError:
     """Return the error for a file that has other words among its numbers."""
     return DecompositionError(
-        f"{path.name} has words where numbers should be; it is damaged."
+        f"{path} has words where numbers should be; it is damaged."
     )
 
 
@@ -195,7 +194,7 @@ def _check_line_ends(path: Path, data: bytes) -> None:
     """Raise for text that is one long line to Blender."""
     if b"\r" in data and b"\n" not in data:
         raise DecompositionError(
-            f"{path.name} has line ends of old Macs, which Blender cannot read; save it"
+            f"{path} has line ends of old Macs, which Blender cannot read; save it"
             " with those of Unix or Windows."
         )
 
@@ -209,7 +208,7 @@ def _check_last_line(path: Path, tail: bytes) -> None:
         return
     words = tail.decode("latin-1").splitlines()[-1].split()
     if words and len(words) <= _N_OBJ_NUMBERS.get(words[0], 0):
-        raise DecompositionError(f"{path.name} is truncated: it stops within a line.")
+        raise DecompositionError(f"{path} is truncated: it stops within a line.")
 
 
 def _check_obj(path: Path) -> None:
@@ -238,6 +237,6 @@ def _check_obj_corners(path: Path, data: bytes) -> None:
             too_long = len(corner) > MOST_DIGITS
             if too_long or not 1 <= abs(int(corner)) <= n_vertices:
                 raise DecompositionError(
-                    f"{path.name} has a face that comes before its vertices or refers"
+                    f"{path} has a face that comes before its vertices or refers"
                     " to some that are missing; export it again."
                 )

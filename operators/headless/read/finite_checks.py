@@ -58,7 +58,7 @@ def check_finite(path: Path) -> None:
 def not_finite(path: Path) -> DecompositionError:
     """Return the error for a file with coordinates that are not finite."""
     return DecompositionError(
-        f"{path.name} has coordinates that are not finite numbers in single precision;"
+        f"{path} has coordinates that are not finite numbers in single precision;"
         " repair it in the program it comes from."
     )
 

@@ -73,7 +73,7 @@ def _fbx(path: Path, _up: str) -> set[str]:
         _count_users()
     elif path.read_bytes().startswith(b";"):
         raise DecompositionError(
-            f"{path.name} is .fbx in text form, which Blender 4.5 and later reads; save"
+            f"{path} is .fbx in text form, which Blender 4.5 and later reads; save"
             " it in binary form, or use a newer Blender."
         )
     else:

@@ -38,7 +38,7 @@ def check_libraries(path: Path) -> None:
     )
     if lost:
         raise DecompositionError(
-            f"{path.name} links objects of {lost[0]} that cannot be found; put that"
+            f"{path} links objects of {lost[0]} that cannot be found; put that"
             " file back in its place, or relocate it in Blender."
         )
 

@@ -102,13 +102,13 @@ def _objects_with_shape(path: Path, others: Sequence[str]) -> list[bpy.types.Obj
     objects = mesh_objects()
     if not objects:
         more = " ".join(("", *others))
-        raise DecompositionError(f"{path.name} has no meshes or point clouds.{more}")
+        raise DecompositionError(f"{path} has no meshes or point clouds.{more}")
     if not any(map(has_shape, objects)):
         has_edges = any(getattr(obj.data, "edges", None) for obj in objects)
         raise DecompositionError(
-            f"{path.name} has edges but no faces; wires cannot be decomposed."
+            f"{path} has edges but no faces; wires cannot be decomposed."
             if has_edges
-            else f"{path.name} has objects, but no faces or points in them."
+            else f"{path} has objects, but no faces or points in them."
         )
     return objects
 
@@ -124,6 +124,6 @@ def _unreadable(path: Path, message: str) -> DecompositionError:
     ending = path.suffix.lower()
     or_else = ", or has faces of more than 255 corners" if ending == ".ply" else ""
     return DecompositionError(
-        f"{path.name} cannot be read as {ending}: it is incomplete, damaged or of"
+        f"{path} cannot be read as {ending}: it is incomplete, damaged or of"
         f" another kind{or_else} ({reason})."
     )

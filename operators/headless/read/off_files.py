@@ -29,32 +29,32 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
     DecompositionError
         If the file is not OFF, is cut short or has a face without its vertices.
     """
-    n_vertices, n_faces, body = _header([*lines_of(path)], path.name)
+    n_vertices, n_faces, body = _header([*lines_of(path)], path)
     if len(body) < n_vertices + n_faces:
         raise DecompositionError(
-            f"{path.name} is truncated: it promises {n_vertices} vertices and"
+            f"{path} is truncated: it promises {n_vertices} vertices and"
             f" {n_faces} faces, one a line, but has {len(body)} lines of them."
         )
     rows = body[: n_vertices + n_faces]
     if any("_" in row for row in rows):  # Python reads 1_0 as 10
         raise wordy(path)
-    vertices = _vertices(rows[:n_vertices], path.name)
+    vertices = _vertices(rows[:n_vertices], path)
     if not all_finite(vertices):
         raise not_finite(path)
-    return vertices, [_polygon(row, n_vertices, path.name) for row in rows[n_vertices:]]
+    return vertices, [_polygon(row, n_vertices, path) for row in rows[n_vertices:]]
 
 
 def n_faces_of_off(path: Path) -> int:
     """Return how many faces an .off file has, also those with too few corners."""
-    return _header([*islice(lines_of(path), 2)], path.name)[1]
+    return _header([*islice(lines_of(path), 2)], path)[1]
 
 
-def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
+def _header(lines: list[str], path: Path) -> tuple[int, int, list[str]]:
     """Return the numbers of vertices and faces, and the lines after them."""
     match = _HEADER.fullmatch(lines[0]) if lines else None
     if match is None:
         raise DecompositionError(
-            f"{name} does not begin like an OFF file in text form; export it again"
+            f"{path} does not begin like an OFF file in text form; export it again"
             " as plain OFF."
         )
     rest = match.group(2)
@@ -63,24 +63,24 @@ def _header(lines: list[str], name: str) -> tuple[int, int, list[str]]:
     n_vertices, n_faces = numbers if len(numbers) == 2 else (None, None)
     if n_vertices is None or n_faces is None:
         raise DecompositionError(
-            f"{name} does not state its numbers of vertices and faces; it is"
+            f"{path} does not state its numbers of vertices and faces; it is"
             " truncated or a binary or other kind of OFF."
         )
     return n_vertices, n_faces, body
 
 
-def _vertices(rows: list[str], name: str) -> NDArray[np.float64]:
+def _vertices(rows: list[str], path: Path) -> NDArray[np.float64]:
     """Return the first three numbers of each row, (V, 3)."""
     try:
         values = [[float(word) for word in row.split(None, 3)[:3]] for row in rows]
         return np.array(values, dtype=np.float64).reshape(len(rows), 3)
     except ValueError as error:
         raise DecompositionError(
-            f"{name} has a vertex that is not three numbers; it is damaged."
+            f"{path} has a vertex that is not three numbers; it is damaged."
         ) from error
 
 
-def _polygon(row: str, n_vertices: int, name: str) -> list[int]:
+def _polygon(row: str, n_vertices: int, path: Path) -> list[int]:
     """Return the corners of the face in `row`."""
     try:
         words = row.split()
@@ -91,12 +91,12 @@ def _polygon(row: str, n_vertices: int, name: str) -> list[int]:
         corners = []
     if not complete:
         raise DecompositionError(
-            f"{name} has a face whose corners are not whole numbers, or too few; it"
+            f"{path} has a face whose corners are not whole numbers, or too few; it"
             " is truncated or damaged."
         )
     if corners and not 0 <= min(corners) <= max(corners) < n_vertices:
         raise DecompositionError(
-            f"{name} has a face that refers to a vertex it does not have; it is"
+            f"{path} has a face that refers to a vertex it does not have; it is"
             " damaged."
         )
     return corners

@@ -41,10 +41,10 @@ def read_points(path: Path) -> Points:
     text = "\n".join(lines_of(path))
     if _DECIMAL_COMMAS.search(text):
         raise DecompositionError(
-            f"{path.name} has commas in its numbers; write decimal points instead."
+            f"{path} has commas in its numbers; write decimal points instead."
         )
     if not text:
-        raise DecompositionError(f"{path.name} has no points; it is empty.")
+        raise DecompositionError(f"{path} has no points; it is empty.")
     first, _, rest = text.partition("\n")
     n_points = whole_number(first)
     rows = (text if n_points is None else rest).replace(",", " ")
@@ -52,18 +52,18 @@ def read_points(path: Path) -> Points:
         table = np.loadtxt(StringIO(rows), ndmin=2)
     except ValueError as error:
         raise DecompositionError(
-            f"{path.name} does not have numbers, the same count on each line; it is"
+            f"{path} does not have numbers, the same count on each line; it is"
             " damaged or of another kind."
         ) from error
     if table.shape[1] < 3:
         raise DecompositionError(
-            f"{path.name} does not have three coordinates on each line; it is damaged"
+            f"{path} does not have three coordinates on each line; it is damaged"
             " or of another kind."
         )
     points, normals = _split(table, n_points)
     if n_points is not None and len(points) != n_points:
         raise DecompositionError(
-            f"{path.name} promises {n_points} points but has {len(table)} lines of"
+            f"{path} promises {n_points} points but has {len(table)} lines of"
             " them; it is truncated or damaged."
         )
     if not all_finite(points):

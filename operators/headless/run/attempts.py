@@ -47,5 +47,5 @@ class Attempts:
             self.failed(str(error))
             return None
         for note in notes or ():
-            self._screen.warning(note, path.name)
+            self._screen.warning(note, str(path))
         return path

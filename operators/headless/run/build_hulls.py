@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -28,12 +29,13 @@ from .results import ObjectResult
 
 
 def build_hulls(
+    path: Path,
     objects: Sequence[bpy.types.Object],
     results: Sequence[ObjectResult],
     request: Request,
     screen: Screen,
 ) -> tuple[list[bpy.types.Object], tuple[ObjectResult, ...]]:
-    """Build the hulls of each object that has a record, if an empty one.
+    """Build the hulls of each object of `path` that has a record, if an empty one.
 
     Returns
     -------
@@ -49,12 +51,15 @@ def build_hulls(
         for number, row in enumerate(rows, start=1):
             obj, result, started = objects[row], results[row], time.perf_counter()
             built, place = known.setdefault(obj.data, []), (number, len(rows))
+            title = f"{path}, {obj.name_full}, hulls"
             try:
-                new, figures = _hulls_of(obj, built, request, screen, place, ahead)
+                new, figures = _hulls_of(
+                    obj, built, request, screen, title, place, ahead
+                )
                 hulls += new
                 result = replace(result, record=record_of(obj), hulls=figures)
             except DecompositionError as error:
-                screen.error(str(error), _title(obj))
+                screen.error(str(error), title)
                 result = replace(result, error=str(error))
             seconds = result.seconds + time.perf_counter() - started
             told[row] = replace(result, seconds=seconds)
@@ -114,25 +119,22 @@ def _serves(built: _Built, obj: bpy.types.Object, parameters: HullParameters) ->
     )
 
 
-def _title(obj: bpy.types.Object) -> str:
-    """Return what the user sees before the progress and result of hulls."""
-    return f"{obj.name_full}, hulls"
-
-
 def _hulls_of(
     obj: bpy.types.Object,
     known: list[_Built],
     request: Request,
     screen: Screen,
+    title: str,
     place: tuple[int, int],
     ahead: HullsAhead,
 ) -> tuple[list[bpy.types.Object], tuple[dict[str, Any], ...]]:
     """Build the hulls of one object and show its result; return figures, too.
 
     `known` has what was built for objects of the same mesh, and gets what is new.
-    `place` is the number of the object, and how many there are.
+    `title` is what the user sees before its progress and result, and `place` the number
+    of the object, and how many there are.
     """
-    title, parameters = _title(obj), request.hull_parameters
+    parameters = request.hull_parameters
     built = next((each for each in known if _serves(each, obj, parameters)), None)
     read = reading_notes(obj, for_parts=False, has_choice=True)
     if built is None:

@@ -60,9 +60,9 @@ def decompose_file(
 
     up = request.up or USUAL_UP.get(path.suffix.lower())
     if request.with_hulls and targets.output:
-        built, results = build_hulls(objects, results, request, screen)
+        built, results = build_hulls(path, objects, results, request, screen)
         if not built:  # a model without its hulls is not what was asked for
-            attempts.failed(_NO_HULLS.format(targets.output.name))
+            attempts.failed(_NO_HULLS.format(targets.output))
             targets = replace(targets, output=None, hulls=None)
     with stages.during("write"):
         output = attempts.written(targets.output, lambda file: save(file, up, built))
@@ -70,7 +70,7 @@ def decompose_file(
             targets.picture, lambda file: save_picture(file, objects, trial.engine())
         )
     if targets.hulls and not built:
-        built, results = build_hulls(objects, results, request, screen)
+        built, results = build_hulls(path, objects, results, request, screen)
     with stages.during("write"):
         hulls = attempts.written(
             targets.hulls if built else None,
@@ -101,15 +101,15 @@ def _parts_of(
 ) -> tuple[ObjectResult, ...]:
     """Return the result of each object; without parts if only hulls are asked for."""
     for note in loaded.about:
-        screen.warning(note, path.name)
+        screen.warning(note, str(path))
     hulls_alone = not targets.show_parts
     if hulls_alone and request.hull_parameters.pieces != "PARTS":
-        return _without_parts(path.name, loaded, screen)
-    return decompose_objects(path.name, loaded, request.parameters, screen, hulls_alone)
+        return _without_parts(path, loaded, screen)
+    return decompose_objects(path, loaded, request.parameters, screen, hulls_alone)
 
 
 def _without_parts(
-    file_name: str, loaded: LoadedFile, screen: Screen
+    path: Path, loaded: LoadedFile, screen: Screen
 ) -> tuple[ObjectResult, ...]:
     """Return a result for each object, without parts; say which have no faces."""
     results = []
@@ -119,6 +119,6 @@ def _without_parts(
         result = ObjectResult(
             obj.name_full, record={} if has_faces else None, notes=notes
         )
-        show(file_name, result, screen)
+        show(path, result, screen)
         results.append(result)
     return tuple(results)

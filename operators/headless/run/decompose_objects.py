@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import bpy
 
@@ -25,13 +26,13 @@ _KEEPS = "It keeps its parts; options that find parts change nothing."
 
 
 def decompose_objects(
-    file_name: str,
+    path: Path,
     loaded: LoadedFile,
     parameters: Parameters,
     screen: Screen,
     kept: bool,
 ) -> tuple[ObjectResult, ...]:
-    """Decompose each object, write its parts to it and show its result.
+    """Decompose each object of `path`, write its parts to it and show its result.
 
     Return a result for each object, in their order. Objects without faces are left as
     they are, and so are those with parts if these are `kept`. Objects that share a mesh
@@ -47,7 +48,7 @@ def decompose_objects(
         if kept and part_labels(obj) is not None:
             result = _kept(obj, parameters)
         else:
-            title = f"{file_name}, {obj.name_full}"
+            title = f"{path}, {obj.name_full}"
             title = progress_title(title, place, len(loaded.objects))
             result = _decompose(title, obj, parameters, screen)
         done[obj.data] = obj, result
@@ -60,7 +61,7 @@ def decompose_objects(
         except DecompositionError as error:
             result = ObjectResult(obj.name_full, error=str(error))
         result = replace(result, notes=(*loaded.notes_of(obj), *result.notes))
-        show(file_name, result, screen)
+        show(path, result, screen)
         results.append(result)
     return tuple(results)
 
@@ -110,9 +111,9 @@ def _decompose(
     )
 
 
-def show(file_name: str, result: ObjectResult, screen: Screen) -> None:
-    """Show the result of one object."""
-    title = f"{file_name}, {result.name}"
+def show(path: Path, result: ObjectResult, screen: Screen) -> None:
+    """Show the result of one object of the input `path`."""
+    title = f"{path}, {result.name}"
     for note in result.notes:
         screen.warning(note, title)
     if result.error:

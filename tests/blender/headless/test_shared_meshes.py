@@ -47,7 +47,10 @@ def test_nothing_is_said_of_parts_that_are_kept(rings, capfd):
     capfd.readouterr()
     run_on(path, path)
     titles = [line.partition(":")[0] for line in capfd.readouterr().out.splitlines()]
-    assert [title for title in titles if title != "Info"] == ["A, hulls", "B, hulls"]
+    assert [title for title in titles if title != "Info"] == [
+        f"{path}, A, hulls",
+        f"{path}, B, hulls",
+    ]
 
 
 def test_a_property_of_somebody_else_ends_the_work_on_one_object(
@@ -63,7 +66,7 @@ def test_a_property_of_somebody_else_ends_the_work_on_one_object(
     assert status == 1
     errors = [line for line in capfd.readouterr().err.splitlines() if "error" in line]
     assert len(errors) == 1
-    assert errors[0].startswith("error: two.blend, A: ")
+    assert errors[0].startswith(f"error: {path}, A: ")
     assert [[bool(obj["error"]) for obj in entry["objects"]] for entry in entries] == [
         [False],
         [True, False],

@@ -54,7 +54,7 @@ def test_a_library_is_not_replaced(tmp_path, run, capfd, name):
     words = ["--output", tmp_path / name, "--report", report]
     assert run(path, *words) == 1
     sentence = (
-        f"{tmp_path / name} is read as well: user.blend refers to it; give the output"
+        f"{tmp_path / name} is read as well: {path} refers to it; give the output"
         " another name."
     )
     assert capfd.readouterr().err.endswith(f"\nerror: {sentence}\n")
@@ -98,7 +98,7 @@ def test_neither_are_materials_textures_and_buffers(
     (found,) = [each for each in before if each.lower() == place.lower()]
     capfd.readouterr()
     assert run(path, f"--{option}", tmp_path / found) == 1
-    assert f"{found} is read as well: {name} refers" in capfd.readouterr().err
+    assert f"{found} is read as well: {path} refers" in capfd.readouterr().err
     assert content(tmp_path) == before
 
 
@@ -112,5 +112,5 @@ def test_layers_of_usd_and_materials_that_another_model_names(tmp_path, run, cap
     second.write_bytes(first.read_bytes())  # has the materials of the first
     materials = (tmp_path / "a.mtl").read_bytes()
     assert run(second, "--output", first) == 1
-    assert "a.mtl is read as well: in.obj refers to it" in capfd.readouterr().err
+    assert f"a.mtl is read as well: {second} refers to it" in capfd.readouterr().err
     assert (tmp_path / "a.mtl").read_bytes() == materials

@@ -136,7 +136,7 @@ def test_files_of_another_kind_are_refused(tmp_path, ending):
     path = tmp_path / f"a{ending}"
     for content in (b"", b"hello\n" * 50, bytes(range(256)) * 20):
         path.write_bytes(content)
-        with pytest.raises(DecompositionError, match=r"^a\.\S+ (is|has|cannot|does)"):
+        with pytest.raises(DecompositionError, match=rf"^{path} (is|has|cannot|does)"):
             load(path)
 
 

@@ -47,7 +47,7 @@ def test_curves_and_texts_that_are_seen_are_counted(tmp_path, capfd):
         "3 curves, texts or metaballs get neither parts nor hulls; convert them to"
         " meshes first (Object > Convert > Mesh)."
     )
-    assert capfd.readouterr().err.endswith(f"\nwarning: a.blend: {note}\n")
+    assert capfd.readouterr().err.endswith(f"\nwarning: {model}: {note}\n")
     assert json.loads(report.read_text())["inputs"][0]["notes"] == [note]
 
 
@@ -107,7 +107,7 @@ def test_objects_without_faces_are_named(tmp_path, capfd, goal):
     model = saved(tmp_path / "a.blend")
     capfd.readouterr()
     assert main([str(model), goal[0], str(tmp_path / goal[1]), *QUICK]) == 0
-    assert "warning: a.blend, Wire: It has no faces and" in capfd.readouterr().err
+    assert f"warning: {model}, Wire: It has no faces and" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("ending", ["glb", "obj", "usd", "fbx", "ply", "blend"])
@@ -148,5 +148,5 @@ def test_layers_that_are_missing_are_named(tmp_path, has_rock, capfd):
     if has_rock:
         assert (status, entry["notes"]) == (0, [note])
     else:
-        sentence = f"a.usda has no meshes or point clouds. {note}"
+        sentence = f"{model} has no meshes or point clouds. {note}"
         assert (status, entry["errors"]) == (1, [sentence])

@@ -1,0 +1,34 @@
+"""How the lines of a run name its inputs."""
+
+import pytest
+from weak_convex_decomposition.operators.headless.command_line import main
+
+CORNERS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+FACES = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+
+
+@pytest.fixture
+def told(tmp_path, monkeypatch, capfd):
+    """Return a function that runs the program; it returns its results and errors."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        capfd.readouterr()
+        main([*words])
+        return [stream.splitlines() for stream in capfd.readouterr()]
+
+    return run
+
+
+def test_inputs_of_one_name_are_told_apart_by_their_folders(tmp_path, told):
+    contents = {"a": CORNERS + FACES, "b": "f 1 2 9\n", "c": CORNERS, "d": ""}
+    for folder, content in contents.items():
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "chair.obj").write_text(content)
+    paths = [f"{folder}/chair.obj" for folder in contents]
+    results, errors = told(*paths, "--quiet")
+    assert [line.partition("chair")[0] for line in errors] == [
+        f"error: {folder}/" for folder in "bcd"
+    ]
+    results, _ = told(paths[0], "--hulls", "h.glb")
+    assert [line for line in results if line.startswith("a/chair.obj, chair, hulls: ")]
