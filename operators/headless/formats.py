@@ -5,6 +5,8 @@ Readers, writers and the options of the command line all take these from here.
 
 from __future__ import annotations
 
+import re
+
 READ_ENDINGS = (
     ".obj",
     ".ply",
@@ -53,6 +55,12 @@ FBX = "io_scene_fbx"
 # Characters that names in files do not have, within brackets of a regular expression:
 # control characters, halves of characters, and what is none.
 CONTROL_CHARACTERS = r"\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff"
+_CONTROL = re.compile(f"[{CONTROL_CHARACTERS}]")
+
+
+def one_line(text: str) -> str:
+    """Return text with escapes for line breaks and the like, which names may have."""
+    return _CONTROL.sub(lambda found: ascii(found[0])[1:-1], text)
 
 
 def up_in(ending: str, chosen: str | None) -> str:

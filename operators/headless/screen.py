@@ -10,6 +10,7 @@ from contextlib import suppress
 from typing import TextIO
 
 from ...core.steps.progress import Progress, Steps, T, mapped, run
+from .formats import one_line
 from .request.option_names import with_options
 from .stages import Stages
 
@@ -60,7 +61,7 @@ class Screen:
         """Show a result."""
         if not self._quiet:
             self._wipe()
-            write(self._out, f"{text}\n")
+            write(self._out, f"{one_line(text)}\n")
 
     def warning(self, sentence: str, title: str = "") -> None:
         """Show a warning; `title` says what it is about, such as an object's name."""
@@ -74,7 +75,7 @@ class Screen:
         """Show a sentence; names in the title are not those of settings."""
         self._wipe()
         about = f"{title}: " if title else ""
-        write(self._err, f"{kind}: {about}{with_options(sentence)}\n")
+        write(self._err, f"{kind}: {one_line(about + with_options(sentence))}\n")
 
     def follow(self, title: str, steps: Steps[T]) -> T:
         """Finish a computation, show its progress and return its value."""
@@ -89,7 +90,7 @@ class Screen:
         """Show where a computation stands, unless something was just shown."""
         if self._quiet or self._clock() < self._next:
             return
-        line = f"{title}: {progress.stage}"
+        line = one_line(f"{title}: {progress.stage}")
         if self._err.isatty():
             self._next = self._clock() + _TERMINAL_SECONDS
             self._wipe()

@@ -17,6 +17,7 @@ from ....core.parameters.presets import PRESET_INFO, PRESETS, preset
 from ....core.steps.processes import available
 from ...bridge.stored.notes import version
 from ..files.claims import Goals
+from ..formats import one_line
 from .asked_hulls import hull_file, useless_options
 from .file_options import add_files
 from .help_text import DESCRIPTION, EPILOG
@@ -33,9 +34,8 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Show an error and end with status 2."""
-        self.exit(
-            2, f"error: {with_options(message)}\nAll options: {self.prog} --help\n"
-        )
+        sentence = one_line(with_options(message))
+        self.exit(2, f"error: {sentence}\nAll options: {self.prog} --help\n")
 
 
 @dataclass(frozen=True)

@@ -32,3 +32,12 @@ def test_inputs_of_one_name_are_told_apart_by_their_folders(tmp_path, told):
     ]
     results, _ = told(paths[0], "--hulls", "h.glb")
     assert [line for line in results if line.startswith("a/chair.obj, chair, hulls: ")]
+
+
+def test_line_breaks_and_colors_in_names_are_spelled_out(tmp_path, told):
+    (tmp_path / "a\n\x1b[31m.obj").write_text(CORNERS + FACES)
+    results, errors = told("a\n\x1b[31m.obj", "no\r.obj")
+    assert results[-1].startswith(r"a\n\x1b[31m.obj, ")
+    assert r"error: no\r.obj does not exist." in errors
+    _, (error, _) = told("b\n.obj", "--output=b\n.obj")
+    assert error.startswith(r"error: b\n.obj is an input, too")
