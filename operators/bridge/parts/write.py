@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import bpy
 import numpy as np
@@ -143,18 +144,15 @@ def _write_mesh(
 
     Return who the parts are, and the names of their materials.
     """
-    active_group = obj.vertex_groups.active.name if obj.vertex_groups.active else ""
-    users = [group.name for group in obj.vertex_groups]
-    groups = []
-    if obj.type == "MESH":  # point cloud objects have no groups
-        groups = _add_groups(obj, identities, active_group)
+    before = _add_groups(obj, identities)
+    groups = before["groups"]
+    if groups:
         identities = [  # taken names get a number
             replace(each, name=group)
             for each, group in zip(identities, groups, strict=True)
         ]
     materials = _materials(obj, identities, sources)
-    before = put_in_slots(obj, materials, decomposition.labels)
-    before |= {"groups": groups, "active_group": active_group, "user_groups": users}
+    before |= put_in_slots(obj, materials, decomposition.labels)
     write_restore(obj.data, Restore(**before))
     layers = layers_of(obj)
     numbers = np.array([identity.number for identity in identities], dtype=np.int32)
@@ -173,13 +171,19 @@ def _write_mesh(
 
 
 def _add_groups(
-    obj: bpy.types.Object, identities: Sequence[Identity], active: str
-) -> list[str]:
-    """Add a group for each part; return the groups' names. `active` stays active."""
-    groups = obj.vertex_groups
-    names = [groups.new(name=identity.name).name for identity in identities]
-    groups.active_index = groups[active].index if active else 0
-    return names
+    obj: bpy.types.Object, identities: Sequence[Identity]
+) -> dict[str, Any]:
+    """Add a group for each part; the active one stays so.
+
+    Return the fields of `Restore` on groups.
+    """
+    groups, names = obj.vertex_groups, []
+    active = groups.active.name if groups.active else ""
+    users = [group.name for group in groups]
+    if obj.type == "MESH":  # point cloud objects have no groups
+        names = [groups.new(name=identity.name).name for identity in identities]
+        groups.active_index = groups[active].index if active else 0
+    return {"groups": names, "active_group": active, "user_groups": users}
 
 
 def _materials(
