@@ -69,6 +69,10 @@ def check_file(path: Path) -> None:
         raise DecompositionError(f"{path} does not exist.")
     if path.is_dir():
         raise DecompositionError(f"{path} is a folder; name a file in it.")
+    if not path.is_file():  # to open a pipe may take for ever
+        raise DecompositionError(
+            f"{path} is a pipe or a device; save what it gives in a file."
+        )
     if ending not in READ_ENDINGS:
         raise DecompositionError(
             f"{path} has an ending that is not read; these are:"

@@ -128,3 +128,9 @@ def test_a_folder_that_is_gone_is_a_sentence(tmp_path, model, run, capfd, monkey
     gone.rmdir()
     assert run(model, "--report", "r.json") == 2
     assert "error: . cannot be read (No such file or " in capfd.readouterr().err
+
+
+def test_an_input_that_is_a_pipe_is_refused_at_once(tmp_path, run, capfd):
+    os.mkfifo(tmp_path / "a.stl")  # to open it would wait for a writer
+    assert run(tmp_path / "a.stl", "--report", tmp_path / "r.json") == 1
+    assert "a.stl is a pipe or a device; save" in capfd.readouterr().err
