@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from .carrier import is_waiting
 from .shown_mesh import shown_modifiers, shows_keys
 
 # How the window names the choice to read what is seen.
 WHAT_IS_SEEN = "Mesh: Evaluated"
+# Steps that are a larger share of the longest side change a shape.
+_COARSE = 1e-3
 
 
 def reading_notes(
@@ -39,6 +42,12 @@ def reading_notes(
         notes.append(f"To include modifiers, apply them, or choose {WHAT_IS_SEEN}.")
     if shows_keys(obj):
         notes.append("The mesh was read in its Basis shape, without shape keys.")
+    step = _coarse_step(obj)
+    if step:
+        notes.append(
+            "Its coordinates are so large that Blender rounds them to steps of"
+            f" {step:.2g}; move the model to the origin in the program it comes from."
+        )
     if for_parts and obj.data.users > 1:  # else not counted: files have thousands
         sharers = sum(
             other.data == obj.data and bool(other.users_collection)
@@ -49,3 +58,12 @@ def reading_notes(
                 f"{sharers} objects share this mesh: the parts show on all of them."
             )
     return tuple(notes)
+
+
+def _coarse_step(obj: bpy.types.Object) -> float | None:
+    """Return to which steps single precision rounds coordinates, None if small ones."""
+    corners = np.array(obj.bound_box, dtype=np.float32)
+    with np.errstate(invalid="ignore"):  # refused later
+        step = np.spacing(np.abs(corners).max())
+        side = np.ptp(corners, axis=0).max()
+    return float(step) if step > _COARSE * side > 0.0 else None

@@ -14,6 +14,7 @@ from headless.instancing import (
 )
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.bridge.read.reading_notes import reading_notes
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read.load import load_file
 
@@ -150,3 +151,20 @@ def test_layers_that_are_missing_are_named(tmp_path, has_rock, capfd):
     else:
         sentence = f"{model} has no meshes or point clouds. {note}"
         assert (status, entry["errors"]) == (1, [sentence])
+
+
+@pytest.mark.parametrize(
+    ("place", "size", "note"),
+    [(4.5e6, 2, "to steps of 0.5;"), (4.5e6, 2e3, ""), (1e3, 2, ""), (0, 1e-9, "")],
+)
+def test_digits_that_single_precision_lacks(tmp_path, place, size, note):
+    """As of scans in coordinates of a country's survey."""
+    points = [(place, size * x, size * y) for x in range(5) for y in range(5)]
+    (tmp_path / "a.xyz").write_text(rows(points))
+    (tmp_path / "b.obj").write_text(rows(points, "v ") + "f 1 2 7 6\n")
+    for name in ("a.xyz", "b.obj"):
+        (obj,) = load(tmp_path / name)
+        obj.location.x = 4.5e6  # this rounds no vertices
+        notes = reading_notes(obj)
+        assert note in "".join(notes)
+        assert len(notes) == bool(note)
