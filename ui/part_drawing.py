@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import blf
@@ -20,6 +21,8 @@ from ..operators.bridge.watching import start_timer, stop_timer
 from ..operators.viewport import picking
 from ..operators.viewport.shown_parts import ShownParts, shown_identities, shown_parts
 from ..operators.viewport.viewports import redraw
+from .clipping import clipped_shader, draw_clipped, lines_within, planes_in
+from .clipping import forget as forget_planes
 from .through_hulls import draw_through, forget, transparent_hulls
 
 # How opaque the colors of an overlay are: less in Edit Mode, where edges are seen.
@@ -45,6 +48,7 @@ def stop() -> None:
     """Draw no more, and forget what was made for it."""
     stop_timer(redraw)
     forget()
+    forget_planes()
 
 
 def draw() -> None:
@@ -145,11 +149,14 @@ def _fill(
     """Tint the faces of a part."""
     key = "faces", number
     if key not in shown.kept:
-        shown.kept[key] = _batch("UNIFORM_COLOR", "TRIS", shown.triangles_of(number))
+        places = shown.triangles_of(number)
+        shown.kept[key] = _batch(clipped_shader(), "TRIS", places)
     shader, batch = shown.kept[key]
     shader.bind()
     shader.uniform_float("color", color)
-    _draw_nearer(obj, shader, batch, layer)
+    if batch is not None:
+        draw = partial(draw_clipped, batch, shader, obj.matrix_world)
+        _draw_nearer(obj, draw, layer)
 
 
 def _outline(
@@ -160,30 +167,30 @@ def _outline(
     width: float,
 ) -> None:
     """Draw the edges around a part."""
-    key = "border", number
-    if key not in shown.kept:
-        places = shown.border_of(number)
-        shown.kept[key] = _batch("POLYLINE_UNIFORM_COLOR", "LINES", places)
-    shader, batch = shown.kept[key]
+    key, planes = ("border", number), planes_in(obj.matrix_world)
+    kept = {} if len(planes) else shown.kept  # the region may be another one next
+    if key not in kept:
+        places = lines_within(shown.border_of(number), planes)
+        shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+        kept[key] = _batch(shader, "LINES", places)
+    shader, batch = kept[key]
     shader.bind()
     shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
     shader.uniform_float("lineWidth", width * bpy.context.preferences.system.ui_scale)
     shader.uniform_float("color", color)
-    _draw_nearer(obj, shader, batch, 4)
+    if batch is not None:
+        _draw_nearer(obj, partial(batch.draw, shader), 4)
 
 
-def _batch(name: str, kind: str, places: NDArray[np.float32]) -> tuple[Any, Any]:
+def _batch(shader: Any, kind: str, places: NDArray[np.float32]) -> tuple[Any, Any]:
     """Return a shader of Blender's, and a batch for it; None if there is no place."""
-    shader = gpu.shader.from_builtin(name)
     if not len(places):  # which `batch_for_shader` does not take
         return shader, None
     return shader, batch_for_shader(shader, kind, {"pos": places})
 
 
-def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> None:
+def _draw_nearer(obj: bpy.types.Object, draw: Callable[[], None], layer: int) -> None:
     """Draw in the space of an object, a little before its surface."""
-    if batch is None:
-        return
     view = bpy.context.region_data
     projection = gpu.matrix.get_projection_matrix()
     nearer = _NEARER * layer
@@ -194,7 +201,7 @@ def _draw_nearer(obj: bpy.types.Object, shader: Any, batch: Any, layer: int) -> 
     with gpu.matrix.push_pop(), gpu.matrix.push_pop_projection():
         gpu.matrix.load_projection_matrix(projection)
         gpu.matrix.multiply_matrix(obj.matrix_world)
-        batch.draw(shader)
+        draw()
 
 
 def draw_name() -> None:

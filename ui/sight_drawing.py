@@ -16,6 +16,7 @@ from ..core.geometry.frames import frames
 from ..core.results.views import View
 from ..operators.bridge.read.target import object_with
 from ..operators.viewport import sight_overlay
+from .clipping import clipped_shader, draw_clipped
 
 _SEEN = (0.1, 0.85, 0.25, 1.0)
 _HIDDEN = (0.1, 0.3, 1.0, 1.0)
@@ -47,16 +48,16 @@ def draw() -> None:
         or not obj.visible_get(viewport=space)
     ):
         return
-    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    shader = clipped_shader()
     gpu.state.blend_set("ALPHA")
+    to_object = Matrix(np.linalg.inv(overlay.stretch).tolist()).to_4x4()
+    to_world = obj.matrix_world @ to_object
     with gpu.matrix.push_pop():
-        gpu.matrix.multiply_matrix(obj.matrix_world)
-        to_object = Matrix(np.linalg.inv(overlay.stretch).tolist()).to_4x4()
-        gpu.matrix.multiply_matrix(to_object)
+        gpu.matrix.multiply_matrix(to_world)
         for batch, color, depth_test in _batches(overlay.view):
             gpu.state.depth_test_set(depth_test)
             shader.uniform_float("color", color)
-            batch.draw(shader)
+            draw_clipped(batch, shader, to_world)
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
 
@@ -65,7 +66,7 @@ def draw() -> None:
 @lru_cache(maxsize=1)
 def _batches(view: View) -> list[tuple[Any, tuple[float, ...], str]]:
     """Return what is drawn, with its color and depth test."""
-    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    shader = clipped_shader()
     radius = _radius(view)
     discs = _discs(view.places, view.normals, radius)
     ends = view.places[view.visible]

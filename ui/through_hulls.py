@@ -15,10 +15,12 @@ import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..operators.bridge.mesh.known import triangles_of
 from ..operators.bridge.stored.names import HULL_TAG
+from .clipping import planes_in
 
 # The kind of color in Solid shading that no object is transparent in.
 _OPAQUE = "SINGLE"
@@ -56,7 +58,7 @@ def draw_through(hulls: Sequence[bpy.types.Object], draw: Callable[[], None]) ->
     gpu.state.blend_set("ALPHA")
     places = np.concatenate([_on_screen(hull, view) for hull in hulls])
     if len(places):
-        _show(colors, places)
+        _show(colors, places, view)
 
 
 @lru_cache(maxsize=1)  # to be used again, mostly
@@ -87,10 +89,15 @@ def _on_screen(
     return places.astype(np.float32)
 
 
-def _show(colors: Any, places: NDArray[np.float32]) -> None:
-    """Draw colors that fill the screen, on some places of it."""
-    shader = _shader()
+def _show(
+    colors: Any, places: NDArray[np.float32], view: bpy.types.RegionView3D
+) -> None:
+    """Draw colors that fill the screen, on some places of it within its region."""
+    shader, planes = _shader(), np.zeros((4, 4))
+    within = planes_in(view.perspective_matrix.inverted())
+    planes[: len(within)] = within
     shader.bind()
+    shader.uniform_float("planes", Matrix(planes))
     shader.uniform_sampler("colors", colors)
     batch_for_shader(shader, "TRIS", {"place": places}).draw(shader)
 
@@ -100,13 +107,16 @@ def _shader() -> Any:
     """Return a shader that copies linear colors; not all of Blender's own do."""
     info = gpu.types.GPUShaderCreateInfo()
     between = gpu.types.GPUStageInterfaceInfo("wcd_through_hulls")
-    between.smooth("VEC2", "at")
+    between.smooth("VEC3", "at")
     info.vertex_in(0, "VEC3", "place")
     info.vertex_out(between)
+    info.push_constant("MAT4", "planes")
     info.sampler(0, "FLOAT_2D", "colors")
     info.fragment_out(0, "VEC4", "color")
-    info.vertex_source(
-        "void main() { at = 0.5 + place.xy / 2.0; gl_Position = vec4(place, 1.0); }"
+    info.vertex_source("void main() { at = place; gl_Position = vec4(place, 1.0); }")
+    info.fragment_source(
+        "void main() {"
+        " if (any(lessThan(planes * vec4(at, 1.0), vec4(0.0)))) discard;"
+        " color = texture(colors, 0.5 + at.xy / 2.0); }"
     )
-    info.fragment_source("void main() { color = texture(colors, at); }")
     return gpu.shader.create_from_info(info)

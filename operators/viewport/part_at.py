@@ -11,7 +11,7 @@ from mathutils.bvhtree import BVHTree
 from ..bridge.refusals import faces_refusal
 from ..bridge.stored.names import HULL_TAG
 from .shown_parts import shown_parts
-from .viewports import ray_at, ray_within, shown_along
+from .viewports import ray_at, ray_within, shown_along, space_of
 
 # How objects are drawn that rays go through.
 _SEEN_THROUGH = {"WIRE", "BOUNDS"}
@@ -31,8 +31,7 @@ def part_at(
     other objects hide nothing. What is beyond a Clipping Region neither is seen nor
     hides anything.
     """
-    area = next(a for a in context.window.screen.areas if region in a.regions[:])
-    space, ray = area.spaces.active, ray_at(region, x, y)
+    space, ray = space_of(context, region), ray_at(region, x, y)
     return part_along(context, space, *ray, shown_along(space, region.data, *ray))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar
 
 import bpy
@@ -25,7 +26,15 @@ from ..running.on_objects import OnActive
 from ..settings import SELECTION, parameters_from, properties_for
 from . import sight_overlay
 from .sight_overlay import Overlay
-from .viewports import CLICKED_MODES, navigates, ray_at, ray_within, viewport_at
+from .viewports import (
+    CLICKED_MODES,
+    navigates,
+    ray_at,
+    ray_within,
+    shown_along,
+    space_of,
+    viewport_at,
+)
 
 _HINT = (
     "Click a point of the surface to see what it sees. Enter: keep, Esc or Right-Click:"
@@ -110,9 +119,11 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             return {"FINISHED"}
         if event.type != "LEFTMOUSE" or place is None or not ours:
             return {"PASS_THROUGH"}
-        return self._clicked(*place)
+        return self._clicked(context, *place)
 
-    def _clicked(self, region: bpy.types.Region, x: int, y: int) -> set[str]:
+    def _clicked(
+        self, context: bpy.types.Context, region: bpy.types.Region, x: int, y: int
+    ) -> set[str]:
         """Show what the point under the cursor sees."""
         try:
             obj = self._target.find()
@@ -120,14 +131,24 @@ class WCD_OT_show_sight(OnActive, Computation, bpy.types.Operator):
             stop()
             self.report({"WARNING"}, str(error))
             return {"CANCELLED"}
-        self._show(*ray_within(obj, *ray_at(region, x, y)))
+        origin, direction = ray_at(region, x, y)
+        space = space_of(context, region)
+        near, far = shown_along(space, region.data, origin, direction)
+        begin = ray_within(obj, origin + near * direction, direction)
+        self._show(*begin, far - near)
         return {"RUNNING_MODAL"}
 
-    def _show(self, origin: Vector, direction: Vector) -> None:
-        """Show what the first point along a ray in object space sees."""
+    def _show(self, origin: Vector, direction: Vector, reach: float = math.inf) -> None:
+        """Show what the first point along a ray in object space sees.
+
+        None is seen beyond a reach, in lengths of the direction.
+        """
         ray = stretched(np.array([origin, direction]), self._overlay.stretch)
         view = self._viewer.look(*ray)
-        if view is not None:
+        if view is None:
+            return
+        along = (view.point - ray[0]) @ ray[1] / (ray[1] @ ray[1])
+        if along <= reach:
             self._overlay.view = view
             sight_overlay.show(self._overlay)
 

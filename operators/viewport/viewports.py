@@ -59,6 +59,14 @@ def ray_at(region: bpy.types.Region, x: int, y: int) -> tuple[Vector, Vector]:
     return origin, view3d_utils.region_2d_to_vector_3d(*where)
 
 
+def space_of(
+    context: bpy.types.Context, region: bpy.types.Region
+) -> bpy.types.SpaceView3D:
+    """Return the space of a viewport of the window."""
+    areas = context.window.screen.areas
+    return next(area for area in areas if region in area.regions[:]).spaces.active
+
+
 def shown_along(
     space: bpy.types.SpaceView3D,
     view: bpy.types.RegionView3D,
@@ -70,17 +78,25 @@ def shown_along(
     Both are distances from the origin; the first is larger where it is nowhere.
     """
     near, far = 0.0, math.inf
-    if view.use_clip_planes and space.shading.type in _CLIPPING:
-        for *normal, offset in view.clip_planes[:4]:  # Blender sets no more
-            height = origin.dot(normal) + offset
-            slope = direction.dot(normal)
-            if slope > 0:
-                near = max(near, -height / slope)
-            elif slope < 0:
-                far = min(far, -height / slope)
-            elif height < 0:
-                far = -math.inf
+    for *normal, offset in clip_planes(space, view):
+        height = origin.dot(normal) + offset
+        slope = direction.dot(normal)
+        if slope > 0:
+            near = max(near, -height / slope)
+        elif slope < 0:
+            far = min(far, -height / slope)
+        elif height < 0:
+            far = -math.inf
     return near, far
+
+
+def clip_planes(
+    space: bpy.types.SpaceView3D, view: bpy.types.RegionView3D
+) -> list[Vector]:
+    """Return the planes around the Clipping Region: what is behind one is left out."""
+    if not view.use_clip_planes or space.shading.type not in _CLIPPING:
+        return []
+    return [Vector(plane) for plane in view.clip_planes[:4]]  # Blender sets no more
 
 
 def ray_within(

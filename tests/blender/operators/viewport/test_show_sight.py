@@ -119,7 +119,7 @@ def clicking(cube):
     own = vars(show_sight.WCD_OT_show_sight)
     waiting = type("Waiting", (), {n: own[n] for n in ("modal", "_press")})()
     waiting._viewer, waiting._overlay = object(), sight_overlay.current
-    waiting._clicked = lambda *place: place
+    waiting._clicked = lambda _, *place: place
     return waiting
 
 

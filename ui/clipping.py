@@ -1,0 +1,77 @@
+"""Keep drawings over a viewport within its Clipping Region (Alt B)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import bpy
+import gpu
+import numpy as np
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ..operators.viewport.viewports import clip_planes
+
+# Blender's shader takes so many planes.
+_PLANES = 6
+
+
+def planes_in(matrix: Matrix) -> NDArray[np.float64]:
+    """Return the planes around the viewport's region, (N, 4); none without a region.
+
+    They are in the space that a matrix brings to the world. What is behind one of them,
+    at (x, y, z, 1) times it below 0, is left out.
+    """
+    view = bpy.context.region_data
+    planes = clip_planes(bpy.context.space_data, view)
+    return np.array([matrix.transposed() @ each for each in planes]).reshape(-1, 4)
+
+
+def clipped_shader() -> Any:
+    """Return Blender's shader of one color; `draw_clipped` has it keep to a region."""
+    return gpu.shader.from_builtin("UNIFORM_COLOR", config="CLIPPED")
+
+
+def draw_clipped(batch: Any, shader: Any, matrix: Matrix) -> None:
+    """Draw within the region what is in the space that a matrix brings to the world."""
+    planes = planes_in(matrix)
+    rows = np.zeros((4 + _PLANES, 4), dtype=np.float32)
+    rows[:4] = np.eye(4)  # the shader's own way to the world
+    rows[4 : 4 + len(planes)] = planes
+    shader.uniform_block("clipPlanes", _buffer(rows.tobytes()))
+    gpu.state.clip_distances_set(len(planes))
+    batch.draw(shader)
+    gpu.state.clip_distances_set(0)
+
+
+@lru_cache(maxsize=16)  # Blender reads it when it draws
+def _buffer(data: bytes) -> Any:
+    """Return bytes where the shader reads them."""
+    return gpu.types.GPUUniformBuf(data)
+
+
+def forget() -> None:
+    """Forget what was made for the shader."""
+    _buffer.cache_clear()
+
+
+def lines_within(
+    ends: NDArray[np.floating], planes: NDArray[np.float64]
+) -> NDArray[np.floating]:
+    """Return the ends of what is in front of all planes of lines, (2 N, 3) both.
+
+    For shaders of Blender's that know no planes.
+    """
+    lines = ends.reshape(-1, 2, 3)
+    heights = lines @ planes[:, :3].T + planes[:, 3]
+    first, last = heights[:, 0], heights[:, 1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shares = first / (first - last)
+    begin = np.where((first < 0) & (last >= 0), shares, 0.0).max(axis=1, initial=0.0)
+    end = np.where((first >= 0) & (last < 0), shares, 1.0).min(axis=1, initial=1.0)
+    seen = (begin < end) & ((first >= 0) | (last >= 0)).all(axis=1)
+    begin, end, lines = begin[seen], end[seen], lines[seen]
+    along = np.stack([begin, end], axis=1)[:, :, None]
+    within = lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])
+    return within.reshape(-1, 3).astype(ends.dtype)
