@@ -22,11 +22,11 @@ from .bridge.read.carrier import (
     replaced_carriers,
 )
 from .bridge.read.evaluated import read_as
-from .bridge.refusals import CONVERTIBLE, WORKED_ON, decompose_refusal
+from .bridge.refusals import CONVERTIBLE, WORKED_ON, decompose_refusal, library_refusal
 from .bridge.removal_refusals import clear_refusal
 from .bridge.stored.names import CARRIER_TAG
 from .bridge.stored.record import EVALUATED, check_records
-from .bridge.stored.restore import sharers
+from .bridge.stored.restore import has_parts, sharers
 from .bridge.views.colors import show_colors_as
 from .bridge.views.images import erase_images
 from .bridge.views.node_modifiers import remove_views
@@ -153,6 +153,8 @@ class WCD_OT_clear(OnEach, bpy.types.Operator):
         clear(obj)
         if is_cut(obj) and is_editable and not bring_back(obj):
             self.report({"WARNING"}, f"{_cuts_stay(obj.name)}.")
+        if has_parts(obj) and (reason := library_refusal(obj)):
+            self.report({"WARNING"}, f"The parts stay. {reason}.")
         if CARRIER_TAG in obj:
             clear_carrier(obj)
         else:

@@ -44,9 +44,14 @@ def remove_modifier(obj: bpy.types.Object, tag: str) -> None:
 
 
 def remove_views(obj: bpy.types.Object) -> None:
-    """Remove all modifiers of ours from an object, and node groups without any."""
+    """Remove all modifiers of ours from an object, and node groups without any.
+
+    Those of a library stay: on an override they would be there again in the file.
+    """
     for tag in _TAGS:
-        remove_modifier(obj, tag)
+        modifier = tagged_modifier(obj, tag)
+        if modifier is not None and not modifier.is_override_data:
+            remove_modifier(obj, tag)
     discard_views()
 
 

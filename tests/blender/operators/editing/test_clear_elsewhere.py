@@ -35,6 +35,33 @@ def clear_in(scene, layer, obj):
         bpy.ops.wcd.clear()
 
 
+def override_of(obj, path):
+    """Return an override of an object that is linked from another file."""
+    bpy.data.libraries.write(path, {obj})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = ["Suzanne"]
+    override = wanted.objects[0].override_create(remap_local_usages=True)
+    override.override_library.is_system_override = False
+    bpy.context.scene.collection.objects.link(override)
+    activate(override)
+    return override
+
+
+def test_what_a_library_has_stays_and_is_told_of(suzanne, tmp_path, capfd):
+    decompose_by_hand(suzanne, 3, **FAST)
+    bpy.ops.wcd.explode()
+    override = override_of(suzanne, str(tmp_path / "library.blend"))
+    bpy.ops.wcd.measure(samples=60)
+    assert bpy.ops.wcd.clear() == {"FINISHED"}
+    said = "The parts stay. The mesh of Suzanne is linked from a library and cannot be"
+    assert said in capfd.readouterr().out
+    assert '"measured":' not in override["wcd"]
+    assert [each.name for each in override.modifiers] == ["Exploded View"]
+    with pytest.raises(RuntimeError, match="Suzanne is linked from a library and"):
+        bpy.ops.wcd.clear()
+
+
 @pytest.mark.parametrize("where", ["layer", "scene"])
 def test_the_curve_is_shown_again_where_it_was_hidden(where):
     hand = hand_curve()
