@@ -9,7 +9,7 @@ from .bridge.parts.read import parts_on
 from .bridge.parts.separating import separate
 from .bridge.refusals import object_mode_refusal, parts_refusal
 from .bridge.views.colors import CHOICES, show_colors_as
-from .bridge.views.exploding import DISTANCE_HELP, FARTHEST, explode, exploding, implode
+from .bridge.views.exploding import DISTANCE_HELP, FARTHEST, explode, has_view, implode
 from .bridge.views.face_sets_and_colors import write_colors, write_face_sets
 from .bridge.work.in_step import bring_in_step
 from .running.on_objects import OnEach, active_object
@@ -110,7 +110,7 @@ class WCD_OT_implode(_OnParts, bpy.types.Operator):
         """Return why there is no exploded view to end."""
         reason = super()._obstacle(context)
         there = {*cls._candidates(context), active_object(context)} - {None}
-        exploded = {obj for obj in there if reason is None and exploding(obj)}
+        exploded = {obj for obj in there if reason is None and has_view(obj)}
         if exploded and not exploded.isdisjoint(cls._chosen(context)):
             return None
         return reason or "There is no exploded view; press Exploded View first"

@@ -7,9 +7,14 @@ from typing import Any
 import bpy
 
 from ..stored.names import EXPLODE_TAG, PART_LAYER
-from .node_modifiers import Nodes, new_node_group, remove_modifier, tagged_modifier
+from .node_modifiers import (
+    NAMES,
+    Nodes,
+    new_node_group,
+    remove_modifier,
+    tagged_modifier,
+)
 
-_NAME = "Exploded View"
 # Largest distance of the slider; at 1, parts are twice as far from the center.
 FARTHEST = 3.0
 DISTANCE_HELP = "How much farther the parts are from the center of the shape"
@@ -18,10 +23,16 @@ DISTANCE_HELP = "How much farther the parts are from the center of the shape"
 def exploding(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """Return the modifier that moves an object's parts apart, None without one.
 
-    One whose node group lost its distance is none: it needs another group.
+    One whose node group lost its distance, or is gone, is none: it needs another group.
     """
     modifier = tagged_modifier(obj, EXPLODE_TAG)
-    return modifier if modifier and _distance_of(modifier.node_group) else None
+    group = modifier and modifier.node_group
+    return modifier if group and _distance_of(group) else None
+
+
+def has_view(obj: bpy.types.Object) -> bool:
+    """Return whether an object has such a modifier, also one that needs a group."""
+    return tagged_modifier(obj, EXPLODE_TAG) is not None
 
 
 def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
@@ -34,7 +45,9 @@ def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
 
 def explode(obj: bpy.types.Object, distance: float) -> None:
     """Move the parts of an object away from its center; its mesh stays as it is."""
-    modifier = tagged_modifier(obj, EXPLODE_TAG) or obj.modifiers.new(_NAME, "NODES")
+    modifier = tagged_modifier(obj, EXPLODE_TAG)
+    if modifier is None:
+        modifier = obj.modifiers.new(NAMES[EXPLODE_TAG], "NODES")
     if exploding(obj) is None:
         modifier.node_group = _node_group()
     owner, path = slider(modifier)
@@ -63,7 +76,7 @@ def _node_group() -> bpy.types.GeometryNodeTree:
     for group in bpy.data.node_groups:
         if EXPLODE_TAG in group and group.library is None and _distance_of(group):
             return group
-    group = new_node_group(_NAME, EXPLODE_TAG)
+    group = new_node_group(NAMES[EXPLODE_TAG], EXPLODE_TAG)
     distance = group.interface.new_socket(
         "Distance", in_out="INPUT", socket_type="NodeSocketFloat"
     )

@@ -12,9 +12,13 @@ from collections.abc import Iterable
 import bpy
 
 from ..stored.names import ISOLATE_TAG, PART_LAYER
-from .node_modifiers import Nodes, new_node_group, remove_modifier, tagged_modifier
-
-_NAME = "Isolated Parts"
+from .node_modifiers import (
+    NAMES,
+    Nodes,
+    new_node_group,
+    remove_modifier,
+    tagged_modifier,
+)
 
 
 def isolating(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
@@ -25,9 +29,9 @@ def isolating(obj: bpy.types.Object) -> bpy.types.NodesModifier | None:
 def isolate(obj: bpy.types.Object, numbers: Iterable[int]) -> None:
     """Show only the parts with these numbers; the mesh itself stays as it is."""
     end_isolation(obj)
-    group = new_node_group(_NAME, ISOLATE_TAG)
+    group = new_node_group(NAMES[ISOLATE_TAG], ISOLATE_TAG)
     _wire(group, numbers)
-    modifier = obj.modifiers.new(_NAME, "NODES")
+    modifier = obj.modifiers.new(NAMES[ISOLATE_TAG], "NODES")
     modifier.node_group = group
     modifier.show_render = modifier.show_in_editmode = False
 

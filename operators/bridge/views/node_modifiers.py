@@ -7,17 +7,22 @@ import bpy
 from ....core.errors import DecompositionError
 from ..stored.names import EXPLODE_TAG, ISOLATE_TAG
 
-_TAGS = (EXPLODE_TAG, ISOLATE_TAG)
+# What modifiers and node groups with a tag are called.
+NAMES = {EXPLODE_TAG: "Exploded View", ISOLATE_TAG: "Isolated Parts"}
 
 
 def is_view(modifier: bpy.types.Modifier) -> bool:
     """Return whether a modifier only shows parts, and says nothing of the shape."""
-    return any(_has_tag(modifier, tag) for tag in _TAGS)
+    return any(_has_tag(modifier, tag) for tag in NAMES)
 
 
 def tagged_modifier(obj: bpy.types.Object, tag: str) -> bpy.types.NodesModifier | None:
-    """Return the modifier of an object whose node group has a tag, None without one."""
-    return next((each for each in obj.modifiers if _has_tag(each, tag)), None)
+    """Return the modifier of an object whose node group has a tag, None without one.
+
+    If there is none, it is one with our name whose node group is gone.
+    """
+    found = [each for each in obj.modifiers if _has_tag(each, tag)]
+    return max(found, key=lambda each: each.node_group is not None, default=None)
 
 
 def remove_modifier(obj: bpy.types.Object, tag: str) -> None:
@@ -39,7 +44,7 @@ def remove_modifier(obj: bpy.types.Object, tag: str) -> None:
         )
     group = modifier.node_group
     obj.modifiers.remove(modifier)
-    if _is_unused(group):
+    if group is not None and _is_unused(group):
         bpy.data.node_groups.remove(group)
 
 
@@ -48,7 +53,7 @@ def remove_views(obj: bpy.types.Object) -> None:
 
     Those of a library stay: on an override they would be there again in the file.
     """
-    for tag in _TAGS:
+    for tag in NAMES:
         modifier = tagged_modifier(obj, tag)
         if modifier is not None and not modifier.is_override_data:
             remove_modifier(obj, tag)
@@ -58,7 +63,7 @@ def remove_views(obj: bpy.types.Object) -> None:
 def discard_views() -> None:
     """Remove node groups of ours whose object is gone, deleted or joined."""
     for group in bpy.data.node_groups[:]:
-        if any(tag in group for tag in _TAGS) and _is_unused(group):
+        if any(tag in group for tag in NAMES) and _is_unused(group):
             bpy.data.node_groups.remove(group)
 
 
@@ -99,4 +104,7 @@ def _is_unused(group: bpy.types.NodeTree) -> bool:
 
 def _has_tag(modifier: bpy.types.Modifier, tag: str) -> bool:
     """Return whether a modifier is one of ours with this tag."""
-    return modifier.type == "NODES" and tag in (modifier.node_group or ())
+    if modifier.type != "NODES":
+        return False
+    group = modifier.node_group
+    return bool(modifier.name == NAMES[tag] if group is None else tag in group)

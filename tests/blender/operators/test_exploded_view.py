@@ -75,6 +75,22 @@ def test_a_view_without_its_distance_gets_it_again(suzanne):
     assert not suzanne.modifiers
 
 
+@pytest.mark.parametrize("how", ["clear", "implode", "explode"])
+def test_a_view_whose_node_group_is_gone_ends_or_gets_another(suzanne, how):
+    decompose_by_hand(suzanne, 4)
+    suzanne.modifiers.new("Mine", "NODES")  # without a group
+    call("explode")
+    call("isolate_parts")
+    for group in bpy.data.node_groups[:]:
+        bpy.data.node_groups.remove(group)
+    assert "Exploded View" in drawn(WCD_PT_use).texts()
+    assert call(how) == {"FINISHED"}
+    assert (exploding(suzanne) is not None) == (how == "explode")
+    if how != "clear":
+        call("clear")
+    assert [each.name for each in suzanne.modifiers] == ["Mine"]
+
+
 def torus_beside(suzanne, colors="MATERIALS"):
     """Select a torus beside the monkey, both with parts; return those of both."""
     labels = decompose_by_hand(suzanne, 3)
