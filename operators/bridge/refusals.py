@@ -54,7 +54,7 @@ def refusal(obj: Candidate, writes_mesh: bool = True) -> str | None:
     if obj.mode == "EDIT" and is_cloud(obj):
         return (
             "Parts of points are made in Object Mode; leave Edit Mode"
-            if count_points(obj)
+            if count_points(obj) or obj.type == "POINTCLOUD"
             else f"{obj.name} has no faces yet; add some and leave Edit Mode"
         )
     if obj.mode != "EDIT" and obj.type == "MESH" and obj.data.is_editmode:

@@ -59,6 +59,17 @@ def test_an_empty_mesh_in_edit_mode(name):
     refused(getattr(bpy.ops.wcd, name), "Empty has no faces yet; add some")
 
 
+if bpy.app.version >= (5, 0):
+
+    def test_points_without_any_in_edit_mode():
+        cloud = bpy.data.pointclouds.new("Empty")
+        empty = bpy.data.objects.new("Empty", cloud)
+        bpy.context.collection.objects.link(empty)
+        activate(empty)
+        bpy.ops.object.mode_set(mode="EDIT")
+        refused(bpy.ops.wcd.decompose, "made in Object Mode; leave Edit Mode")
+
+
 TRIANGLE = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
 BAD_MESHES = {
     "no faces": ([(0, 0, 0)], [], "no faces"),
