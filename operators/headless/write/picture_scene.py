@@ -123,9 +123,10 @@ def _set_up_cycles(scene: bpy.types.Scene) -> None:
     lamp.energy = 2.5
     lamp.angle = radians(20.0)
     scene.world.color = (0.6, 0.6, 0.6)
-    if scene.world.node_tree:  # Blender 5.0 and later take the color from the nodes
-        background = scene.world.node_tree.nodes["Background"]
-        background.inputs["Color"].default_value = (0.6, 0.6, 0.6, 1.0)
+    # Blender 5.0 and later take the color from nodes, whose names may be translated.
+    for node in scene.world.node_tree.nodes if scene.world.node_tree else ():
+        if node.type == "BACKGROUND":
+            node.inputs["Color"].default_value = (0.6, 0.6, 0.6, 1.0)
 
 
 def face_points(objects: Sequence[bpy.types.Object]) -> NDArray[np.float32]:

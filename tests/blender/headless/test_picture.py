@@ -4,7 +4,7 @@ import pytest
 from hand_made import bands, decomposition_of, mesh_object
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.parts.write import write_parts
-from weak_convex_decomposition.operators.headless.write import picture
+from weak_convex_decomposition.operators.headless.write import picture, picture_scene
 from weak_convex_decomposition.operators.headless.write.render_engine import EngineTrial
 
 SIZE = 160
@@ -127,6 +127,19 @@ def test_the_file_stays_as_it_was(tmp_path, suzanne):
     assert blocks() == before
     assert bpy.context.scene == scene
     assert [file.name for file in tmp_path.iterdir()] == ["a.png"]
+
+
+def test_nodes_may_have_names_in_another_language():
+    scene = bpy.data.scenes.new("Picture")
+    scene.world = bpy.data.worlds.new("Picture")
+    if scene.world.node_tree is None:  # Blender 5.0 makes nodes at once
+        scene.world.use_nodes = True
+    node = scene.world.node_tree.nodes["Background"]
+    node.name = "Hintergrund"
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "SUN"))
+    scene.collection.objects.link(lamp)
+    picture_scene.set_up_engine(scene, "CYCLES")
+    assert node.inputs["Color"].default_value[0] == pytest.approx(0.6)
 
 
 def test_cycles_takes_over_where_workbench_ends_the_process(monkeypatch, tmp_path):
