@@ -16,13 +16,15 @@ from ..core.results.psi import good_numbers
 from ..operators.bridge.stored.names import HAND_LAYER
 from ..operators.bridge.stored.noted_parts import psi_by_k_of
 from .panels import WCD_PT_parts
-from .sidebar import Sidebar, paragraph, result_of
+from .sidebar import Sidebar, paragraph, result_of, width_of
 
 # Most bars: of more numbers, those that are nearest to the best one.
 _MOST_BARS = 26
-# Share of the width for the number of parts, and height of a row, in usual rows.
+# Least share of the width for the number of parts, and height of a row, in usual rows.
 _NUMBER = 0.22
 _HEIGHT = 0.8
+# Widths at interface scale 1: of a star with two digits; of the sidebar beside a row.
+_STAR, _EDGES = 50, 53
 # Largest share of the gain that the best number lacks by tolerance or sampling error.
 _MOST_TOLERATED = 0.1
 
@@ -50,12 +52,12 @@ class WCD_PT_chart(Sidebar, bpy.types.Panel):
         for text in (offer_of(good), reason_for(best, gains), details):
             if text:
                 paragraph(self.layout, text, context, icon="SOLO_ON")
-        column = self.layout.column(align=True)
+        column, width = self.layout.column(align=True), width_of(context)
         column.scale_y = _HEIGHT
         nearest = sorted(gains, key=lambda k: abs(k - best))[:_MOST_BARS]
         for k in sorted(nearest):
             gain = gains[k]
-            split = column.split(factor=_NUMBER, align=True)
+            split = column.split(factor=share_of_numbers(width), align=True)
             icon = "SOLO_ON" if k == best else "SOLO_OFF" if k in good else "NONE"
             _draw_number(split, k, result, icon)
             split.progress(factor=gain, text=f"{gain:.0%}", translate=False)
@@ -70,6 +72,11 @@ def _draw_number(
         "wcd.choose_part_count", text=str(k), icon=icon, depress=shown
     )
     button.parts = k
+
+
+def share_of_numbers(width: float) -> float:
+    """Return the share of a row that shows its number with a star uncut."""
+    return max(_NUMBER, _STAR / max(width - _EDGES, _STAR))
 
 
 def gains_of(psi_by_k: Mapping[int, float]) -> dict[int, float]:

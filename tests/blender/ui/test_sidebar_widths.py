@@ -1,11 +1,13 @@
 """What the sidebar shows where there is not room for all."""
 
 import pytest
+from stand_ins.layout import EDGES, ICON
 from weak_convex_decomposition.ui.chart import (
     details_of,
     gains_of,
     offer_of,
     reason_for,
+    share_of_numbers,
 )
 from weak_convex_decomposition.ui.edit_panel import fitting
 from weak_convex_decomposition.ui.hulls_panel import endings, error_text
@@ -51,6 +53,13 @@ def test_a_scroll_bar_takes_room_from_the_figures():
 )
 def test_figures_of_tiny_and_huge_objects_are_not_cut(figure, in_parts, in_hulls):
     assert (brief(figure), error_text(figure)) == (in_parts, in_hulls)
+
+
+@pytest.mark.parametrize("width", [1, 202, _USUAL, 2 * _USUAL])
+def test_numbers_with_a_star_are_not_cut_in_the_chart(width):
+    share = share_of_numbers(width)
+    assert 0.2 < share <= 1
+    assert width < EDGES or share * (width - EDGES) > ICON + 2 * 14
 
 
 @pytest.mark.parametrize(
