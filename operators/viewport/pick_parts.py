@@ -47,8 +47,9 @@ class WCD_OT_pick_parts(bpy.types.Operator):
     _asked: int = 0
     _cut_last: int = 0
     _right: bool = False  # whether the right mouse button is down
-    # What ran when the last event came, and how many parts the active object had.
-    _told: tuple[str | None, int] | None = None
+    # What ran when the last event came, how many parts the active object had, and in
+    # which workspace.
+    _told: tuple[str | None, int, str] | None = None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -75,9 +76,11 @@ class WCD_OT_pick_parts(bpy.types.Operator):
         """Take an event; navigation and all else that is not ours passes."""
         if self._is_over(context):
             return {"FINISHED", "PASS_THROUGH"}
-        now = modal.busy(), n_parts_of(context.active_object)
+        place = context.workspace.name
+        now = modal.busy(), n_parts_of(context.active_object), place
         if self._told != now:
             self._told = now
+            self._picking.go_to(place)
             picking.tell(context)
         if self._asked:
             self._cut(context)

@@ -58,6 +58,12 @@ class Picking:
         obj = self.object()
         return None if obj is None else shown_identities(obj).get(self.number)
 
+    def go_to(self, workspace: str) -> None:
+        """Take the text of the status bar away from where picking went on until now."""
+        if workspace != self.workspace:
+            modal.show_hint(self.workspace, None)
+            self.workspace = workspace
+
     @property
     def number(self) -> int:
         """The number of the part under the cursor, -1 for none."""

@@ -14,6 +14,7 @@ class Viewport:
 
     def __init__(self, monkeypatch):
         self.under, self.header, self.window = None, None, Window()
+        self.workspace, self.statuses = "Layout", {}
         self.region = SimpleNamespace(tag_redraw=lambda: None)
         self.inside = True
         monkeypatch.setattr(
@@ -23,13 +24,15 @@ class Viewport:
         )
         monkeypatch.setattr(pick_parts, "part_at", lambda *_: self.under)
         monkeypatch.setattr(picking, "show_header", self.show_header)
-        monkeypatch.setattr(
-            picking.modal, "_show_status", lambda _, text: setattr(self, "status", text)
-        )
+        monkeypatch.setattr(picking.modal, "_show_status", self.statuses.__setitem__)
         self.pressed = Pressed(pick_parts.WCD_OT_pick_parts)
 
     def show_header(self, text):
         self.header = text
+
+    @property
+    def status(self):
+        return self.statuses[self.workspace]
 
     def start(self):
         answer = self.pressed.invoke(self.context, SimpleNamespace())
@@ -42,7 +45,7 @@ class Viewport:
             mode=bpy.context.mode,
             window_manager=self.window,
             window=SimpleNamespace(as_pointer=lambda: 1),
-            workspace=SimpleNamespace(name="Layout"),
+            workspace=SimpleNamespace(name=self.workspace),
             scene=bpy.context.scene,
         )
 

@@ -50,6 +50,15 @@ def test_the_header_counts_the_parts_that_are_there(viewport, suzanne, mode):
     )
 
 
+def test_the_keys_are_told_where_picking_goes_on(viewport):
+    viewport.workspace = "Modeling"
+    viewport.event("TIMER")
+    assert viewport.status.startswith("Click: choose")
+    assert viewport.statuses["Layout"] is None
+    viewport.event("ESC")
+    assert set(viewport.statuses.values()) == {None}
+
+
 def test_the_header_counts_at_once_what_was_written(viewport, suzanne):
     viewport.event("TIMER")
     decompose_by_hand(suzanne, 2)  # Blender has shown nothing of it yet
