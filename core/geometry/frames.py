@@ -170,10 +170,10 @@ def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
     Returns
     -------
     (3, 3) float
-        Unit vectors as rows.
+        Unit vectors as rows, the same on any processor.
     """
     spread = points - points.mean(axis=0)
-    return np.linalg.eigh(spread.T @ spread)[1].T
+    return unit(settled(np.linalg.eigh(spread.T @ spread)[1].T))
 
 
 def coordinates_along(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .frames import HEIGHTS_AT_ONCE, area_vectors
+from .frames import HEIGHTS_AT_ONCE, area_vectors, coordinates_along
 
 
 def _protect(*arrays: NDArray[Any]) -> None:
@@ -172,7 +172,7 @@ class CollisionShape:
         """
         if self.kind == "HULL":
             return self.hull.heights(points)
-        local = np.abs((points - self.center) @ self.axes.T)
+        local = np.abs(coordinates_along(self.axes, points - self.center))
         radius, _, half = self.sizes
         if self.kind == "BOX":
             beyond = local - self.sizes
@@ -192,7 +192,7 @@ class CollisionShape:
             return self.hull.bounds
         reach = np.abs(self.axes[2]) * self.sizes[2]
         if self.kind == "BOX":
-            reach = self.sizes @ np.abs(self.axes)
+            reach = coordinates_along(np.abs(self.axes.T), self.sizes)
         elif self.kind == "CYLINDER":
             reach = reach + self.sizes[0] * np.sqrt(
                 np.maximum(1 - self.axes[2] ** 2, 0.0)

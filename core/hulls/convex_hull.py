@@ -14,7 +14,6 @@ from ..geometry.frames import (
     coordinates_along,
     heights_above,
     principal_axes,
-    settled,
 )
 from ..geometry.primitives import Hull
 from ..steps.rows import blocks
@@ -88,7 +87,7 @@ def thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
         Two for each point of flat ones.
     """
     center = points.mean(axis=0)
-    for axis in settled(principal_axes(points)):
+    for axis in principal_axes(points):
         heights = coordinates_along(axis[None], points - center)
         if np.ptp(heights) < thin:
             flat = points - heights * axis

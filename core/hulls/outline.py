@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.directions import sphere_directions
-from ..geometry.frames import area_vectors
+from ..geometry.frames import area_vectors, coordinates_along
 from ..geometry.primitives import CollisionShape, Hull
 from .convex_hull import convex_hull
 
@@ -49,7 +49,7 @@ def outline_of(shape: CollisionShape) -> Hull:
         ball = shape.sizes[0] * sphere_directions(_ON_SPHERE)
         upper, lower = ball[ball[:, 2] >= 0], ball[ball[:, 2] <= 0]
         local = np.concatenate([ends[0] + upper, ends[1] + lower])
-    points = local @ shape.axes + shape.center
+    points = coordinates_along(shape.axes.T, local) + shape.center
     return convex_hull(points, float(shape.sizes.max()) / 1e3)
 
 
@@ -110,7 +110,7 @@ def fine_outline(shape: CollisionShape) -> tuple[NDArray[np.float64], float]:
     rings = np.empty((len(radii), len(turns), 3))
     rings[..., :2] = (radii[:, None, None] * circle).transpose(0, 2, 1)
     rings[..., 2] = heights[:, None]
-    rings = rings @ shape.axes + shape.center
+    rings = coordinates_along(shape.axes.T, rings) + shape.center
     a, b, c, d = rings[:-1, :-1], rings[:-1, 1:], rings[1:, 1:], rings[1:, :-1]
     corners = np.stack([np.stack([a, b, c], 2), np.stack([a, c, d], 2)])
     corners = corners.reshape(-1, 3, 3)

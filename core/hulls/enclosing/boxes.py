@@ -8,6 +8,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ...geometry.frames import (
     area_vectors,
+    coordinates_along,
     cross,
     distinct_directions,
     frame_of,
@@ -80,11 +81,10 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
         if least[row] > smallest[0] + _EQUAL:
             break
         axes = _rectangle_axes(hull.vertices, normals[row])
-        local = hull.vertices @ axes.T
+        local = coordinates_along(axes, hull.vertices)
         low, high = local.min(axis=0), local.max(axis=0)
-        shape = CollisionShape(
-            "BOX", hull, (low + high) / 2 @ axes, axes, (high - low) / 2
-        )
+        center = coordinates_along(axes.T, (low + high) / 2)
+        shape = CollisionShape("BOX", hull, center, axes, (high - low) / 2)
         if (volume := (round(shape.volume, DIGITS), row)) < smallest:
             best, smallest = shape, volume
     assert best is not None  # a hull has faces
@@ -131,7 +131,7 @@ def _rectangle_axes(
 ) -> NDArray[np.float64]:
     """Return the axes of the box of least base area, the last one `normal`, (3, 3)."""
     frame = frame_of(normal)
-    flat = points @ frame[:2].T
+    flat = coordinates_along(frame[:2], points)
     try:
         outline = flat[ConvexHull(flat).vertices]
     except QhullError:  # seen edge on
@@ -140,6 +140,7 @@ def _rectangle_axes(
     edges /= np.linalg.norm(edges, axis=1, keepdims=True)
     along = edges @ outline.T
     across = np.stack([-edges[:, 1], edges[:, 0]], axis=1) @ outline.T
-    edge = edges[(np.ptp(along, axis=1) * np.ptp(across, axis=1)).argmin()]
-    first = edge @ frame[:2]
+    areas = np.round(np.ptp(along, axis=1) * np.ptp(across, axis=1), DIGITS)
+    right, up = edges[areas.argmin()]
+    first = right * frame[0] + up * frame[1]
     return np.stack([first, cross(frame[2], first), frame[2]])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.frames import frame_of, principal_axes
+from ...geometry.frames import coordinates_along, frame_of, principal_axes
 from ...geometry.primitives import CollisionShape, Hull
 from .boxes import DIGITS, box_around, rough_box
 
@@ -79,10 +79,10 @@ def _sphere(hull: Hull, rounds: int) -> CollisionShape:
 def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
     """Return the smallest cylinder along an axis."""
     frame = frame_of(axis)
-    local = hull.vertices @ frame.T
+    local = coordinates_along(frame, hull.vertices)
     center, radius = _smallest_ball(local[:, :2], rounds)
     low, high = local[:, 2].min(), local[:, 2].max()
-    middle = np.r_[center, (low + high) / 2] @ frame
+    middle = coordinates_along(frame.T, np.r_[center, (low + high) / 2])
     sizes = np.array([radius, radius, (high - low) / 2])
     return CollisionShape("CYLINDER", hull, middle, frame, sizes)
 
@@ -90,13 +90,13 @@ def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionSh
 def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
     """Return the shortest of the capsules with the least radius along an axis."""
     frame = frame_of(axis)
-    local = hull.vertices @ frame.T
+    local = coordinates_along(frame, hull.vertices)
     center, radius = _smallest_ball(local[:, :2], rounds)
     around = np.linalg.norm(local[:, :2] - center, axis=1)
     # Height of the round end above its base, at the distance of each vertex.
     room = np.sqrt(np.maximum(radius**2 - around**2, 0.0))
     low, high = (local[:, 2] + room).min(), (local[:, 2] - room).max()
-    middle = np.r_[center, (low + high) / 2] @ frame
+    middle = coordinates_along(frame.T, np.r_[center, (low + high) / 2])
     sizes = np.array([radius, radius, max(high - low, 0.0) / 2])
     return CollisionShape("CAPSULE", hull, middle, frame, sizes)
 
