@@ -2,7 +2,8 @@
 
 import numpy as np
 
-_BLOCK = 1 << 20  # pairs of a ray and a triangle at a time
+# Pairs of a ray and a triangle at a time. Their arrays fit into the processor's cache.
+_BLOCK = 1 << 17
 
 
 class BruteCaster:
