@@ -30,6 +30,15 @@ def decompose(shape, parameters, members=None, make_caster=BruteCaster):
     return run(decompose_in_steps(shape, parameters, cache, members))
 
 
+def decomposer(shape):
+    """Return a function from values of parameters to a shape's decomposition.
+
+    What it has found serves the next values, too.
+    """
+    cache = ShapeCache(BruteCaster)
+    return lambda **values: run(decompose_in_steps(shape, Parameters(**values), cache))
+
+
 def split_up(mesh, **values):
     """Return the decomposition of a mesh, with few samples unless told otherwise."""
     values = {"samples": 150, "max_parts": 5, **values}

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapes
-from computed import decompose, graph_of, part_count_search, see
+from computed import decompose, decomposer, graph_of, part_count_search, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.merging.creases import pieces_between
 from weak_convex_decomposition.core.parts.merging.flush import flush_seams
@@ -76,10 +76,10 @@ VESSELS = [
 @pytest.mark.parametrize(("radii", "heights"), VESSELS)
 def test_a_shape_stays_whole_if_pieces_are_worse(radii, heights):
     """Creases run around the inside of a thick bowl and of a vase."""
-    vessel = shapes.turned(radii, heights)
-    assert decompose(vessel, Parameters()).n_parts == 1
-    assert decompose(vessel, Parameters(min_parts=3)).n_parts >= 3
-    assert decompose(vessel, Parameters(parts=2)).n_parts == 2
+    found = decomposer(shapes.turned(radii, heights))
+    assert found().n_parts == 1
+    assert found(min_parts=3).n_parts >= 3
+    assert found(parts=2).n_parts == 2
 
 
 @pytest.mark.parametrize("seed", [0, 1])
@@ -93,10 +93,11 @@ def test_parts_follow_loops_that_cost_little_psi(seed):
     assert found.psi == pytest.approx(found.psi_by_k[3])
 
 
-@pytest.mark.parametrize("number", [2, 5])
-def test_other_numbers_and_limits_are_kept(number):
-    assert decompose(pins(), Parameters(parts=number)).n_parts == number
-    assert decompose(pins(), Parameters(min_parts=4, max_parts=6)).n_parts >= 4
+def test_other_numbers_and_limits_are_kept():
+    found = decomposer(pins())
+    assert found(parts=2).n_parts == 2
+    assert found(parts=5).n_parts == 5
+    assert found(min_parts=4, max_parts=6).n_parts >= 4
 
 
 def test_what_lies_between_a_seam_and_a_loop_is_no_part():
