@@ -15,6 +15,7 @@ from weak_convex_decomposition.core.parameters.presets import preset
 from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.request.option_names import SETTINGS
 from weak_convex_decomposition.operators.headless.request.options import parse
+from weak_convex_decomposition.operators.headless.write import picture
 
 ROOT = Path(__file__).parents[3]
 QUICK = ["--samples", "100", "--parts", "2"]
@@ -202,7 +203,8 @@ def test_every_object_is_decomposed_once(tmp_path, capfd):
     assert objects[1]["parts"] == objects[2]["parts"]
 
 
-def test_picture_option(tmp_path, model):
+def test_picture_option(tmp_path, model, monkeypatch):
+    monkeypatch.setattr(picture, "SIZE", 160)
     assert run(model, "--picture", tmp_path / "{name}.png", *QUICK, "--quiet") == 0
     assert (tmp_path / "monkey.png").read_bytes().startswith(b"\x89PNG")
 

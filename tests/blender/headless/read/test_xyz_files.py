@@ -11,6 +11,7 @@ from weak_convex_decomposition.operators.bridge.mesh.points import (
     positions_of,
 )
 from weak_convex_decomposition.operators.headless.command_line import main
+from weak_convex_decomposition.operators.headless.write import picture as pictures
 
 POINTS, NORMALS = clouds.drawn(shapes.dumbbell(), 600)
 FAST = ["--samples", "150", "--parts", "2", "--containers", "HOLLOW"]
@@ -156,7 +157,8 @@ def test_points_keep_their_axes(tmp_path):
         assert np.array(written, float) == pytest.approx(POINTS, abs=1e-5), ending
 
 
-def test_parts_of_points_go_out(tmp_path):
+def test_parts_of_points_go_out(tmp_path, monkeypatch):
+    monkeypatch.setattr(pictures, "SIZE", 160)
     path = tmp_path / "a.xyz"
     path.write_text(rows(TABLE))
     output, picture = tmp_path / "out.ply", tmp_path / "out.png"
