@@ -147,7 +147,7 @@ def _turns_of_copies(
 
 
 def _touch(obj: bpy.types.Object, n_faces: int) -> bool:
-    """Return whether runs of faces, each as long, share vertices."""
+    """Return whether runs of `n_faces` faces share vertices."""
     vertices, faces = layers_of(obj).corners()
     used = np.unique(np.stack([vertices, faces // n_faces], axis=1), axis=0)[:, 0]
     return len(np.unique(used)) < len(used)

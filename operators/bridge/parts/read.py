@@ -84,18 +84,17 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
     if turns is not None:
         keys += stride * turns
     counts = np.bincount(keys)
-    origins = [divmod(int(key), stride)[::-1] for key in np.flatnonzero(counts)]
+    there = np.flatnonzero(counts)
+    origins = [divmod(int(key), stride)[::-1] for key in there]
     told = {
-        (number, turn): told_of_part(
-            obj, (number, turn), int(np.argmax(keys == number + stride * turn))
-        )
-        for number, turn in origins
-        if turn or number not in noted
+        origin: told_of_part(obj, origin, int(np.argmax(keys == key)))
+        for origin, key in zip(origins, there, strict=True)
+        if origin[1] or origin[0] not in noted
     }
     identities = _identified(origins, noted, told)
     order = sorted(range(len(origins)), key=lambda row: identities[row].number)
     places = np.zeros(len(counts), dtype=np.int64)
-    places[np.flatnonzero(counts)[order]] = np.arange(len(order))
+    places[there[order]] = np.arange(len(order))
     return FoundParts(
         labels=places[keys],
         identities=tuple(identities[row] for row in order),
