@@ -183,6 +183,8 @@ def _wind(
         Triangles with a common edge.
     opposed : (E,) bool
         Whether they run along it in opposite directions, as they should.
+    n_triangles : int
+        Number of triangles T.
 
     Returns
     -------
