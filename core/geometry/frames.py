@@ -25,7 +25,7 @@ def settled(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
     Parameters
     ----------
     numbers : (...) float
-        Where the longest side of the shape is 2.
+        About 1 in size, such as coordinates where the longest side is 2.
 
     Returns
     -------
