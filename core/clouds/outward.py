@@ -89,7 +89,6 @@ def outward_directions(
     Parameters
     ----------
     points : (N, 3) float
-        Centered at the origin.
     blur : float
         Radius that the surface is blurred with, in distances of its points, so that
         the vectors do not fit noise.
@@ -102,7 +101,9 @@ def outward_directions(
     ----------
     Lin, Shi and Liu, winding number normal consistency, 2024.
     """
-    places = points.astype(np.float32)
+    # Single precision is finest around 0: that is where most points have to be, however
+    # far a stray one is.
+    places = (points - np.median(points, axis=0)).astype(np.float32)
     drawn = np.random.default_rng(0).permutation(len(points))[:_DRAWN]
     spacing = _spacing(places[drawn])
     if 0 < spacing < _SHORT:
