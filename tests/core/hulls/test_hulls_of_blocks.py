@@ -25,7 +25,7 @@ from weak_convex_decomposition.core.steps.progress import Progress
     ],
     ids=["L", "L prism", "U", "plus", "dumbbell", "table", "comb"],
 )
-@pytest.mark.parametrize("max_error", [0.05, 0.004])
+@pytest.mark.parametrize("max_error", [0.05, 0.01, 0.002])
 def test_blocks_get_no_more_hulls_than_they_need(make, fewest, max_error):
     found = build_hulls(make(), HullParameters(max_error=max_error))
     assert found.n_hulls == fewest

@@ -67,7 +67,7 @@ def test_the_layout_of_vertices_does_not_matter():
         shapes.box((8, 3, 0), (9, 5, 2), 4),
     )
     usual = decompose(scene, Parameters())
-    for layout in (merged, changes.split):
+    for layout in LAYOUTS.values():
         found = decompose(layout(scene), Parameters())
         assert found.n_parts == usual.n_parts == 4
         assert (found.labels == usual.labels).mean() > 0.98

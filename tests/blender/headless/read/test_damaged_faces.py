@@ -235,13 +235,16 @@ def test_text_that_blender_cannot_read(tmp_path, unexpected):
 def test_the_reasons_of_importers_name_the_file_in_quotes(tmp_path):
     folder = tmp_path / "a folder: 1"
     folder.mkdir()
-    content = b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0hello"
+    heads = [b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0"]
+    if "fbx_import" in dir(bpy.ops.wm):  # others refuse text as such
+        heads.append(b"; FBX 7.3.0 project file\n")
     for name in ("a.fbx", "it's.fbx"):
-        (folder / name).write_bytes(content)
-        with pytest.raises(DecompositionError) as caught:
-            load(folder / name)
-        reason = str(caught.value).partition("(")[2]
-        assert reason.count(f'"{name}"') == 1
-        assert reason.count('"') == 2
-        assert reason.replace("it's", "").replace("n't", "").count("'") == 0
-        assert "folder" not in reason
+        for head in heads:
+            (folder / name).write_bytes(head + b"hello")
+            with pytest.raises(DecompositionError) as caught:
+                load(folder / name)
+            reason = str(caught.value).partition("(")[2]
+            assert reason.count(f'"{name}"') == 1
+            assert reason.count('"') == 2
+            assert reason.replace("it's", "").replace("n't", "").count("'") == 0
+            assert "folder" not in reason
