@@ -11,6 +11,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ..core.geometry.cutting.segments import segments_below
 from ..operators.viewport.viewports import clip_planes
 
 # Blender's shader takes so many planes.
@@ -63,15 +64,6 @@ def lines_within(
 
     For shaders of Blender's that know no planes.
     """
-    lines = ends.reshape(-1, 2, 3)
-    heights = lines @ planes[:, :3].T + planes[:, 3]
-    first, last = heights[:, 0], heights[:, 1]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        shares = first / (first - last)
-    begin = np.where((first < 0) & (last >= 0), shares, 0.0).max(axis=1, initial=0.0)
-    end = np.where((first >= 0) & (last < 0), shares, 1.0).min(axis=1, initial=1.0)
-    seen = (begin < end) & ((first >= 0) | (last >= 0)).all(axis=1)
-    begin, end, lines = begin[seen], end[seen], lines[seen]
-    along = np.stack([begin, end], axis=1)[:, :, None]
-    within = lines[:, :1] + along * (lines[:, 1:] - lines[:, :1])
-    return within.reshape(-1, 3).astype(ends.dtype)
+    lines = segments_below(-planes, ends.reshape(-1, 2, 3).astype(np.float64))
+    lines = lines[(lines[:, 0] != lines[:, 1]).any(axis=1)]
+    return lines.reshape(-1, 3).astype(ends.dtype)

@@ -86,7 +86,7 @@ class PointCloud:
     @property
     def diagonal(self) -> float:
         """Length of the bounding box's diagonal, in the units of the object."""
-        return math.dist(self.points.min(axis=0), self.points.max(axis=0))
+        return math.dist(*self.bounds)
 
     @property
     def plane(self) -> NDArray[np.float64] | None:

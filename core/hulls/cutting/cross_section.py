@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.cutting.segments import segments_below
 from ...geometry.frames import coordinates_along, cross, frames, heights_above
 from ..solid import Solid
 
@@ -87,17 +88,7 @@ class Section:
         (M, 3) float
             Both ends of each clipped segment.
         """
-        starts, ends = (heights_above(planes, self.rim[:, end]).T for end in (0, 1))
-        fall = np.where(starts == ends, 1.0, starts - ends)
-        crossed = starts / fall
-        enter = np.where(starts > 0, crossed, 0.0).max(axis=0, initial=0.0)
-        leave = np.where(ends > 0, crossed, 1.0).min(axis=0, initial=1.0)
-        enter[((starts > 0) & (ends > 0)).any(axis=0)] = np.inf
-        kept = enter <= leave
-        shares = np.stack([enter, leave], axis=1)[kept, :, None]
-        one, other = self.rim[kept, :1], self.rim[kept, 1:]
-        points: NDArray[np.float64] = one + shares * (other - one)
-        return points.reshape(-1, 3)
+        return segments_below(planes, self.rim).reshape(-1, 3)
 
     def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the points of a square grid that are inside the cross-section.

@@ -71,7 +71,7 @@ def _fbx(path: Path, _up: str) -> set[str]:
     if "fbx_import" in dir(bpy.ops.wm):  # newer Blenders; it reads text FBX, too
         result = set(bpy.ops.wm.fbx_import(filepath=str(path)))
         _count_users()
-    elif path.read_bytes().startswith(b";"):
+    elif _is_text(path):
         raise DecompositionError(
             f"{path} is .fbx in text form, which Blender 4.5 and later reads; save"
             " it in binary form, or use a newer Blender."
@@ -81,6 +81,12 @@ def _fbx(path: Path, _up: str) -> set[str]:
         result = set(bpy.ops.import_scene.fbx(filepath=str(path)))
     _forget_colors()
     return result
+
+
+def _is_text(path: Path) -> bool:
+    """Return whether an .fbx file is in text form."""
+    with path.open("rb") as file:
+        return file.read(1) == b";"
 
 
 def _forget_colors() -> None:
