@@ -69,11 +69,6 @@ def block(name, size=(2, 1, 0.5), l_shaped=False):
     return bpy.data.objects.new(name, mesh)
 
 
-@pytest.fixture(autouse=True)
-def empty():
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-
-
 def test_parts_and_hulls_are_told_of(tmp_path):
     path = save(tmp_path, block("L", l_shaped=True))
     outputs = ["--output", tmp_path / "o.blend", "--hulls", tmp_path / "h.glb"]

@@ -25,11 +25,6 @@ from weak_convex_decomposition.operators.headless.read.load import load_file
 QUICK = ["--samples", "60", "--parts", "1", "--pieces", "parts", "--quiet"]
 
 
-@pytest.fixture(autouse=True)
-def _empty_file():
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-
-
 def hulls_in(path):
     """Return the bounding box of each hull in an .obj file, in its order."""
     found = []

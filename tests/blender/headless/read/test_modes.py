@@ -12,7 +12,6 @@ MODES = ("EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT")
 @pytest.fixture
 def two_cubes():
     """Return two selected cubes; the second is active."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     for name in ("One", "Other"):
         bpy.ops.mesh.primitive_cube_add()
         bpy.context.active_object.name = name

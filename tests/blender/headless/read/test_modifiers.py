@@ -11,11 +11,6 @@ from weak_convex_decomposition.operators.headless.read.load import load_file
 QUICK = ["--samples", "60", "--parts", "1", "--quiet"]
 
 
-@pytest.fixture(autouse=True)
-def _empty_file():
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-
-
 def cube(name="Cube", place=(0, 0, 0)):
     bpy.ops.mesh.primitive_cube_add(location=place)
     obj = bpy.context.active_object
