@@ -5,8 +5,8 @@ import functools
 import numpy as np
 import pytest
 from computed import decompose, graph_of
+from definitions import agreement
 from hand_made import subdivided_suzanne
-from scipy.optimize import linear_sum_assignment
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
@@ -44,13 +44,6 @@ def centers(mesh):
     counts = np.bincount(mesh.polygons)
     sums = [np.bincount(mesh.polygons, corners[:, axis]) for axis in range(3)]
     return np.stack(sums, axis=1) / counts[:, None]
-
-
-def agreement(ours, theirs, areas):
-    """Return the share of the area on which two partitions agree at best."""
-    table = np.zeros((ours.max() + 1, theirs.max() + 1))
-    np.add.at(table, (ours, theirs), areas)
-    return table[linear_sum_assignment(-table)].sum() / areas.sum()
 
 
 def test_muzzle_and_ears_are_parts_of_their_own():

@@ -2,10 +2,8 @@
 
 from functools import cache
 
-import numpy as np
 import pytest
 from computed import decompose, see
-from scipy.optimize import linear_sum_assignment
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
 N_SAMPLES = 150
@@ -33,16 +31,3 @@ def decomposed():
         return decompose(make(), Parameters(**values))
 
     return decomposition
-
-
-@pytest.fixture(scope="session")
-def agreement():
-    """Return a function from two partitions to the share of the area they agree on."""
-
-    def share(labels, others, areas):
-        overlaps = np.zeros((labels.max() + 1, others.max() + 1))
-        np.add.at(overlaps, (labels, others), areas)
-        rows, columns = linear_sum_assignment(-overlaps)
-        return overlaps[rows, columns].sum() / areas.sum()
-
-    return share

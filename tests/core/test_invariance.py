@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of, split_up
+from definitions import agreement
 
 
-def same_partition(agreement, found, other, areas, polygons=None):
+def same_partition(found, other, areas, polygons=None):
     labels = other.labels if polygons is None else other.labels[polygons]
     assert found.n_parts == other.n_parts
     return agreement(found.labels, labels, areas) >= 0.97
@@ -22,48 +23,46 @@ def table():
 SAME = {"max_parts": 6}
 
 
-def test_the_same_parts_after_a_rotation(decomposed, table, agreement):
+def test_the_same_parts_after_a_rotation(decomposed, table):
     mesh, areas = table
     turned = changes.moved(mesh, rotation=changes.any_rotation(1), offset=(9, 2, 5))
-    assert same_partition(
-        agreement, decomposed(shapes.table), split_up(turned, **SAME), areas
-    )
+    assert same_partition(decomposed(shapes.table), split_up(turned, **SAME), areas)
 
 
 @pytest.mark.parametrize("scale", [1000.0, 0.001])
-def test_the_same_parts_at_another_scale(decomposed, table, scale, agreement):
+def test_the_same_parts_at_another_scale(decomposed, table, scale):
     mesh, areas = table
     found, scaled = (
         decomposed(shapes.table),
         split_up(changes.moved(mesh, scale), **SAME),
     )
-    assert same_partition(agreement, found, scaled, areas)
+    assert same_partition(found, scaled, areas)
     assert scaled.areas == pytest.approx(found.areas * scale**2, rel=0.03)
     assert scaled.areas.sum() == pytest.approx(areas.sum() * scale**2)
 
 
-def test_the_same_parts_of_shuffled_faces(decomposed, table, agreement):
+def test_the_same_parts_of_shuffled_faces(decomposed, table):
     mesh, areas = table
     shuffled, polygons = changes.permuted(mesh, 5)
     found = split_up(shuffled, **SAME)
-    assert same_partition(agreement, decomposed(shapes.table), found, areas, polygons)
+    assert same_partition(decomposed(shapes.table), found, areas, polygons)
 
 
-def test_the_same_parts_of_split_vertices(decomposed, table, agreement):
+def test_the_same_parts_of_split_vertices(decomposed, table):
     mesh, areas = table
     found = split_up(changes.split(mesh), **SAME)
-    assert same_partition(agreement, decomposed(shapes.table), found, areas)
+    assert same_partition(decomposed(shapes.table), found, areas)
 
 
-def test_the_same_parts_of_an_inside_out_mesh_with_a_note(decomposed, table, agreement):
+def test_the_same_parts_of_an_inside_out_mesh_with_a_note(decomposed, table):
     mesh, areas = table
     found = split_up(changes.inside_out(mesh), **SAME)
-    assert same_partition(agreement, decomposed(shapes.table), found, areas)
+    assert same_partition(decomposed(shapes.table), found, areas)
     assert len(found.notes) == 1
     assert "inside out" in found.notes[0]
 
 
-def test_the_same_parts_of_a_finer_tessellation(decomposed, agreement):
+def test_the_same_parts_of_a_finer_tessellation(decomposed):
     """Each triangle in four, each a polygon of its own."""
     mesh = shapes.l_shape()
     finer = changes.refined(mesh)
@@ -74,7 +73,7 @@ def test_the_same_parts_of_a_finer_tessellation(decomposed, agreement):
     assert agreement(labels, fine.labels, finer.areas) >= 0.9
 
 
-def test_the_same_parts_of_triangles_for_polygons(decomposed, table, agreement):
+def test_the_same_parts_of_triangles_for_polygons(decomposed, table):
     mesh, _ = table
     triangles = replace(mesh, polygons=np.arange(len(mesh.triangles)))
     found = split_up(triangles, **SAME)

@@ -3,8 +3,8 @@
 import json
 
 import numpy as np
+from definitions import agreement
 from hand_made import areas, face_values, in_mode
-from scipy.optimize import linear_sum_assignment
 from weak_convex_decomposition.operators.bridge.parts.part_materials import (
     is_overlaid,
     kept_materials,
@@ -50,10 +50,7 @@ def needless_change(obj, before, after):
     changed = sizes[before != after].sum()
     _, before = np.unique(before, return_inverse=True)
     _, after = np.unique(after, return_inverse=True)
-    shared = np.zeros((before.max() + 1, after.max() + 1))
-    np.add.at(shared, (before, after), sizes)
-    most_kept = shared[linear_sum_assignment(-shared)].sum()
-    return (changed + most_kept) / sizes.sum() - 1
+    return changed / sizes.sum() + agreement(before, after, sizes) - 1
 
 
 def check_in_step(obj):

@@ -13,7 +13,7 @@ import bpy  # noqa: F401  # mathutils comes with it
 import checkout  # noqa: F401  # makes the package importable
 import numpy as np
 import weak_convex_decomposition as package
-from convexity_check import heights_above_shape
+from definitions import heights_above_shape
 from headless.loading import load
 from mathutils import Vector
 from mathutils.bvhtree import BVHTree

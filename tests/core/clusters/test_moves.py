@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 import shapes
+from definitions import psi
 from scipy import sparse
 from weak_convex_decomposition.core.clusters import moves
 from weak_convex_decomposition.core.clusters.moves import MoveGains, raise_psi
@@ -20,21 +21,6 @@ def random_pairs(seed, n_samples=90, share=1.0):
     return PairVisibility(
         *(sparse.csr_array(matrix.astype(np.float32)) for matrix in (visible, known))
     )
-
-
-def tables(pairs):
-    """Return which pairs are visible and known, as plain arrays."""
-    if pairs.known is None:
-        return pairs.visible.astype(float), np.ones(pairs.visible.shape)
-    return pairs.visible.toarray().astype(float), pairs.known.toarray().astype(float)
-
-
-def psi(pairs, labels, alpha):
-    """Return psi by its definition, equation 5."""
-    visible, known = tables(pairs)
-    same = labels[:, None] == labels
-    hidden = known - visible
-    return (visible[same].sum() + alpha * hidden[~same].sum()) / known.sum()
 
 
 @pytest.mark.parametrize("alpha", ALPHAS)
@@ -91,31 +77,31 @@ def test_samples_that_all_see_each_other_become_one():
 
 @pytest.mark.parametrize("share", [1.0, 0.5])
 @pytest.mark.parametrize("alpha", ALPHAS)
-def test_pulls_tell_what_a_move_gains(alpha, share):
+def test_gains_tell_what_a_move_gains(alpha, share):
     pairs = random_pairs(5, share=share)
     labels = np.random.default_rng(5).integers(4, size=90)
-    pulls = MoveGains(pairs, labels, 4).of(slice(None), alpha)
+    gains = MoveGains(pairs, labels, 4).of(slice(None), alpha)
     for sample in (0, 17, 89):
         for label in range(4):
             moved = labels.copy()
             moved[sample] = label
             gain = psi(pairs, moved, alpha) - psi(pairs, labels, alpha)
-            told = (pulls[sample, label] - pulls[sample, labels[sample]]) / 90
+            told = (gains[sample, label] - gains[sample, labels[sample]]) / 90
             assert gain == pytest.approx(told, abs=1e-9)
     rows = slice(3, None, 30)
-    assert (MoveGains(pairs, labels, 4).of(rows, alpha) == pulls[rows]).all()
+    assert (MoveGains(pairs, labels, 4).of(rows, alpha) == gains[rows]).all()
 
 
 @pytest.mark.parametrize("share", [1.0, 0.5])
-def test_pulls_follow_the_labels(share):
+def test_gains_follow_the_labels(share):
     pairs = random_pairs(6, share=share)
     before, after = np.random.default_rng(6).integers(4, size=(2, 90))
-    pulls = MoveGains(pairs, before, 4)
+    gains = MoveGains(pairs, before, 4)
     changed = np.flatnonzero(before != after)
     for samples in (changed[::2], changed[1::2]):
-        pulls.give(samples, after[samples])
+        gains.give(samples, after[samples])
     anew = MoveGains(pairs, after, 4)
-    assert (pulls.of(slice(None), 2.0) == anew.of(slice(None), 2.0)).all()
+    assert (gains.of(slice(None), 2.0) == anew.of(slice(None), 2.0)).all()
 
 
 @pytest.mark.parametrize("share", [1.0, 0.5])

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import decompose, graph_of, lines_of_sight, measure, normalized
+from definitions import agreement
 from weak_convex_decomposition.core.geometry.cutting.triangulation import triangulate
 from weak_convex_decomposition.core.geometry.flat import flat_mesh
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
@@ -170,7 +171,7 @@ def test_nothing_is_seen_across_a_hole():
 
 
 @pytest.mark.parametrize(("mesh", "parts", "samples"), [(COMB, 5, 600), (HAND, 6, 300)])
-def test_the_same_parts_in_any_plane(mesh, parts, samples, agreement):
+def test_the_same_parts_in_any_plane(mesh, parts, samples):
     turned = changes.moved(mesh, 30.0, UPRIGHT, (9, 2, 5))
     found, other = (split_up(m, samples=samples) for m in (mesh, turned))
     assert found.n_parts == other.n_parts == parts

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of, prepare
+from definitions import agreement
 from weak_convex_decomposition.core.geometry.graphs.patches import (
     contracted,
     find_patches,
@@ -113,7 +114,7 @@ def test_opened_patches_are_their_nodes():
     assert len(graph.neighbors) == len(patches.fine.neighbors)
 
 
-def test_parts_on_patches_are_those_on_faces_but_for_seams(agreement):
+def test_parts_on_patches_are_those_on_faces_but_for_seams():
     areas = dumbbell()[0].graph.areas
     on_faces, on_patches = found_with(10_000), found_with(600)
     assert on_patches.n_parts == on_faces.n_parts > 1

@@ -7,7 +7,7 @@ import pytest
 import shapes
 from brute_caster import BruteCaster
 from computed import build_hulls
-from convexity_check import assert_convex, covered
+from definitions import assert_convex, covered
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import shapes
-from convexity_check import assert_convex
+from definitions import assert_convex
 from scipy.spatial import ConvexHull
 from weak_convex_decomposition.core.geometry.primitives import CollisionShape
 from weak_convex_decomposition.core.hulls.convex_hull import (

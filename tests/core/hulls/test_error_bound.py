@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import build_hulls
-from convexity_check import heights_above_shape
+from definitions import heights_above_shape
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.hulls.convex_hull import THIN, convex_hull
 from weak_convex_decomposition.core.hulls.cutting.cell import whole

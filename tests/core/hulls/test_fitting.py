@@ -2,7 +2,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from convexity_check import assert_convex, heights_above_shape
+from definitions import assert_convex, heights_above_shape
 from weak_convex_decomposition.core.hulls.convex_hull import convex_hull
 from weak_convex_decomposition.core.hulls.fitting import Fit
 from weak_convex_decomposition.core.hulls.outline import outline_of

@@ -3,7 +3,7 @@
 import numpy as np
 import shapes
 from computed import build_hulls
-from convexity_check import assert_convex, covered
+from definitions import assert_convex, covered
 from weak_convex_decomposition.core.cache import ShapeCache, no_rays
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.hulls.outline import outline_of

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import decompose, graph_of, see
+from definitions import agreement
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.merging.limbs import LimbMerger
 from weak_convex_decomposition.core.parts.partition import Partitioner
@@ -108,7 +109,7 @@ def test_creases_necks_and_junctions_divide(make):
     assert decompose(make(), KEEP).labels.tolist() == cut.labels.tolist()
 
 
-def test_a_given_number_is_met_by_what_is_kept_whole(agreement):
+def test_a_given_number_is_met_by_what_is_kept_whole():
     ball = shapes.sphere(1, 0.5, (1.1, -0.4, 0))
     mesh = shapes.joined(horseshoe(), ball)
     shells = (np.arange(mesh.n_polygons) >= horseshoe().n_polygons).astype(int)

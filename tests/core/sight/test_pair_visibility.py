@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import measure
+from definitions import psi, tables
 from scipy import sparse
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.sight.pair_visibility import PairVisibility
@@ -94,28 +95,10 @@ def pairs(request):
 LABELS = np.random.default_rng(8).integers(4, size=30)
 
 
-def naive_psi(pairs, labels, alpha):
-    visible, known = tables(pairs)
-    score = 0.0
-    for i in range(30):
-        for j in range(30):
-            if labels[i] == labels[j]:
-                score += visible[i, j]
-            else:
-                score += alpha * (known[i, j] - visible[i, j])
-    return score / known.sum()
-
-
-def tables(pairs):
-    if pairs.known is None:
-        return pairs.visible.astype(float), np.ones(pairs.visible.shape)
-    return pairs.visible.toarray().astype(float), pairs.known.toarray().astype(float)
-
-
 @pytest.mark.parametrize("alpha", ALPHAS)
 def test_psi_is_equation_5(pairs, alpha):
     tally = pairs.tally(LABELS, 4)
-    assert tally.psi(alpha) == pytest.approx(naive_psi(pairs, LABELS, alpha))
+    assert tally.psi(alpha) == pytest.approx(psi(pairs, LABELS, alpha))
 
 
 def test_psi_of_one_part_is_the_rank_of_all(pairs):
@@ -147,7 +130,7 @@ def test_merge_gains_are_what_psi_gains(pairs, alpha):
             if one == other:
                 continue
             merged = np.where(other == LABELS, one, LABELS)
-            gain = naive_psi(pairs, merged, alpha) - naive_psi(pairs, LABELS, alpha)
+            gain = psi(pairs, merged, alpha) - psi(pairs, LABELS, alpha)
             assert gains[one, other] == pytest.approx(gain, abs=1e-9)
 
 

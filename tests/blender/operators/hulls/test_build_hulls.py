@@ -3,7 +3,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from convexity_check import assert_convex
+from definitions import assert_convex
 from hand_made import decompose_by_hand, in_mode, mesh_object
 from snapshot import snapshot
 from weak_convex_decomposition.core.hulls.convex_hull import Hull
