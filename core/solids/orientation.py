@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..geometry.frames import cross
 from ..geometry.mesh import TriangleMesh
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .shells import Shells
 from .slivers import are_thin
-from .winding import winding_number
 
 # Greatest missing area of a solid open shell, as a share of its area. A cube without
 # its lid misses 0.2.
@@ -116,7 +116,7 @@ def _inverted(
         turned = np.where(shells.against[rows], -1.0, 1.0)
         point = mesh.vertices[mesh.triangles[members[inner][0], 0]]
         around = mesh.vertices[mesh.triangles[rows]]
-        return abs(winding_number(point, around, turned)) > 0.5
+        return abs(_winding_number(point, around, turned)) > 0.5
 
     around, inside = yield from _nested_boxes(
         *shells.bounds(mesh), np.flatnonzero(solid)
@@ -156,3 +156,25 @@ def _nested_boxes(
             around[other].append(one)
             inside[one].append(other)
     return around, inside
+
+
+def _winding_number(
+    point: NDArray[np.float64],
+    corners: NDArray[np.float64],
+    signs: NDArray[np.float64],
+) -> float:
+    """Return how often triangles (T, 3, 3) wind around a point (3,).
+
+    `signs` (T,) are -1 for triangles to be turned. A sum of solid angles, by the
+    formula of Van Oosterom and Strackee (1983).
+    """
+    a, b, c = np.moveaxis(corners - point, 1, 0)
+    la, lb, lc = (np.linalg.norm(edge, axis=1) for edge in (a, b, c))
+    above = np.einsum("td,td->t", a, cross(b, c))
+    below = (
+        la * lb * lc
+        + (a * b).sum(axis=1) * lc
+        + (b * c).sum(axis=1) * la
+        + (c * a).sum(axis=1) * lb
+    )
+    return float((signs * np.arctan2(above, below)).sum() / (2 * np.pi))

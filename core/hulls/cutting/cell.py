@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...geometry.cutting.segments import segments_below
 from ...geometry.frames import heights_above
 from ..fitting import Fit
 from ..piece import Piece
@@ -85,7 +86,8 @@ def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
     face = section.spread(cell.points)
     face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
     tips = meeting_points(cell.lines, cell.planes, plane)
-    rim = np.concatenate([section.rim_within(cell.planes), tips[section.holds(tips)]])
+    rim = segments_below(cell.planes, section.rim).reshape(-1, 3)
+    rim = np.concatenate([rim, tips[section.holds(tips)]])
     heights = [
         heights_above(plane[None], places)[:, 0]
         for places in (cell.points, cell.boundary, cell.chords)

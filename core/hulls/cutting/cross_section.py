@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.cutting.segments import segments_below
 from ...geometry.frames import coordinates_along, cross, frames, heights_above
 from ..solid import Solid
 
@@ -74,21 +73,6 @@ class Section:
     axes: NDArray[np.float64]
     rim: NDArray[np.float64]
     segments: NDArray[np.float64]
-
-    def rim_within(self, planes: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Clip the contour to the space below planes.
-
-        Parameters
-        ----------
-        planes : (P, 4) float
-            n · x + d ≤ 0 below each.
-
-        Returns
-        -------
-        (M, 3) float
-            Both ends of each clipped segment.
-        """
-        return segments_below(planes, self.rim).reshape(-1, 3)
 
     def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the points of a square grid that are inside the cross-section.

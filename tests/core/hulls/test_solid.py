@@ -2,6 +2,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from weak_convex_decomposition.core.geometry.cutting.segments import segments_below
 from weak_convex_decomposition.core.hulls.cutting.cross_section import (
     contour,
     cross_section,
@@ -100,11 +101,11 @@ def test_contours_have_the_inside_on_their_left():
 def test_rims_end_at_other_planes():
     section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3), 0), PLANE)
     planes = np.array([[1.0, 0, 0, -0.25], [0, 1, 0, -5]])
-    rim = section.rim_within(planes)
-    assert rim.min(axis=0) == pytest.approx([-1, -1, 0.5])
-    assert rim.max(axis=0) == pytest.approx([0.25, 1, 0.5])
-    assert len(section.rim_within(np.array([[1.0, 0, 0, 5]]))) == 0
-    assert len(section.rim_within(np.zeros((0, 4)))) == 2 * len(section.rim)
+    rim = segments_below(planes, section.rim)
+    assert rim.min(axis=(0, 1)) == pytest.approx([-1, -1, 0.5])
+    assert rim.max(axis=(0, 1)) == pytest.approx([0.25, 1, 0.5])
+    assert len(segments_below(np.array([[1.0, 0, 0, 5]]), section.rim)) == 0
+    assert len(segments_below(np.zeros((0, 4)), section.rim)) == len(section.rim)
 
 
 def test_cross_sections_leave_out_what_is_hollow():
