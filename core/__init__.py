@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from .parts.editing import compacted as compacted
     from .parts.editing import give as give
     from .parts.editing import mirror as mirror
+    from .parts.matching import given_back as given_back
     from .parts.matching import match_parts as match_parts
-    from .parts.matching import settled as settled
     from .parts.pairs import mirror_pairs as mirror_pairs
     from .parts.part_memo import PartMemo as PartMemo
     from .parts.seams.smoothing import smooth_seams as smooth_seams
@@ -63,7 +63,7 @@ _HOMES = {
     "give": "parts.editing",
     "mirror": "parts.editing",
     "match_parts": "parts.matching",
-    "settled": "parts.matching",
+    "given_back": "parts.matching",
     "describe": "parts.describe",
     "notes_on_count": "parts.describe",
     "mirror_pairs": "parts.pairs",

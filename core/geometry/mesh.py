@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
-from ..steps.memo import kept
+from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, run, within
 from ..steps.rows import blocks, used_rows
 from .array_checks import (
@@ -107,7 +107,7 @@ class TriangleMesh:
         """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
         return run(self.bounds_in_steps())
 
-    @kept
+    @computed_once
     def bounds_in_steps(self) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Return `bounds`, found in short steps."""
         steps = used_rows(self.triangles, len(self.vertices))
@@ -176,7 +176,7 @@ class TriangleMesh:
         """
         return run(self.welded_in_steps())
 
-    @kept
+    @computed_once
     def welded_in_steps(self) -> Steps[NDArray[np.int32]]:
         """Return `welded_triangles`, found in short steps.
 
@@ -199,7 +199,7 @@ class TriangleMesh:
         """(T, 3) outward unit normals of the triangles, 0 for degenerate ones."""
         return run(self.normals_in_steps())[1]
 
-    @kept
+    @computed_once
     def normals_in_steps(
         self,
     ) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:

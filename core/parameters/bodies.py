@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .parameter import Choice, ParameterInfo, parameter, settle
+from .parameter import Choice, ParameterInfo, check_fields, parameter
 
 
 @dataclass(frozen=True)
@@ -49,4 +49,4 @@ class BodyParameters:
 
     def __post_init__(self) -> None:
         """Check every field."""
-        settle(self)
+        check_fields(self)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..errors import DecompositionError
 from .hull_names import NAMINGS, hull_names
-from .parameter import Choice, ParameterInfo, is_within, parameter, settle
+from .parameter import Choice, ParameterInfo, check_fields, is_within, parameter
 
 SHAPES = (
     Choice("HULL", "Convex Hull", "The smallest convex shape around it"),
@@ -158,7 +158,7 @@ class HullParameters:
 
     def __post_init__(self) -> None:
         """Check every field, and that the template gives each hull another name."""
-        settle(self)
+        check_fields(self)
         low, high = RELATIVE_ERRORS
         if self.error_unit == "RELATIVE" and not is_within(self.max_error, low, high):
             raise DecompositionError(

@@ -109,7 +109,7 @@ def field_of(kind: type, name: str) -> Field[Any]:
     return next(each for each in fields(kind) if each.name == name)
 
 
-def settle(parameters: Any) -> None:
+def check_fields(parameters: Any) -> None:
     """Check every field of a dataclass, and convert values to Python's plain types.
 
     Parameters

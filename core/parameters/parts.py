@@ -8,7 +8,7 @@ from functools import partial
 
 from ..errors import DecompositionError
 from . import choices
-from .parameter import ParameterInfo, parameter, settle
+from .parameter import ParameterInfo, check_fields, parameter
 
 # A number of parts that bounds the search.
 _searched = partial(ParameterInfo, low=2, high=256, affects_sight=False)
@@ -237,7 +237,7 @@ class Parameters:
 
     def __post_init__(self) -> None:
         """Check every field, and the fields whose values limit each other."""
-        settle(self)
+        check_fields(self)
         if self.min_parts > self.max_parts:
             raise DecompositionError(
                 f"Fewest Parts is {self.min_parts}, above Most Parts,"

@@ -29,7 +29,7 @@ from .part_count import PartCountSearch
 from .part_count_given import given, knows
 from .part_memo import PartMemo
 from .partition import Partitioner
-from .seams.fine import labels_of_nodes, seams_take_long
+from .seams.fine import parts_of_nodes, seams_take_long
 
 
 @on_one_thread
@@ -70,7 +70,7 @@ def find_parts(
         _, memo.tried = yield from search.tried()
         seams = yield from within(search.seams.smoothed(seams), 0.85, 0.9)
     rough = rough and (guesses or seams_take_long(partitioner, seams))
-    finer = labels_of_nodes(partitioner, seams, rough)
+    finer = parts_of_nodes(partitioner, seams, rough)
     nodes = yield from within(finer, 0.9, 1.0)
     labels = by_size(nodes, memo.visibility.shape)
     found = describe(memo.visibility, labels, parameters, psi_by_k, best_k)

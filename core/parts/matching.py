@@ -40,7 +40,7 @@ def match_parts(
     return former
 
 
-def settled(
+def given_back(
     before: NDArray[np.integer],
     after: NDArray[np.integer],
     areas: NDArray[np.floating],

@@ -15,7 +15,7 @@ from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
-from ..steps.memo import Memo, kept
+from ..steps.memo import Memo, computed_once
 from ..steps.progress import Steps, run, within
 from .details.surface import PartSurface
 
@@ -229,7 +229,7 @@ class PartMemo:
         memo._embeddings = self._embeddings
         return memo
 
-    @kept
+    @computed_once
     def sides(self) -> Steps[tuple[Side, ...]]:
         """Return the two sides of the shape's mirror plane, none if it has no plane.
 

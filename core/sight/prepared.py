@@ -19,7 +19,7 @@ from ..solids.bare import bare_mesh
 from ..solids.convexity import is_convex
 from ..solids.orientation import oriented
 from ..solids.shells import find_shells, set_apart
-from ..steps.memo import kept
+from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, run, within
 from .ray_caster import MakeCaster
 from .ray_march import RayMarcher
@@ -78,7 +78,7 @@ class PreparedShape:
         """Graph of neighboring polygons, or of neighboring points of a cloud."""
         return run(self.graph_in_steps())
 
-    @kept
+    @computed_once
     def graph_in_steps(self) -> Steps[FaceGraph]:
         """Return `graph`, made in steps if it is not known yet."""
         return (yield from self.make_graph())

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
-from ..steps.memo import kept
+from ..steps.memo import computed_once
 from ..steps.progress import Steps, run
 from .ray_caster import MakeCaster, RayCaster, caster_in_steps
 
@@ -84,7 +84,7 @@ class RayMarcher:
         """The ray tree of `mesh`, built on first use because hulls cast no rays."""
         return run(self.caster_in_steps())
 
-    @kept
+    @computed_once
     def caster_in_steps(self) -> Steps[RayCaster]:
         """Return `caster`, made in steps if it is not there yet."""
         return (yield from caster_in_steps(self.mesh, self._make_caster))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import SAME_PLACE, TriangleMesh
-from ..steps.memo import kept
+from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 
@@ -39,7 +39,7 @@ def are_thin(mesh: TriangleMesh, rows: NDArray[np.int64]) -> Steps[bool]:
     return True
 
 
-@kept
+@computed_once
 def solid_edges(mesh: TriangleMesh) -> Steps[tuple[Edges, NDArray[np.bool_]]]:
     """Return the edges of a mesh without collapsed triangles.
 

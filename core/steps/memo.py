@@ -34,7 +34,7 @@ def digest(labels: NDArray[np.integer | np.bool_]) -> bytes:
     return blake2b(labels.astype(narrow).data).digest()
 
 
-def kept(make: Callable[[Owner], Steps[T]]) -> Callable[[Owner], Steps[T]]:
+def computed_once(make: Callable[[Owner], Steps[T]]) -> Callable[[Owner], Steps[T]]:
     """Keep what is computed of an object in steps: with that object, from then on.
 
     Parameters

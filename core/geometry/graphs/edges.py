@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ...steps.memo import kept
+from ...steps.memo import computed_once
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
 from ..mesh import TriangleMesh
@@ -47,7 +47,7 @@ class Edges(NamedTuple):
         return bool((self.uses > 2).any())
 
 
-@kept
+@computed_once
 def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
     """Sort the sides of a mesh's triangles by edge.
 

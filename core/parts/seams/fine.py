@@ -25,7 +25,7 @@ _LEAST_SMOOTHNESS = 0.1
 _SWEEPS = 2
 
 
-def labels_of_nodes(
+def parts_of_nodes(
     by: Partitioner, seams: Seams, rough: bool = False
 ) -> Steps[NDArray[np.int64]]:
     """Return the part of each node of a shape's graph.
@@ -51,7 +51,7 @@ def labels_of_nodes(
 
 
 def seams_take_long(by: Partitioner, seams: Seams) -> bool:
-    """Return whether `labels_of_nodes` has seams to cut; it takes the same values."""
+    """Return whether `parts_of_nodes` has seams to cut; it takes the same values."""
     several = by.memo.patches is not None and count_parts(seams.parts) > 1
     return several and _key(seams) not in by.found.fine
 

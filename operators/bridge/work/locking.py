@@ -173,7 +173,7 @@ def _decompose_rest(
         run = yield from within(running, 0.0, 0.6)
         after = before.copy()
         after[members] = len(held) + run.labels
-        labels = core.settled(before, after, areas, by_hand | ~members)
+        labels = core.given_back(before, after, areas, by_hand | ~members)
         prepared = yield from within(cache.prepare(shape), 0.6, 0.7)
         memo = yield from within(cache.see(prepared, parameters), 0.7, 0.9)
         searched = parts if held.any() else run

@@ -10,9 +10,9 @@ from weak_convex_decomposition.core.parameters.parameter import (
     Choice,
     ParameterInfo,
     check,
+    check_fields,
     info_of,
     parameter,
-    settle,
 )
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
@@ -74,7 +74,7 @@ def test_choices_are_kept_as_plain_texts():
     Colors = Enum("Colors", {"TAN": "TAN"}, type=str)
     for value in (Colors.TAN, np.str_("TAN")):
         settings = Settings(color=value)
-        settle(settings)
+        check_fields(settings)
         assert settings.color == "TAN"
         assert type(settings.color) is str
 

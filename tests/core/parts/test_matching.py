@@ -4,7 +4,7 @@ from itertools import permutations
 
 import numpy as np
 import pytest
-from weak_convex_decomposition.core.parts.matching import match_parts, settled
+from weak_convex_decomposition.core.parts.matching import given_back, match_parts
 
 
 def kept(before, after, areas, former):
@@ -52,7 +52,7 @@ def test_settled_polygons_go_back_to_the_part_that_continues_theirs():
     before = np.array([0, 0, 0, 1, 1, 1])
     after = np.array([1, 1, 1, 1, 0, 0])
     by_hand = np.array([False] * 3 + [True] + [False] * 2)
-    labels = settled(before, after, np.ones(6), by_hand)
+    labels = given_back(before, after, np.ones(6), by_hand)
     assert labels.tolist() == [1, 1, 1, 0, 0, 0]
 
 
@@ -60,13 +60,14 @@ def test_settled_polygons_whose_part_is_gone_stay_a_part():
     before = np.array([0, 0, 0, 1, 1])
     after = np.zeros(5, int)
     by_hand = np.array([False, False, False, True, False])
-    labels = settled(before, after, np.ones(5), by_hand)
+    labels = given_back(before, after, np.ones(5), by_hand)
     assert labels.tolist() == [0, 0, 0, 1, 0]
 
 
 def test_if_all_is_settled_nothing_changes():
     before, after = np.array([0, 1, 1, 2]), np.zeros(4, int)
-    assert settled(before, after, np.ones(4), np.ones(4, bool)).tolist() == [0, 1, 1, 2]
+    labels = given_back(before, after, np.ones(4), np.ones(4, bool))
+    assert labels.tolist() == [0, 1, 1, 2]
 
 
 def test_a_part_without_area_of_the_one_that_is_left_is_new():
