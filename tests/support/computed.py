@@ -6,6 +6,7 @@ from brute_caster import BruteCaster
 from weak_convex_decomposition.core.cache import ShapeCache
 from weak_convex_decomposition.core.decomposition import decompose_in_steps
 from weak_convex_decomposition.core.geometry.graphs.face_graph import face_graph
+from weak_convex_decomposition.core.hulls import solid
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
 from weak_convex_decomposition.core.measurement import measure_in_steps
 from weak_convex_decomposition.core.parameters.parts import Parameters
@@ -54,6 +55,11 @@ def build_hulls(shape, parameters, labels=None, seed=0):
     """Return the hulls of a mesh."""
     cache = ShapeCache(BruteCaster)
     return run(build_hulls_in_steps(shape, parameters, cache, labels, seed))
+
+
+def solid_of(mesh):
+    """Return the solid that hulls are fitted to."""
+    return run(solid.solid_of(mesh, seed=0))
 
 
 def normalized(mesh):

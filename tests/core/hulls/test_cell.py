@@ -2,19 +2,13 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from computed import solid_of
 from weak_convex_decomposition.core.hulls.cutting.cell import cut, whole
 from weak_convex_decomposition.core.hulls.fitting import Fit
 from weak_convex_decomposition.core.hulls.piece import join
-from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
-from weak_convex_decomposition.core.steps.progress import run
 
-
-def solid_of(mesh, seed):
-    return run(solid_steps(mesh, seed))
-
-
-CUBE = solid_of(shapes.box((-1, -1, -1), (1, 1, 1)), 0)
+CUBE = solid_of(shapes.box((-1, -1, -1), (1, 1, 1)))
 PLANES = [np.array([*normal, 0.1]) for normal in np.eye(3)]
 
 
@@ -33,7 +27,7 @@ def test_a_corner_inside_the_solid_is_kept():
 
 
 def test_both_sides_make_up_the_whole():
-    solid = solid_of(changes.moved(shapes.u_shape(), scale=0.25), 0)
+    solid = solid_of(changes.moved(shapes.u_shape(), scale=0.25))
     cell = cell_of(solid)
     below, above = cut(cell, np.array([1.0, 0.0, 0.0, -0.50001]))
     assert below.volume + above.volume == pytest.approx(cell.volume)
@@ -48,13 +42,13 @@ def test_both_sides_make_up_the_whole():
 
 def test_the_error_of_a_convex_piece_is_small():
     assert cell_of(CUBE).error < 0.05
-    assert cell_of(solid_of(shapes.sphere(3), 0)).error < 0.05
+    assert cell_of(solid_of(shapes.sphere(3))).error < 0.05
 
 
 def test_what_is_too_deep_needs_no_bound():
     blocks = ((0, 20), (0, 20), (0, 17)), ((0, 8), (0, 20), (17, 20))
     groove = shapes.blocks((20, 20, 20), *blocks, ((12, 20), (0, 20), (17, 20)))
-    solid = solid_of(changes.moved(groove, scale=0.1), 0)
+    solid = solid_of(changes.moved(groove, scale=0.1))
     assert solid.spacing > 0.02  # so that by estimates the error may be allowed
     deep = cell_of(solid, max_error=0.28)
     assert deep.error < 0.28 + solid.spacing
@@ -73,7 +67,7 @@ def test_the_error_of_a_slit_is_its_depth(depth):
         ((11, 21), (0, 20), (0, 20)),
         ((0, 21), (0, 20), (0, round(20 * (1 - depth)))),
     )
-    solid = solid_of(changes.moved(slit, scale=2 / 21), 0)
+    solid = solid_of(changes.moved(slit, scale=2 / 21))
     cell = cell_of(solid)
     # Of the slit's floor and, its own samples aside, nothing is nearer to the hull.
     expected = min(20 * depth * 2 / 21, 10 * 2 / 21)

@@ -6,11 +6,10 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import build_hulls
+from computed import build_hulls, solid_of
 from weak_convex_decomposition.core.hulls.cutting import close_pieces
 from weak_convex_decomposition.core.hulls.cutting.cell import whole
 from weak_convex_decomposition.core.hulls.fitting import fit_for
-from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -87,7 +86,7 @@ def test_pieces_are_not_cut_again_without_end(monkeypatch):
 def test_a_piece_with_few_samples_of_the_surface_is_cut(n_samples):
     """Such are small pieces, and films that planes leave beside flat faces."""
     mesh = shapes.comb()
-    piece = whole(run(solid_of(mesh, 0)), fit_for(mesh, HullParameters(), 1.0)[0])
+    piece = whole(solid_of(mesh), fit_for(mesh, HullParameters(), 1.0)[0])
     few = np.full_like(piece.triangles, -1)
     at_a_corner = piece.boundary.sum(axis=1).argsort()[:n_samples]
     few[at_a_corner] = piece.triangles[at_a_corner]

@@ -4,6 +4,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from computed import solid_of
 from weak_convex_decomposition.core.hulls.cost import (
     cost_of_joint,
     cost_of_sides,
@@ -12,9 +13,7 @@ from weak_convex_decomposition.core.hulls.cost import (
 from weak_convex_decomposition.core.hulls.cutting.cell import cut, whole
 from weak_convex_decomposition.core.hulls.fitting import Fit
 from weak_convex_decomposition.core.hulls.piece import join
-from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
-from weak_convex_decomposition.core.steps.progress import run
 
 PLANES = [np.array([*np.eye(3)[axis], -place]) for axis in (0, 1) for place in (0.4, 1)]
 
@@ -22,7 +21,7 @@ PLANES = [np.array([*np.eye(3)[axis], -place]) for axis in (0, 1) for place in (
 @pytest.fixture(scope="module", params=[shapes.u_shape, shapes.comb, shapes.table])
 def sides(request):
     """Return both sides of some cuts of a shape, and the shape's volume."""
-    solid = run(solid_of(changes.moved(request.param(), scale=0.25), 0))
+    solid = solid_of(changes.moved(request.param(), scale=0.25))
     piece = whole(solid, Fit(HullParameters(), 1.0, 0.05))
     return [cut(piece, plane) for plane in PLANES], piece.volume
 
@@ -63,7 +62,7 @@ def test_where_the_solid_has_no_volume_errors_and_cuts_alone_cost(sides):
 
 
 def test_a_cut_across_the_longest_side_is_the_smallest():
-    solid = run(solid_of(changes.moved(shapes.l_prism(3.0), scale=0.25), 0))
+    solid = solid_of(changes.moved(shapes.l_prism(3.0), scale=0.25))
     low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
     piece, middle = whole(solid, Fit(HullParameters(), 1.0, 0.05)), (low + high) / 2
     shares = [

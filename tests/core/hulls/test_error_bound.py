@@ -7,7 +7,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import build_hulls
+from computed import build_hulls, solid_of
 from definitions import heights_above_shape
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.hulls.convex_hull import THIN, convex_hull
@@ -17,9 +17,7 @@ from weak_convex_decomposition.core.hulls.measure.error_bound import ErrorBound
 from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
 from weak_convex_decomposition.core.hulls.measure.inside import InsideTest
 from weak_convex_decomposition.core.hulls.outline import fine_outline
-from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
-from weak_convex_decomposition.core.steps.progress import run
 
 
 def one_shape(mesh, **values):
@@ -75,7 +73,7 @@ def test_a_shaft_beside_the_centers_of_patches_is_seen():
     mesh = shapes.voxels(full)
     mesh = replace(mesh, vertices=mesh.vertices * [2 / 41, 2 / 41, 2] - 1)
     corners = np.array([*product((-1, 1), (-1, 1), (-0.002, 0.002))])
-    solid, hull = run(solid_of(mesh, 0)), convex_hull(corners, THIN)
+    solid, hull = solid_of(mesh), convex_hull(corners, THIN)
     shape = fit_for(mesh, HullParameters(), 1.0)[0].shape(hull)
     bound = ErrorBound(solid, shape, hull, 0.02)
     assert 1 / 41 <= bound.value <= 1.05 / 41
@@ -134,7 +132,7 @@ def test_relative_errors_above_1_make_no_sense():
 def test_a_bound_is_looked_for_up_to_a_limit(limit):
     # The gap is 4 wide and 4 deep; half of the longest side is 4.
     mesh = changes.moved(shapes.u_shape(), scale=1 / 4)
-    piece = whole(run(solid_of(mesh, 0)), fit_for(mesh, HullParameters(), 1.0)[0])
+    piece = whole(solid_of(mesh), fit_for(mesh, HullParameters(), 1.0)[0])
     error = piece.bound.up_to(limit)
     assert error > limit if limit < 0.5 else 0.5 <= error <= 0.55
     # It goes on from there.

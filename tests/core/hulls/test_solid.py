@@ -2,18 +2,12 @@ import changes
 import numpy as np
 import pytest
 import shapes
+from computed import solid_of
 from weak_convex_decomposition.core.geometry.cutting.segments import segments_below
 from weak_convex_decomposition.core.hulls.cutting.cross_section import (
     contour,
     cross_section,
 )
-from weak_convex_decomposition.core.hulls.solid import solid_of as solid_steps
-from weak_convex_decomposition.core.steps.progress import run
-
-
-def solid_of(mesh, seed):
-    return run(solid_steps(mesh, seed))
-
 
 PLANE = np.array([0.0, 0.0, 1.0, -0.5])
 
@@ -39,14 +33,14 @@ PLANE = np.array([0.0, 0.0, 1.0, -0.5])
     ids=["box", "table", "sphere", "hollow", "turned", "cup", "overlap", "sheet"],
 )
 def test_the_volume_along_lines(make, volume):
-    solid = solid_of(make(), 0)
+    solid = solid_of(make())
     assert solid.volumes.sum() == pytest.approx(volume, rel=0.04, abs=1e-9)
 
 
 @pytest.mark.parametrize("arm", [3.0, 3.1, 4.0, 5.2])
 def test_sides_of_boxes_do_not_mislead_the_volume(arm):
     # A row of lines that all just miss a side of an arm would be a volume of 3 %.
-    solid = solid_of(shapes.l_prism(arm), 0)
+    solid = solid_of(shapes.l_prism(arm))
     assert solid.volume == pytest.approx(2 * arm - 1, rel=0.004)
     leg = solid.volumes[solid.chords[:, 1] > 1].sum()
     assert leg == pytest.approx(arm - 1, rel=0.01)
@@ -72,17 +66,17 @@ def test_the_true_volume_however_thin(mesh, volume, error):
     if volume is None:
         a, b, c = np.moveaxis(mesh.vertices[mesh.triangles], 1, 0)
         volume = np.einsum("td,td->", a, np.cross(b, c)) / 6
-    assert solid_of(turned, 0).true_volume == pytest.approx(volume, rel=error)
+    assert solid_of(turned).true_volume == pytest.approx(volume, rel=error)
 
 
 def test_the_volume_of_an_open_solid_is_measured():
     """Lines along two of the axes enter and leave a box without its top."""
-    solid = solid_of(shapes.open_box(), 0)
+    solid = solid_of(shapes.open_box())
     assert solid.true_volume == solid.volume == pytest.approx(2 / 3, rel=0.01)
 
 
 def test_chords_are_inside():
-    solid = solid_of(shapes.hollow_sphere(), 0)
+    solid = solid_of(shapes.hollow_sphere())
     radii = np.linalg.norm(solid.chords, axis=1)
     assert radii.max() < 1
     assert radii.min() > 0.47
@@ -99,7 +93,7 @@ def test_contours_have_the_inside_on_their_left():
 
 
 def test_rims_end_at_other_planes():
-    section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3), 0), PLANE)
+    section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3)), PLANE)
     planes = np.array([[1.0, 0, 0, -0.25], [0, 1, 0, -5]])
     rim = segments_below(planes, section.rim)
     assert rim.min(axis=(0, 1)) == pytest.approx([-1, -1, 0.5])
@@ -109,7 +103,7 @@ def test_rims_end_at_other_planes():
 
 
 def test_cross_sections_leave_out_what_is_hollow():
-    solid = solid_of(shapes.hollow_sphere(0.5, 3), 0)
+    solid = solid_of(shapes.hollow_sphere(0.5, 3))
     plane = np.array([0.6, 0.0, 0.8, 0.0])
     points = cross_section(solid, plane).spread(solid.vertices)
     radii = np.linalg.norm(points, axis=1)
@@ -120,7 +114,7 @@ def test_cross_sections_leave_out_what_is_hollow():
 
 
 def test_open_shapes_have_no_cross_section():
-    sheet = solid_of(shapes.sheet(), 0)
+    sheet = solid_of(shapes.sheet())
     low, high = sheet.vertices.min(axis=0), sheet.vertices.max(axis=0)
     normal = np.eye(3)[np.ptp(sheet.vertices, axis=0).argmax()]
     plane = np.r_[normal, -normal @ (low + high) / 2]
@@ -129,7 +123,7 @@ def test_open_shapes_have_no_cross_section():
 
 def test_points_inside_a_cross_section():
     section = cross_section(
-        solid_of(shapes.hollow_sphere(0.5, 3), 0), PLANE * [1, 1, 1, 0]
+        solid_of(shapes.hollow_sphere(0.5, 3)), PLANE * [1, 1, 1, 0]
     )
     turns = np.linspace(0, 6, 20)
     for radius, inside in ((0.3, False), (0.6, True), (0.9, True), (1.1, False)):

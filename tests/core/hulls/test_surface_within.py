@@ -4,19 +4,17 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import build_hulls
+from computed import build_hulls, solid_of
 from weak_convex_decomposition.core.hulls.convex_hull import THIN, convex_hull
 from weak_convex_decomposition.core.hulls.fitting import fit_for
 from weak_convex_decomposition.core.hulls.measure.surface_within import surface_within
-from weak_convex_decomposition.core.hulls.solid import solid_of
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
-from weak_convex_decomposition.core.steps.progress import run
 
 
 @pytest.mark.parametrize(("kind", "area"), [("HULL", 0.5), ("SPHERE", np.pi / 4)])
 def test_triangles_at_the_rim_are_clipped(kind, area):
     mesh = shapes.sheet(2)  # 1 x 1
-    solid = run(solid_of(mesh, 0, 1.0))
+    solid = solid_of(mesh)
     middle = solid.vertices.mean(axis=0)
     # An octahedron, which meets the sheet in a square, or the ball around it.
     corners = middle + np.concatenate([np.eye(3), -np.eye(3)]) / 2
@@ -40,7 +38,7 @@ BURIED = {
 
 def test_a_solid_alone_keeps_its_surface():
     for mesh in (CUBE, shapes.hollow_sphere(0.5, 1), shapes.open_box()):
-        solid = run(solid_of(mesh, 0))
+        solid = solid_of(mesh)
         assert solid.surface is solid.mesh
         assert len(solid.samples) == 6000
 
@@ -51,7 +49,7 @@ def test_what_is_buried_in_another_solid_is_no_surface(name, seed):
     mesh, area = shapes.joined(CUBE, BURIED[name][0]), BURIED[name][1]
     rotation = None if seed is None else changes.any_rotation(seed)
     scale = 2 / np.ptp(mesh.vertices, axis=0).max()
-    solid = run(solid_of(changes.moved(mesh, scale, rotation), 0))
+    solid = solid_of(changes.moved(mesh, scale, rotation))
     # Fragments beside the other surface stay.
     assert 0.9999 * area < solid.surface.areas.sum() / scale**2 < 1.02 * area
     original = (solid.samples / scale) @ (np.eye(3) if seed is None else rotation)
@@ -94,7 +92,7 @@ def test_a_cube_of_many_solids_is_one_hull(name):
     found = build_hulls(mesh, HullParameters())
     assert found.n_hulls == 1
     assert found.errors.max() <= 0.05
-    solid = run(solid_of(changes.moved(mesh, 0.5), 0))
+    solid = solid_of(changes.moved(mesh, 0.5))
     assert solid.surface.areas.sum() == pytest.approx(96 / 4, rel=0.03)
 
 
@@ -103,17 +101,17 @@ def test_faces_that_lie_on_each_other_are_not_cut_up(low):
     """A box in the corner of a larger one, and one that leaves it beside that."""
     box = shapes.box((low, low, 0), (low + 2, low + 2, 1.5))
     mesh = shapes.joined(shapes.box((0, 0, 0), (2, 2, 2)), box)
-    solid = run(solid_of(changes.moved(mesh, 1 if low == 0 else 2 / 3), 0))
+    solid = solid_of(changes.moved(mesh, 1 if low == 0 else 2 / 3))
     assert len(solid.surface.triangles) < 20_000
 
 
 def test_a_cavity_and_what_is_in_it_are_surface():
     core = shapes.sphere(2, 0.2)
-    solid = run(solid_of(shapes.joined(shapes.hollow_sphere(0.5, 2), core), 0))
+    solid = solid_of(shapes.joined(shapes.hollow_sphere(0.5, 2), core))
     assert solid.surface is solid.mesh
     bar = shapes.box((-2, -0.1, -0.1), (2, 0.1, 0.1))
     mixed = shapes.joined(shapes.hollow_sphere(0.5, 2), bar)
-    solid = run(solid_of(changes.moved(mixed, 0.5), 0))
+    solid = solid_of(changes.moved(mixed, 0.5))
     radii = 2 * np.linalg.norm(solid.samples, axis=1)
     assert (np.abs(radii - 0.5) < 0.03).any()  # the wall of the cavity
     of_bar = solid.triangles >= len(mixed.triangles) - 12
