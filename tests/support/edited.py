@@ -30,6 +30,11 @@ def record_of(obj):
     return json.loads(obj["wcd"])
 
 
+def notes_of(obj):
+    """Return the sentences in the record as one text."""
+    return " ".join(record_of(obj)["notes"])
+
+
 def parts_of(obj):
     """Return the name, number and material of each part, from the record."""
     keys = ("name", "number", "material")

@@ -1,10 +1,9 @@
 """Curves, texts, surfaces and metaballs: decomposed on meshes beside them."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
+from edited import record_of
 from hand_curves import check_fingers, hand_curve
 from hand_made import activate, face_values, in_mode
 from mathutils import Matrix
@@ -42,7 +41,7 @@ def test_the_outline_of_a_hand_has_a_palm_and_five_fingers():
     bpy.context.view_layer.update()
     assert carrier.matrix_world == hand.matrix_world
     check_fingers(carrier, face_values(carrier.data, "wcd_part"))
-    assert "Hand is hidden" in json.loads(carrier["wcd"])["notes"][0]
+    assert "Hand is hidden" in record_of(carrier)["notes"][0]
 
 
 @pytest.mark.parametrize("in_renders", [True, False])
@@ -84,7 +83,7 @@ def test_running_again_replaces_the_mesh():
     activate(hand)
     bpy.ops.wcd.decompose(**FAST)
     assert blocks() == after
-    assert len(json.loads(bpy.context.active_object["wcd"])["parts"]) == 2
+    assert len(record_of(bpy.context.active_object)["parts"]) == 2
 
 
 @pytest.mark.parametrize("runs", [1, 2])

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from edited import check_in_step, labels_of, record_of
+from edited import check_in_step, labels_of, notes_of, record_of
 from hand_made import activate, build_hulls, face_values, in_mode, subdivided_suzanne
 from mathutils import Matrix
 from snapshot import snapshot
@@ -18,10 +18,6 @@ FAST = {"samples": 200, "containers": "HOLLOW"}
 def decompose(**settings):
     bpy.ops.wcd.decompose(**(FAST | settings), mesh="EVALUATED")
     return bpy.context.active_object
-
-
-def notes_of(obj):
-    return " ".join(record_of(obj)["notes"])
 
 
 @pytest.fixture

@@ -4,6 +4,7 @@ import json
 
 import bpy
 import pytest
+from edited import record_of
 from weak_convex_decomposition.ui.panels import notes_of, result_of
 
 FAST = {"samples": 300}
@@ -17,7 +18,7 @@ def mirrored(suzanne):
 
 def test_notes_on_reading_and_on_the_result_are_recorded(mirrored):
     bpy.ops.wcd.decompose(samples=16, parts=16, smallest_part=0.5)
-    reading, choosing, counting = json.loads(mirrored["wcd"])["notes"]
+    reading, choosing, counting = record_of(mirrored)["notes"]
     assert "without its modifiers (Mirror)" in reading
     assert "choose Mesh: Evaluated" in choosing
     assert "of the 16 parts could be made" in counting
@@ -27,7 +28,7 @@ def test_notes_go_when_their_cause_is_gone(mirrored):
     bpy.ops.wcd.decompose(**FAST)
     mirrored.modifiers.clear()
     bpy.ops.wcd.decompose(**FAST)
-    assert json.loads(mirrored["wcd"])["notes"] == []
+    assert record_of(mirrored)["notes"] == []
 
 
 def test_the_sidebar_gets_each_note_once(mirrored):
@@ -57,7 +58,7 @@ def test_what_is_seen_is_not_advised_where_it_cannot_be_read(mirrored, work):
 
 def test_a_record_without_notes_is_read(suzanne):
     bpy.ops.wcd.measure(**FAST)
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     del record["measured"]["notes"]
     suzanne["wcd"] = json.dumps(record)
     assert notes_of(suzanne) == []

@@ -1,8 +1,7 @@
-import json
-
 import bpy
 import numpy as np
 import pytest
+from edited import record_of
 from hand_made import (
     activate,
     decompose_by_hand,
@@ -41,7 +40,7 @@ def test_every_part_gets_its_group_slot_and_faces(suzanne, mode):
 
 def test_the_record_tells_what_was_done(suzanne):
     labels = decompose_by_hand(suzanne, 3, alpha=0.4, seed=7)
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     assert record["parameters"]["alpha"] == 0.4
     assert record["seed"] == 7
     assert record["k"] == 3
@@ -65,7 +64,7 @@ def test_the_record_has_the_version_of_the_manifest(suzanne):
 
     decompose_by_hand(suzanne, 2)
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text())
-    assert json.loads(suzanne["wcd"])["version"] == manifest["version"]
+    assert record_of(suzanne)["version"] == manifest["version"]
 
 
 def test_materials_show_in_solid_shading_and_in_renders(suzanne):
@@ -138,7 +137,7 @@ def test_a_mesh_of_several_objects_is_written_once(suzanne):
     activate(twin)
     decompose_by_hand(twin, 3)
     assert suzanne["wcd"] == twin["wcd"]
-    names = [part["name"] for part in json.loads(twin["wcd"])["parts"]]
+    names = [part["name"] for part in record_of(twin)["parts"]]
     for sharer in (suzanne, twin):
         assert [row.name for row in sharer.wcd_parts] == names
         assert [group.name for group in sharer.vertex_groups][2:] == names

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from edited import check_in_step, labels_of, record_of
+from edited import check_in_step, labels_of, notes_of, record_of
 from hand_made import activate, mesh_object
 from headless.instancing import scatter
 from snapshot import snapshot
@@ -18,10 +18,6 @@ def decompose(**settings):
     options = {"samples": 200, "containers": "HOLLOW"} | settings
     bpy.ops.wcd.decompose(**options, mesh="EVALUATED")
     return bpy.context.active_object
-
-
-def notes_of(obj):
-    return " ".join(record_of(obj)["notes"])
 
 
 def nodes_on(obj, wire):

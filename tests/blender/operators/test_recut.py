@@ -1,11 +1,9 @@
 """New parts as settings change, and by the chart."""
 
-import json
-
 import bpy
 import pytest
 import weak_convex_decomposition as package
-from edited import check_in_step, faces_by_name, needless_change
+from edited import check_in_step, faces_by_name, needless_change, record_of
 from hand_made import face_values
 from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.parts import Parameters
@@ -41,10 +39,6 @@ def settings(suzanne):
     return settings
 
 
-def record(obj):
-    return json.loads(obj["wcd"])
-
-
 def test_every_setting_of_a_cut_is_tried():
     assert list(CHANGES) == list(RECUT)
 
@@ -53,7 +47,7 @@ def test_every_setting_of_a_cut_is_tried():
 def test_a_live_setting_gives_what_a_run_gives(suzanne, settings, name):
     setattr(settings, name, CHANGES[name])
     live = snapshot(suzanne)
-    assert record(suzanne)["parameters"][name] == CHANGES[name]
+    assert record_of(suzanne)["parameters"][name] == CHANGES[name]
     settings.live = False
     bpy.ops.wcd.decompose(samples=200, **{name: CHANGES[name]})
     assert snapshot(suzanne) == live
@@ -77,7 +71,7 @@ def test_nothing_happens_unless_live(suzanne, settings):
     settings.parts = 3
     assert snapshot(suzanne) == before
     settings.live = True  # catches up
-    assert record(suzanne)["k"] == 3
+    assert record_of(suzanne)["k"] == 3
 
 
 def test_settings_change_nothing_without_parts(suzanne, settings):
@@ -93,7 +87,7 @@ def test_other_settings_wait_for_the_next_cut(suzanne, settings):
     settings.seed = 1  # asks for other samples
     assert snapshot(suzanne) == before
     settings.parts = 3
-    parameters = record(suzanne)["parameters"]
+    parameters = record_of(suzanne)["parameters"]
     assert (parameters["seed"], parameters["parts"]) == (1, 3)
 
 
@@ -124,16 +118,16 @@ def test_a_preset_cuts_once(suzanne, settings, monkeypatch):
     assert len(calls) == 1
     settings.samples = 200
     settings.parts = 4
-    assert record(suzanne)["parameters"]["alpha"] == 2.0
+    assert record_of(suzanne)["parameters"]["alpha"] == 2.0
 
 
 def test_the_chart_chooses_a_number(suzanne, settings):
     settings.live = False
-    first = record(suzanne)
+    first = record_of(suzanne)
     for k in (1, 3, 6):
         assert bpy.ops.wcd.choose_part_count(parts=k) == {"FINISHED"}
         assert settings.parts == k
-        chosen = record(suzanne)
+        chosen = record_of(suzanne)
         assert (chosen["k"], len(chosen["parts"])) == (k, k)
         assert chosen["psi_by_k"] == first["psi_by_k"]
         assert chosen["best_k"] == first["best_k"] == first["k"]
@@ -144,7 +138,7 @@ def test_the_chart_writes_once(suzanne, settings, monkeypatch, live):
     settings.live = live
     calls = counted(monkeypatch, run_edit, "write_parts")
     bpy.ops.wcd.choose_part_count(parts=3)
-    assert (settings.parts, record(suzanne)["k"], len(calls)) == (3, 3, 1)
+    assert (settings.parts, record_of(suzanne)["k"], len(calls)) == (3, 3, 1)
 
 
 def test_live_needs_no_window(suzanne, settings, capfd):
@@ -152,7 +146,7 @@ def test_live_needs_no_window(suzanne, settings, capfd):
         settings.parts = 3
         bpy.ops.wcd.choose_part_count(parts=4)
         settings.auto_parts = False
-    assert record(suzanne)["k"] == 4
+    assert record_of(suzanne)["k"] == 4
     assert "Traceback" not in "".join(capfd.readouterr())
 
 
@@ -183,7 +177,7 @@ def test_parts_found_ahead_are_those_of_a_run(suzanne, settings, monkeypatch, sl
         monkeypatch.setattr(cutter, "cut_seams", None)
     for parts in (5, 3, 6, 2, *((13, 20) if slices > 1 else ())):
         settings.parts = parts
-        assert record(suzanne)["k"] == parts
+        assert record_of(suzanne)["k"] == parts
     monkeypatch.undo()
     settings.parts = 5
     found = labels(suzanne)
