@@ -14,6 +14,8 @@ from ...bridge.read.reading_notes import WHAT_IS_SEEN
 
 # The kinds of settings that have an option each.
 SETTINGS = (Parameters, HullParameters, BodyParameters)
+# What a sentence has up to the ending of its last file, whose path may have any words.
+_PATH = re.compile(r".*\.[^\W\d]\w*", re.DOTALL)
 
 
 def option(name: str) -> str:
@@ -40,10 +42,11 @@ def with_options(text: str) -> str:
         The same, and "(Detail is --alpha.)". Options that have the words of the label
         are plain, so they are left out.
     """
+    without_paths = _PATH.sub("", text)
     named = [
         f"{label} is {flag}"
         for label, flag in _options_of_labels().items()
-        if re.search(rf"(?<![\w./\\]){label}\b(?!\.\w|[/\\])", text)  # not in paths
+        if re.search(rf"(?<![\w/\\]){label}\b(?![/\\])", without_paths)
     ]
     return f"{text} ({', '.join(named)}.)" if named else text
 

@@ -58,6 +58,8 @@ def test_what_an_encoding_lacks_is_spelled_out():
         ("Details are found.", ""),
         ("Detail.obj cannot be read.", ""),
         ("models/Detail/a.obj cannot be read.", ""),
+        ("x Detail y.obj has no meshes.", ""),
+        ("x Detail y.obj: Most Hulls is 0.", " (Most Hulls is --max-hulls.)"),
     ],
 )
 def test_options_are_named_for_settings_not_for_files(text, hint):
