@@ -48,8 +48,8 @@ _OBJ_WORD = re.compile(
 )
 # A vertex without three numbers; Blender takes 0 for what it cannot read.
 _STL_WORD = re.compile(rb"\n[ \t]*vertex(?!(?:\s++%b){3})" % _NUMBER)
-# The same word in capitals; Blender knows it in small letters alone.
-_STL_CAPITALS = re.compile(rb"\n[ \t]*(?!vertex)(?i:vertex)\s")
+# Words of .stl and .obj files that Blender knows in small letters alone.
+_CAPITALS = re.compile(rb"\n[ \t]*(?:(?!vertex)(?i:vertex)|[VF])\s")
 # The mark with a line behind it that Blender then does not know.
 _MARKED = re.compile(BYTE_ORDER_MARK + rb"[ \t]*[^#\s]")
 # Numbers on a line of an .obj file, by keyword, at least.
@@ -138,12 +138,7 @@ def _check_stl(path: Path, head: bytes, tail: bytes, size: int) -> None:
     if b"endsolid" not in tail.lower():
         raise DecompositionError(f"{path} is truncated: its end is missing.")
     data = path.read_bytes()
-    _check_line_ends(path, data)
-    if _STL_CAPITALS.search(data):
-        raise DecompositionError(
-            f"{path} has its words in capital letters, which Blender cannot read;"
-            " write them in small letters."
-        )
+    _check_lines(path, data)
     if _STL_WORD.search(data):
         raise wordy(path)
 
@@ -153,7 +148,7 @@ def _check_ply(path: Path) -> None:
     data = path.read_bytes()
     header = read_header(data)
     if header:
-        _check_line_ends(path, data[: header.size])
+        _check_lines(path, data[: header.size])
     what = misnamed(header, data)
     if what:
         raise DecompositionError(
@@ -194,12 +189,17 @@ def wordy(path: Path) -> DecompositionError:
     )
 
 
-def _check_line_ends(path: Path, data: bytes) -> None:
-    """Raise for text that is one long line to Blender."""
+def _check_lines(path: Path, data: bytes) -> None:
+    """Raise for text that is one long line to Blender, or has lines it leaves out."""
     if b"\r" in data and b"\n" not in data:
         raise DecompositionError(
             f"{path} has line ends of old Macs, which Blender cannot read; save it"
             " with those of Unix or Windows."
+        )
+    if _CAPITALS.search(b"\n" + data):
+        raise DecompositionError(
+            f"{path} has words in capital letters, which Blender cannot read; write"
+            " them in small letters."
         )
 
 
@@ -217,9 +217,8 @@ def _check_last_line(path: Path, tail: bytes) -> None:
 
 def _check_obj(path: Path) -> None:
     """Raise for an OBJ file with vertices or faces that Blender would misread."""
-    data = path.read_bytes()
-    _check_line_ends(path, data)
-    data = _OBJ_CONTINUED.sub(b" ", data)
+    data = _OBJ_CONTINUED.sub(b" ", path.read_bytes())
+    _check_lines(path, data)
     # A line break is found sooner than the beginning of a line.
     if _OBJ_WORD.search(b"\n" + data):
         raise wordy(path)

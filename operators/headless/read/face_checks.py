@@ -18,7 +18,7 @@ from ..files.text import whole_number
 from ..quiet import quiet_blender
 
 # What the list of the vertices of a face is called, unless it is all that a face has.
-_CORNERS = ("vertex_indices", "vertex_index")
+CORNERS = ("vertex_indices", "vertex_index")
 
 
 def refers_to_missing(header: Header, data: bytes) -> bool:
@@ -37,7 +37,7 @@ def place_of_corners(element: Element) -> int | None:
     if element.name != "face" or not element.n_rows:
         return None
     for place, (name, codes) in enumerate(element.properties.items()):
-        is_ours = name in _CORNERS or len(element.properties) == 1
+        is_ours = name in CORNERS or len(element.properties) == 1
         if is_ours and len(codes) > 1:
             return place
     return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ..files.headers import Header
-from .face_checks import place_of_corners
+from .face_checks import CORNERS, place_of_corners
 
 # The words of a header line but the names that its author chose.
 _WORDS = re.compile(
@@ -37,4 +37,8 @@ def misnamed(header: Header | None, data: bytes) -> str | None:
     faces = [each for each in header.elements if each.name == "face" and each.n_rows]
     if any(place_of_corners(each) is None for each in faces):
         return "an element face without vertex_indices or vertex_index"
+    for each in header.elements:
+        lists_vertices = not each.properties.keys().isdisjoint(CORNERS)
+        if lists_vertices and each.name not in ("face", "tristrips") and each.n_rows:
+            return f'faces as "element {each.name}" and not as "element face"'
     return None

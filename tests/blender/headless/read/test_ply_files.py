@@ -43,6 +43,14 @@ def test_words_of_the_header_in_capitals(tmp_path, words):
         load(tmp_path / "a.ply")
 
 
+@pytest.mark.parametrize("name", ["faces", "polygon"])
+def test_faces_by_another_name(tmp_path, name):
+    text = prism(16).replace("element face", f"element {name}")
+    (tmp_path / "a.ply").write_text(text)
+    with pytest.raises(DecompositionError, match=f'"element {name}" and not as'):
+        load(tmp_path / "a.ply")
+
+
 def test_names_that_blender_does_not_need_may_have_capitals(tmp_path):
     more = "comment Element Face\nelement Camera 0\nproperty int ID\nend_header"
     text = prism(5, corners="Vertex_Indices").replace("end_header", more)
