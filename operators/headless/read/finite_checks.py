@@ -29,6 +29,8 @@ _IN_STL = re.compile(rb"^[ \t]*vertex" + _BEHIND, re.IGNORECASE | re.MULTILINE)
 # Vertices in .fbx: in text form, and before their bytes in binary form.
 _IN_FBX = re.compile(rb"\bVertices:(?:[^{}:]*\{\s*a:)?([^:}]*)")
 _FBX_ARRAY = re.compile(rb"\x08Vertices([df])(.{12})", re.DOTALL)
+# The same before version 7: each number is behind a letter.
+_FBX_NUMBERS = re.compile(rb"\x08Vertices([DF])")
 _STL_TRIANGLE = np.dtype(
     [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 )
@@ -146,6 +148,10 @@ def _fbx_arrays(data: bytes) -> Iterator[NDArray[Any]]:
         if is_packed:
             content = zlib.decompress(content)
         yield np.frombuffer(content, f"<{found[1].decode()}", length)
+    for found in _FBX_NUMBERS.finditer(data):
+        row = np.dtype([("letter", "S1"), ("number", f"<{found[1].decode().lower()}")])
+        (length,) = np.frombuffer(data, "<u4", 1, found.start() - 8)
+        yield np.frombuffer(data, row, length, found.start(1))["number"]
 
 
 def _gltf_is_finite(path: Path) -> bool:

@@ -106,6 +106,35 @@ def test_binary_fbx(tmp_path, n_vertices):
         load(path)
 
 
+def old_node(start, name, values, children=()):
+    """Return a node of a binary .fbx file before version 7; `start` is its place."""
+    packed = b"".join(
+        b"S" + struct.pack("<I", len(each)) + each
+        if isinstance(each, bytes)
+        else each.dtype.char.upper().encode() + each.tobytes()
+        for each in values
+    )
+    first = start + 13 + len(name) + len(packed)
+    below = b""
+    for child in children:
+        below += old_node(first + len(below), *child)
+    below += bytes(13) if children else b""
+    head = (first + len(below), len(values), len(packed), len(name))
+    return struct.pack("<IIIB", *head) + name + packed + below
+
+
+def old_fbx(value, kind):
+    """Return a binary .fbx file of version 6.1; `value` is of one coordinate."""
+    corners = np.array([*CORNERS[:7], value, *CORNERS[8:]], kind)
+    loops = np.array([0, 2, -2, 0, 1, -4, 1, 2, -4, 2, 0, -4], "i")
+    mesh = [(b"Vertices", corners), (b"PolygonVertexIndex", loops)]
+    link = [b"OO", b"A\0\1Model", b"Scene\0\1Model"]
+    data = b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 6100)
+    data += old_node(len(data), b"Objects", [], [(b"Model", [link[1], b"Mesh"], mesh)])
+    data += old_node(len(data), b"Connections", [], [(b"Connect", link)])
+    return data + bytes(13)
+
+
 TEXT_FBX = """; FBX 7.4.0 project file
 FBXHeaderExtension:  {
     FBXVersion: 7400
@@ -129,6 +158,15 @@ Connections:  {
 """
 
 if "fbx_import" in dir(bpy.ops.wm):
+
+    @pytest.mark.parametrize("kind", ["d", "f"])
+    def test_binary_fbx_before_version_7(tmp_path, kind):
+        path = tmp_path / "a.fbx"
+        path.write_bytes(old_fbx(1.0, kind))
+        assert len(load(path)[0].data.polygons) == 4
+        path.write_bytes(old_fbx(float("nan"), kind))
+        with pytest.raises(DecompositionError, match=r"a\.fbx has .* not finite"):
+            load(path)
 
     @pytest.mark.parametrize("word", ["nan", "-inf", "1e999", "-1.#IND", "1.#INF"])
     def test_fbx_in_text_form(tmp_path, word):
