@@ -99,16 +99,15 @@ def _objects_with_shape(path: Path, others: Sequence[str]) -> list[bpy.types.Obj
 
     The error for a file without meshes ends with notes on what it has.
     """
-    objects = mesh_objects()
+    objects, more = mesh_objects(), " ".join(("", *others))
     if not objects:
-        more = " ".join(("", *others))
         raise DecompositionError(f"{path} has no meshes or point clouds.{more}")
     if not any(map(has_shape, objects)):
         has_edges = any(getattr(obj.data, "edges", None) for obj in objects)
         raise DecompositionError(
             f"{path} has edges but no faces; wires cannot be decomposed."
             if has_edges
-            else f"{path} has objects, but no faces or points in them."
+            else f"{path} has objects, but no faces or points in them.{more}"
         )
     return objects
 

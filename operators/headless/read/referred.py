@@ -11,10 +11,10 @@ from urllib.parse import unquote
 
 import bpy
 
+from ....core.errors import DecompositionError
+from ..quiet import quiet_blender
+
 _OBJ_MATERIALS = re.compile(rb"^[ \t]*mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
-# Layers and textures in the text form of USD.
-_USD_ASSET = re.compile(rb"@+([^@\n]+)@+")
-_USD_TEXT = b"#usda"
 
 
 def referred_files(path: Path) -> tuple[Path, ...]:
@@ -25,6 +25,11 @@ def referred_files(path: Path) -> tuple[Path, ...]:
     path : Path
         The input, which is open in Blender, or imported into an empty file. Links to
         libraries are still links.
+
+    Raises
+    ------
+    DecompositionError
+        If a layer of USD is damaged.
     """
     found = {Path(each) for each in bpy.utils.blend_paths(absolute=True)}
     named = _NAMED_IN.get(path.suffix.lower())
@@ -50,10 +55,20 @@ def _of_gltf(path: Path) -> Iterator[str]:
 
 
 def _of_usd(path: Path) -> Iterator[str]:
-    """Yield the layers and textures, if the file is text."""
-    data = path.read_bytes()
-    if data.startswith(_USD_TEXT):
-        yield from map(os.fsdecode, _USD_ASSET.findall(data))
+    """Yield the layers and textures, and those of the layers."""
+    try:
+        from pxr import Tf, UsdUtils
+    except ImportError:  # not in every Blender
+        return
+    try:
+        with quiet_blender():  # what is missing is told by us
+            layers, files, missing = UsdUtils.ComputeAllDependencies(str(path))
+    except Tf.ErrorException as error:
+        raise DecompositionError(
+            f"{path} refers to a layer of USD that is damaged; export that again."
+        ) from error
+    yield from (layer.realPath for layer in layers[1:])  # the first one is the file
+    yield from (*files, *missing)
 
 
 _NAMED_IN: dict[str, Callable[[Path], Iterator[str]]] = {
@@ -61,4 +76,6 @@ _NAMED_IN: dict[str, Callable[[Path], Iterator[str]]] = {
     ".gltf": _of_gltf,
     ".usd": _of_usd,
     ".usda": _of_usd,
+    ".usdc": _of_usd,
+    ".usdz": _of_usd,
 }

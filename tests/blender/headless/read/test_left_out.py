@@ -127,6 +127,29 @@ def test_instances_of_no_size_are_not_written(tmp_path, ending):
         assert not any(obj.instance_collection for obj in bpy.data.objects)
 
 
+@pytest.mark.parametrize("ending", ["usda", "usdc"])
+def test_layers_of_layers_that_are_missing_or_damaged(tmp_path, ending):
+    from pxr import Sdf
+
+    add("Rock", rock())
+    bpy.ops.wm.usd_export(filepath=str(tmp_path / "rock.usdc"))
+    inner, model = tmp_path / "in" / "ner.usda", tmp_path / f"model.{ending}"
+    inner.parent.mkdir()
+    layers = "#usda 1.0\n(subLayers = [@../rock.usdc@, @./no.usdc@])\n"
+    inner.write_text(layers)
+    outer = Sdf.Layer.CreateAnonymous(".usda")
+    outer.subLayerPaths.append("in/ner.usda")
+    outer.Export(str(model))
+    loaded = load_file(model, None, with_modifiers=False)
+    assert {inner, tmp_path / "rock.usdc"} <= {*loaded.refers_to}
+    (note,) = loaded.about
+    assert note.startswith("What is in layers that are missing was left out")
+    assert note.endswith(": no.usdc.")
+    (tmp_path / "in" / "no.usdc").write_bytes(b"PXR-USDC" + bytes(99))
+    with pytest.raises(DecompositionError, match="a layer of USD that is damaged"):
+        load_file(model, None, with_modifiers=False)
+
+
 @pytest.mark.parametrize("has_rock", [True, False])
 def test_layers_that_are_missing_are_named(tmp_path, has_rock, capfd):
     add("Rock", rock())
