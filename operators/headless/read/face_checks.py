@@ -6,7 +6,7 @@ Blender leaves such faces out without a word, reads other memory or crashes.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -110,27 +110,39 @@ def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:
     return np.zeros(0)
 
 
-def mesh_without_its_points(path: Path) -> str | None:
-    """Return the name of a mesh whose faces do not fit its points, None without.
+def meshes_of_usd(path: Path) -> Iterator[Any]:
+    """Yield the meshes of a USD file, those of prototypes, too.
 
-    Prototypes of instances are among them. What cannot be opened has none.
+    There are none where the file or pxr cannot be opened.
     """
     try:
         from pxr import Tf, Usd, UsdGeom
     except ImportError:  # not in every Blender
-        return None
+        return
     try:
         with quiet_blender():  # what is missing is told by us
             stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException:
-        return None  # the importer reports it
-    now = Usd.TimeCode.EarliestTime()
+        return  # the importer reports it
     for root in (stage.GetPseudoRoot(), *stage.GetPrototypes()):
-        for mesh in filter(None, map(UsdGeom.Mesh, Usd.PrimRange(root))):
-            corners = mesh.GetFaceVertexIndicesAttr().Get(now) or ()
-            counts = mesh.GetFaceVertexCountsAttr().Get(now) or ()
-            n_points = len(mesh.GetPointsAttr().Get(now) or ())
-            fits, _ = mesh.ValidateTopology(corners, counts, n_points)
-            if not fits or min(counts, default=0) < 0:
-                return str(mesh.GetPrim().GetName())
+        yield from filter(None, map(UsdGeom.Mesh, Usd.PrimRange(root)))
+
+
+def mesh_without_its_points(path: Path) -> str | None:
+    """Return the name of a mesh whose faces do not fit its points, None without."""
+    for mesh in meshes_of_usd(path):
+        corners = at_start(mesh.GetFaceVertexIndicesAttr())
+        counts = at_start(mesh.GetFaceVertexCountsAttr())
+        fits, _ = mesh.ValidateTopology(
+            corners, counts, len(at_start(mesh.GetPointsAttr()))
+        )
+        if not fits or min(counts, default=0) < 0:
+            return str(mesh.GetPrim().GetName())
     return None
+
+
+def at_start(attribute: Any) -> Any:
+    """Return the array of an attribute of USD where its animation begins."""
+    from pxr import Usd
+
+    return attribute.Get(Usd.TimeCode.EarliestTime()) or ()

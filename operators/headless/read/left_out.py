@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import bpy
 
 from ...bridge.refusals import CONVERTIBLE
-from ..current_file import objects_in_view_layers
+from ..current_file import objects_in_view_layers, some_of
 from ..files.headers import read_header
 from ..formats import READ_ENDINGS
+from .face_checks import at_start, meshes_of_usd
 from .off_files import n_faces_of_off
 
 _USD_ENDINGS = tuple(each for each in READ_ENDINGS if each.startswith(".usd"))
@@ -56,6 +57,29 @@ def layers_note(refers_to: Sequence[Path]) -> str | None:
         "What is in layers that are missing was left out; put them where the file"
         f" refers to them: {', '.join(missing)}."
     )
+
+
+def usd_notes(path: Path) -> Iterator[str]:
+    """Yield sentences about meshes and holes of USD that the import did not heed."""
+    left_out, holed = [], []
+    is_usd = path.suffix.lower() in _USD_ENDINGS
+    for mesh in meshes_of_usd(path) if is_usd else ():
+        name = mesh.GetPrim().GetName()
+        is_seen = mesh.ComputeVisibility() != "invisible"
+        if not is_seen or mesh.ComputePurpose() in ("guide", "proxy"):
+            left_out.append(name)
+        elif at_start(mesh.GetHoleIndicesAttr()):
+            holed.append(name)
+    if left_out:
+        yield (
+            "Meshes that are invisible, or guides or proxies, as hulls in USD are, were"
+            f" left out: {some_of(sorted(left_out))}."
+        )
+    if holed:
+        yield (
+            "Faces that USD marks as holes were read as others; delete them first:"
+            f" {some_of(sorted(holed))}."
+        )
 
 
 def convertible_note() -> str | None:

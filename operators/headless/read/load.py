@@ -20,7 +20,7 @@ from .finite_checks import check_finite
 from .importers import IMPORTERS
 from .instances import check_libraries, make_all_local, realize_instances
 from .known_hulls import adopt_hulls, hull_note
-from .left_out import convertible_note, faces_note, layers_note
+from .left_out import convertible_note, faces_note, layers_note, usd_notes
 from .referred import referred_files
 
 
@@ -89,7 +89,8 @@ def load_file(path: Path, up: str | None, with_modifiers: bool) -> LoadedFile:
         notes = realize_instances(with_modifiers)
         if with_modifiers:
             notes |= apply_modifiers(mesh_objects())
-    others = tuple(filter(None, (layers_note(refers_to), convertible_note())))
+    said = (layers_note(refers_to), *usd_notes(path), convertible_note())
+    others = tuple(filter(None, said))
     about = (*filter(None, (faces_note(path), hull_note())), *others)
     return LoadedFile(_objects_with_shape(path, others), notes, about, refers_to)
 

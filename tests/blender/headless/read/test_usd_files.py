@@ -8,6 +8,7 @@ import bpy
 import pytest
 from headless.instancing import add, box, boxes, rock
 from headless.loading import load
+from weak_convex_decomposition.operators.headless.read.load import load_file
 
 MESH = """
 def Mesh "Rock" {
@@ -50,6 +51,26 @@ def test_instanceable_prims_become_objects(tmp_path):
     objects = load(stage(tmp_path / "a.usda", *prims))
     assert boxes(objects) == {"A Rock": box(5, 0, 0), "B Rock": box(9, 0, 0)}
     assert objects[0].data == objects[1].data
+
+
+def test_meshes_and_holes_that_blender_does_not_heed_are_named(tmp_path):
+    settings = {
+        "A": "int[] holeIndices = [1]",
+        "B": 'uniform token purpose = "guide"',
+        "C": 'token visibility = "invisible"',
+        "D": 'uniform token purpose = "render"',
+    }
+    prims = [
+        MESH.replace("Rock", name).replace("{", f"{{\n{setting}", 1)
+        for name, setting in settings.items()
+    ]
+    loaded = load_file(stage(tmp_path / "a.usda", *prims), None, with_modifiers=False)
+    assert [obj.name for obj in loaded.objects] == ["A", "D"]
+    left_out, holed = loaded.about
+    assert left_out.endswith("were left out: B, C.")
+    assert holed.startswith("Faces that USD marks as holes were read as others")
+    assert holed.endswith(": A.")
+    assert not load_file(stage(tmp_path / "a.usda", MESH), None, False).about
 
 
 def test_point_instancers_become_objects(tmp_path):
