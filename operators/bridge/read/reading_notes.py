@@ -49,13 +49,12 @@ def reading_notes(
             f" {step:.2g}; move the model to the origin in the program it comes from."
         )
     if for_parts and obj.data.users > 1:  # else not counted: files have thousands
-        sharers = sum(
-            other.data == obj.data and bool(other.users_collection)
-            for other in bpy.data.objects
-        )
-        if sharers > 1:
+        scenes = bpy.data.scenes
+        shown = {other for scene in scenes for other in scene.objects}
+        n_sharers = sum(other.data == obj.data for other in shown)
+        if n_sharers > 1:
             notes.append(
-                f"{sharers} objects share this mesh: the parts show on all of them."
+                f"{n_sharers} objects share this mesh: the parts show on all of them."
             )
     return tuple(notes)
 
