@@ -94,18 +94,19 @@ def bodies_of(
     groups = [[obj] for obj in owned] if each else [list(owned)]
     names = list(titles.values()) if each else legal_names([name], "xml", [GROUND])
     of_hulls = dict(zip(hulls, names_of_hulls(hulls, "xml", titles), strict=True))
-    bodies, opened = [], []
+    bodies, opened, overlapping = [], [], []
     for group, title in zip(groups, names, strict=True):
         frame = _frame_of(group[0]) if each else np.eye(4)
         parts = {obj: owned[obj] for obj in group}
-        mass, without_solid = mass_of_objects(parts, frame, parameters.density)
-        opened += without_solid
+        mass, *named = mass_of_objects(parts, frame, parameters.density)
+        opened += named[0]
+        overlapping += named[1]
         own = [hull for its in parts.values() for hull in its]
         collisions = [_collision(hull, of_hulls[hull], frame) for hull in own]
         visuals = [p for obj in group for p in _visuals(obj, titles[obj.name], frame)]
         bodies.append(Body(title, frame, mass, tuple(collisions), tuple(visuals)))
     weights = {body.name: body.mass for body in bodies}
-    return _named(bodies), mass_notes(weights, opened)
+    return _named(bodies), mass_notes(weights, opened, overlapping)
 
 
 def names_of_collisions(

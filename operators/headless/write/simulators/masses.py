@@ -15,14 +15,16 @@ from ..placed_meshes import Float64Array, matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.
 _LEAST = 1e-15
+# Hulls weigh more than what they are around, but for rounding and round shapes.
+_HEAVIER = 1.1
 
 
 def mass_of_objects(
     owned: Mapping[bpy.types.Object, Sequence[bpy.types.Object]],
     frame: Float64Array,
     density: float,
-) -> tuple[MassProperties, list[str]]:
-    """Return the mass properties of a body, and its objects that are no solids.
+) -> tuple[MassProperties, list[str], list[str]]:
+    """Return the mass properties of a body, and its objects that are no plain solids.
 
     Parameters
     ----------
@@ -39,28 +41,34 @@ def mass_of_objects(
         In the frame of the body.
     without_solid : list of str
         Names of the objects whose mass is that of their hulls.
+    overlapping : list of str
+        Names of the objects that weigh more than their hulls.
     """
     inverse = np.linalg.inv(frame)
-    masses, without_solid = [], []
+    masses, without_solid, overlapping = [], [], []
     for obj, hulls in owned.items():
         mesh = TriangleMesh(*placed(obj, inverse @ matrix_of(obj)))
         mass = core.mass_of_mesh(mesh, density)
-        if mass is not None:
-            masses.append(mass)
-            continue
-        without_solid.append(obj.name)
+        of_hulls = []
         for hull in hulls:
             vertices, triangles, _ = placed(hull, inverse @ matrix_of(hull))
-            of_hull = core.mass_of_surface(vertices, triangles, density)
-            if of_hull is not None:
-                masses.append(of_hull)
-    if not masses:  # flat hulls
-        return MassProperties(0.0, np.zeros(3), np.zeros((3, 3))), without_solid
-    return combined_mass(masses), without_solid
+            of_hulls.append(core.mass_of_surface(vertices, triangles, density))
+        solid_hulls = [each for each in of_hulls if each is not None]
+        if mass is None:
+            without_solid.append(obj.name)
+            masses += solid_hulls
+            continue
+        masses.append(mass)
+        if mass.mass > _HEAVIER * sum(each.mass for each in solid_hulls):
+            overlapping.append(obj.name)
+    none = MassProperties(0.0, np.zeros(3), np.zeros((3, 3)))  # of flat hulls
+    return combined_mass(masses) if masses else none, without_solid, overlapping
 
 
 def mass_notes(
-    masses: Mapping[str, MassProperties], without_solid: Sequence[str]
+    masses: Mapping[str, MassProperties],
+    without_solid: Sequence[str],
+    overlapping: Sequence[str],
 ) -> tuple[str, ...]:
     """Return sentences to the user about the masses of bodies, by name."""
     notes = []
@@ -68,6 +76,11 @@ def mass_notes(
         notes.append(
             f"Mass and inertia are those of the hulls where the surface is not closed,"
             f" or encloses nothing: {some_of(without_solid)}."
+        )
+    if overlapping:
+        notes.append(
+            "Mass and inertia are more than those of the hulls, as of shells that"
+            f" overlap, which count twice; unite them first: {some_of(overlapping)}."
         )
     for name, mass in masses.items():
         if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:

@@ -142,6 +142,19 @@ def test_open_surfaces_weigh_what_their_hulls_weigh(tmp_path):
     assert center == pytest.approx([0, 0, 0], abs=0.01)
 
 
+@pytest.mark.parametrize(("place", "is_said"), [(0.5, True), (3.0, False)])
+def test_shells_that_overlap_are_said_to_count_twice(tmp_path, place, is_said):
+    for x in (0, place):
+        bpy.ops.mesh.primitive_cube_add(location=(x, 0, 0))
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.join()
+    pair = bpy.context.active_object
+    hulls = build_hulls([pair])
+    notes = save_hulls(tmp_path / "a.xml", hulls, "Z", BodyParameters())
+    said = [f"count twice; unite them first: {pair.name}." in note for note in notes]
+    assert said == [True] * is_said
+
+
 def test_what_is_too_light_is_said(tmp_path):
     block = add_block()
     block.scale = (1e-6,) * 3
