@@ -56,11 +56,11 @@ class BareMesh:
         n_walls = len(np.unique(self.whole.polygons[self.rows < 0]))
         if n_walls == 0:
             return ()
-        lie = "face lies" if n_walls == 1 else "faces lie"
+        lie, bound = ("faces lie", "bound") if n_walls > 1 else ("face lies", "bounds")
         return (
-            f"{n_walls} {lie} within the solid and bound nothing; this computation"
-            " leaves them out (Select > Select All by Trait > Interior Faces, in Edit"
-            " Mode, finds them).",
+            f"{n_walls} {lie} within the solid and {bound} nothing; this computation"
+            " leaves out such faces (Select > Select All by Trait > Interior Faces, in"
+            " Edit Mode, finds them).",
         )
 
 

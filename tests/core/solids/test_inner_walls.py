@@ -72,6 +72,13 @@ def test_hulls_know_nothing_of_inner_faces():
     assert "2 faces lie within" in found.notes[0]
 
 
+def test_one_inner_face_is_said_in_the_singular():
+    mesh = by_distance(boxes_at(TOUCHING["L"][0]))
+    single = replace(mesh, polygons=0 * mesh.polygons)
+    (note,) = prepare(single).notes
+    assert note.startswith("1 face lies within the solid and bounds nothing;")
+
+
 def test_inner_faces_have_parts_as_all_others():
     mesh = by_distance(boxes_at(TOUCHING["L"][0]))
     found = decompose(mesh, Parameters(parts=2, samples=300))
