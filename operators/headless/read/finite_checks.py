@@ -165,6 +165,10 @@ def _gltf_is_finite(path: Path) -> bool:
     read = glTFImporter(str(path), {"import_user_extensions": []})
     read.read()
     meshes = {node.mesh for node in read.data.nodes or ()} - {None}
+    if not meshes <= {*range(len(read.data.meshes or ()))}:
+        raise DecompositionError(
+            f"{path} has a node whose mesh is missing; export it again."
+        )
     attributes = [
         each.attributes for mesh in meshes for each in read.data.meshes[mesh].primitives
     ]

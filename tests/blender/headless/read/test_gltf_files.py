@@ -5,6 +5,7 @@ import json
 import bpy
 import pytest
 from headless.loading import load
+from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.formats import GLTF, enable
 
 
@@ -58,3 +59,14 @@ def test_animated_nodes_are_where_their_animation_begins(written):
     assert len(content["animations"]) == 1
     (obj,) = load(path)
     assert obj.matrix_world.translation.x == 0
+
+
+@pytest.mark.parametrize("mesh", [1, -1])
+def test_nodes_whose_mesh_is_missing_are_refused(written, mesh):
+    bpy.ops.mesh.primitive_cube_add()
+    path, content = written()
+    content["nodes"].append({"mesh": mesh})
+    content["scenes"][0]["nodes"].append(1)
+    path.write_text(json.dumps(content))
+    with pytest.raises(DecompositionError, match="a node whose mesh is missing"):
+        load(path)
