@@ -32,6 +32,8 @@ _TYPES = {
 }
 # Those that lengths of lists may have.
 _COUNTS = {name: code for name, code in _TYPES.items() if code not in "fd"}
+# Words that begin lines of a header which tell of no rows.
+_SAY_NOTHING = ("ply", "comment", "obj_info")
 
 
 @dataclass(frozen=True)
@@ -175,14 +177,14 @@ def read_header(data: bytes) -> Header | None:
         The whole file.
     """
     orders = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
-    order = None
+    form = ""
     elements: list[Element] = []
     try:
         text, mark, body = re.split(rb"([\r\n]end_header)", data, maxsplit=1)
         for line in text.splitlines():
             match line.decode("latin-1").split():
-                case ["format", kind, _]:
-                    order = orders[kind]
+                case ["format", form, _]:
+                    pass
                 case ["element", name, n_rows]:
                     elements.append(Element(name, _count(n_rows), {}))
                 case ["property", "list", length, member, *name]:
@@ -190,9 +192,10 @@ def read_header(data: bytes) -> Header | None:
                     _add_property(elements[-1], name, codes)
                 case ["property", kind, *name]:
                     _add_property(elements[-1], name, _TYPES[kind])
+                case [word, *_]:
+                    _SAY_NOTHING.index(word.lower())  # raises for another word
+        order = orders[form]
     except (KeyError, ValueError, IndexError):
-        return None
-    if order is None:
         return None
     newline = len(body) - len(body.removeprefix(b"\r").removeprefix(b"\n"))
     return Header(order, tuple(elements), len(text) + len(mark) + newline)

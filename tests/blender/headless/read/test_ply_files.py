@@ -5,6 +5,7 @@ from math import cos, sin, tau
 import pytest
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
+from weak_convex_decomposition.operators.headless.files.headers import read_header
 
 
 def prism(n_sides, axes="xyz", corners="vertex_indices"):
@@ -49,6 +50,15 @@ def test_faces_by_another_name(tmp_path, name):
     (tmp_path / "a.ply").write_text(text)
     with pytest.raises(DecompositionError, match=f'"element {name}" and not as'):
         load(tmp_path / "a.ply")
+
+
+def test_lines_of_a_header_that_no_file_has():
+    data = prism(5).encode()
+    for known in b"comment elementt 3", b"obj_info x", b"Comment", b"":
+        assert read_header(data.replace(b"\nelement", b"\n%b\nelement" % known, 1))
+    for unknown in b"elementt uchar int a", b"element vertex 10 4", b"property", b"v":
+        line = b"\n%b\nend_header" % unknown
+        assert read_header(data.replace(b"\nend_header", line)) is None
 
 
 def test_names_that_blender_does_not_need_may_have_capitals(tmp_path):
