@@ -142,7 +142,11 @@ def mesh_without_its_points(path: Path) -> str | None:
 
 
 def at_start(attribute: Any) -> Any:
-    """Return the array of an attribute of USD where its animation begins."""
-    from pxr import Usd
+    """Return the array of an attribute of USD where its animation begins.
 
-    return attribute.Get(Usd.TimeCode.EarliestTime()) or ()
+    Blender does not read those of other types than meshes have.
+    """
+    from pxr import Usd, Vt
+
+    value = attribute.Get(Usd.TimeCode.EarliestTime())
+    return value if isinstance(value, (Vt.IntArray, Vt.Vec3fArray)) else ()

@@ -73,6 +73,21 @@ def test_meshes_and_holes_that_blender_does_not_heed_are_named(tmp_path):
     assert not load_file(stage(tmp_path / "a.usda", MESH), None, False).about
 
 
+@pytest.mark.parametrize(
+    ("types", "others"),
+    [
+        ("point3f[]", "points[]"),
+        ("point3f[]", "double3[]"),
+        ("int[] faceVertexCounts", "float[] faceVertexCounts"),
+        ("int[] faceVertexIndices", "int64[] faceVertexIndices"),
+    ],
+)
+def test_arrays_of_other_types_are_none(tmp_path, unexpected, types, others):
+    text = stage(tmp_path / "a.usda", MESH).read_text().replace(types, others)
+    sentence = "a mesh, Rock, with faces that refer to missing points"
+    assert unexpected({"a.usda": (text.encode(), sentence)}) == {}
+
+
 def test_point_instancers_become_objects(tmp_path):
     found = boxes(load(stage(tmp_path / "a.usda", POINT_INSTANCER)))
     names = ["Points Rock 1", "Points Rock 2"]
