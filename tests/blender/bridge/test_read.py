@@ -58,8 +58,7 @@ def test_an_unmodified_object_needs_no_notes(suzanne):
 def test_shared_meshes_and_shape_keys_are_noted(suzanne):
     bpy.context.collection.objects.link(bpy.data.objects.new("twin", suzanne.data))
     bpy.data.objects.new("in no collection", suzanne.data)
-    in_no_scene = bpy.data.collections.new("Instanced")
-    in_no_scene.objects.link(bpy.data.objects.new("instanced", suzanne.data))
+    bpy.data.collections.new("in no scene").objects.link(suzanne.copy())
     suzanne.shape_key_add(name="Basis")
     suzanne.shape_key_add(name="smile").value = 1.0
     shape, shared = reading_notes(suzanne)

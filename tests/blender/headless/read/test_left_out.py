@@ -191,3 +191,11 @@ def test_digits_that_single_precision_lacks(tmp_path, place, size, note):
         notes = reading_notes(obj)
         assert note in "".join(notes)
         assert len(notes) == bool(note)
+
+
+@pytest.mark.parametrize("row", ["F 1 2 3", "\tF 3 2 1", "V 0 0 1"])
+def test_lines_of_obj_in_capitals(tmp_path, row):
+    model = tmp_path / "a.obj"
+    model.write_text(f"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n{row}\n")
+    with pytest.raises(DecompositionError, match="has words in capital letters"):
+        load(model)
