@@ -55,7 +55,10 @@ def remove_views(obj: bpy.types.Object) -> None:
     """
     for tag in NAMES:
         modifier = tagged_modifier(obj, tag)
-        if modifier is not None and not modifier.is_override_data:
+        if modifier is None:
+            continue
+        # Blender says so of modifiers of objects that were appended, too.
+        if obj.override_library is None or not modifier.is_override_data:
             remove_modifier(obj, tag)
     discard_views()
 

@@ -62,6 +62,26 @@ def test_what_a_library_has_stays_and_is_told_of(suzanne, tmp_path, capfd):
         bpy.ops.wcd.clear()
 
 
+@pytest.mark.parametrize("how", ["appended", "made local"])
+def test_what_came_from_a_library_and_is_local_goes(suzanne, tmp_path, how):
+    decompose_by_hand(suzanne, 3, **FAST)
+    bpy.ops.wcd.explode()
+    bpy.ops.wcd.isolate_parts()
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {suzanne})
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=how != "appended") as (_, wanted):
+        wanted.objects = ["Suzanne"]
+    bpy.context.scene.collection.objects.link(wanted.objects[0])
+    activate(wanted.objects[0])
+    if how != "appended":
+        bpy.ops.object.make_local(type="ALL")
+    assert len(bpy.context.active_object.modifiers) == 2
+    bpy.ops.wcd.clear()
+    assert not bpy.context.active_object.modifiers
+    assert not bpy.data.node_groups
+
+
 @pytest.mark.parametrize("where", ["layer", "scene"])
 def test_the_curve_is_shown_again_where_it_was_hidden(where):
     hand = hand_curve()
