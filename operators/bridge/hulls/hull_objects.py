@@ -25,7 +25,7 @@ from ..stored.names import CORNERS_TAG, HULL_TAG, MARGIN_TAG, PIECE_TAG
 from ..stored.noted_hulls import write_hull_record
 from .fitting_names import names_that_fit
 from .hull_collections import collection_for, own_collection, remove_empty_collections
-from .listed import hulls_of
+from .listed import hulls_of, is_hull
 from .lost_hulls import has_more, leave_to_user, lost_hulls, noted_by
 from .placed import moved_pose, pose_of
 from .rigid_bodies import remove_simulation, soften
@@ -186,13 +186,13 @@ def _check_free(
     if taken:
         first = min(taken)
         holder = bpy.data.objects[first, None]
-        is_hull = HULL_TAG in holder and holder not in own
+        another_has_it = is_hull(holder) and holder not in own
         nameless = "{name" not in parameters.template
         remedy = "rename it"
-        if is_hull and parameters.naming == "TEMPLATE" and nameless:
+        if another_has_it and parameters.naming == "TEMPLATE" and nameless:
             remedy = "put {name} into Template,"
         raise DecompositionError(
-            f"{'Another object has a hull' if is_hull else 'There is an object'}"
+            f"{'Another object has a hull' if another_has_it else 'There is an object'}"
             f" {first} already; {remedy} or choose another Naming."
         )
 

@@ -49,3 +49,13 @@ def test_a_name_that_another_hull_has_is_blamed_on_its_cause(settings, remedy):
     cube.name, copy.name = "Renamed", "Cube"
     with pytest.raises(RuntimeError, match=f"{remedy} or choose another Naming"):
         build(copy, **settings)
+
+
+def test_a_hull_without_a_parent_is_no_hull_of_another_object():
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.active_object
+    build(cube)
+    (hull,) = hulls_of(cube)
+    hull.parent = None
+    with pytest.raises(RuntimeError, match="There is an object Cube hull 01 already"):
+        build(cube)
