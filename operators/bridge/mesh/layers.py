@@ -74,7 +74,11 @@ class ObjectModeLayers:
     def set_colors(self, name: str, colors: FloatArray) -> None:
         """Write an attribute of the corners, from a color for each face (P, 4)."""
         there = self._mesh.color_attributes
-        attribute = there.get(name) or there.new(name, "FLOAT_COLOR", "CORNER")
+        attribute = there.get(name)
+        kind = attribute and (attribute.data_type, attribute.domain)
+        if kind != ("FLOAT_COLOR", "CORNER"):  # the user may have converted it
+            self.remove(name)
+            attribute = there.new(name, "FLOAT_COLOR", "CORNER")
         write_floats(attribute.data, "color", colors[corner_faces(self._mesh)])
 
     def remove(self, name: str) -> None:
@@ -153,19 +157,24 @@ class EditModeLayers:
     def set_colors(self, name: str, colors: FloatArray) -> None:
         """Write a layer of the corners, from a color for each face (P, 4)."""
         layers = self._bm.loops.layers.float_color
-        layer = layers.get(name) or layers.new(name)
+        layer = layers.get(name)
+        if layer is None:
+            self.remove(name)  # the user may have converted it
+            layer = layers.new(name)
         for face, color in zip(self._bm.faces, colors.tolist(), strict=True):
             for corner in face.loops:
                 corner[layer] = color
 
     def remove(self, name: str) -> None:
         """Remove a layer of faces, their corners or points, if it is there."""
-        points = self._bm.verts.layers
+        points, corners = self._bm.verts.layers, self._bm.loops.layers
         for layers in (
             self._bm.faces.layers.int,
-            self._bm.loops.layers.float_color,
+            corners.float_color,
+            corners.color,
             points.int,
             points.float_color,
+            points.color,
             points.float_vector,
         ):
             layer = layers.get(name)

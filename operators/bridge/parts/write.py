@@ -109,9 +109,11 @@ def check_writable(obj: bpy.types.Object) -> None:
     for name, data_type in LAYERS.items():
         attribute = obj.data.attributes.get(name)
         # Points and the others: the user may turn a mesh into points, or back.
-        domains = {"POINT", "CORNER" if name == COLOR_LAYER else "FACE"}
+        domains, kinds = {"POINT", "FACE"}, {data_type}
+        if name == COLOR_LAYER:  # and convert colors
+            domains, kinds = {"POINT", "CORNER"}, {data_type, "BYTE_COLOR"}
         ours = attribute and written and attribute.domain in domains
-        fits = attribute is None or (ours and attribute.data_type == data_type)
+        fits = attribute is None or (ours and attribute.data_type in kinds)
         if not fits or name in obj.vertex_groups:
             raise DecompositionError(
                 f"The mesh has an attribute or vertex group {name} that does not come"

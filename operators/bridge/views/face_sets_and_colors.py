@@ -14,7 +14,7 @@ from ..mesh.points import count_points, is_cloud
 from ..parts.palette import UNPAINTED
 from ..parts.read import find_parts_on, parts_on
 from ..stored.identity import Identity
-from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS
+from ..stored.names import COLOR_LAYER, FACE_SET_LAYER, FACE_SETS, PART_LAYER
 
 
 def write_face_sets(obj: bpy.types.Object) -> None:
@@ -83,9 +83,10 @@ def shown(obj: bpy.types.Object) -> tuple[bool, bool]:
     """Return whether parts are shown as face sets, and whether as colors."""
     if is_cloud(obj):
         return False, False
-    colors = obj.data.attributes.get(COLOR_LAYER)
-    of_corners = colors is not None and colors.domain == "CORNER"
-    return FACE_SET_LAYER in obj.data.attributes, of_corners
+    there = obj.data.attributes
+    parts = there.get(PART_LAYER)
+    of_points = parts is None or parts.domain == "POINT"  # they have got faces since
+    return FACE_SET_LAYER in there, COLOR_LAYER in there and not of_points
 
 
 def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:

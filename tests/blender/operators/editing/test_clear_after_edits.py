@@ -82,6 +82,26 @@ def test_no_color_attribute_that_is_gone_stays_the_active_one(suzanne, mode):
     assert (colors.active_color_name, colors.default_color_name) == ("Mine", "Mine")
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("kind", ["FLOAT_COLOR", "BYTE_COLOR"])
+@pytest.mark.parametrize("domain", ["POINT", "CORNER"])
+def test_colors_that_the_user_converted_are_written_anew(suzanne, domain, kind, mode):
+    labels = decompose_by_hand(suzanne, 3)
+    before = set(suzanne.data.attributes.keys())
+    bpy.ops.wcd.color_attribute()
+    bpy.ops.geometry.color_attribute_convert(domain=domain, data_type=kind)
+    suzanne.wcd_parts[1].color = (1, 0, 0)
+    in_mode(suzanne, mode)
+    bpy.ops.wcd.color_attribute()
+    bpy.ops.wcd.smooth_seams(smoothness=0.0, scope="ALL")
+    in_mode(suzanne, "OBJECT")
+    colors = suzanne.data.color_attributes["wcd_color"].data
+    first = [colors[face.loop_start].color[:] for face in suzanne.data.polygons]
+    assert [each == (1, 0, 0, 1) for each in first] == (labels == 1).tolist()
+    bpy.ops.wcd.clear()
+    assert set(suzanne.data.attributes.keys()) <= before
+
+
 def give_materials(obj, names):
     for name in names:
         material = bpy.data.materials.get(name) or bpy.data.materials.new(name)
