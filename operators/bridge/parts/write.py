@@ -29,7 +29,12 @@ from ..views.colors import show_as_overlay
 from ..views.face_sets_and_colors import paint_points, show, shown
 from .continuing import BeforeWriting, by_number
 from .erase import erase_parts
-from .materials import discard_unused, own_materials, points_material
+from .materials import (
+    discard_unused,
+    is_of_part,
+    own_materials,
+    points_material,
+)
 from .part_materials import is_overlaid
 from .rows import write_rows
 from .slots import put_in_slots
@@ -67,12 +72,13 @@ def write_parts(
     _check_fits(obj, decomposition, faces)
     overlaid, also_shown, before = is_overlaid(obj), shown(obj), BeforeWriting.of(obj)
     identities = identities or before.continued_by(obj, decomposition, faces)
-    former = erase_parts(obj)
+    sources, former = before.materials, erase_parts(obj)
+    former = _continued(former, [sources.get(each.number) for each in identities])
     if faces is not None:
         faces.put_on(obj)
     decomposition, by_label, identities = by_number(obj, decomposition, identities)
     identities, materials = _write_mesh(
-        obj, decomposition, by_label, identities, before.materials, by_hand
+        obj, decomposition, by_label, identities, sources, by_hand
     )
     measured_on = [to_be_noted(row) for row in by_label.sums]
     for sharer in sharers(obj):
@@ -132,6 +138,19 @@ def _check_slots(obj: bpy.types.Object) -> None:
             "The mesh has an attribute material_index that is not one integer for each"
             " face; rename or remove it in the mesh's properties."
         )
+
+
+def _continued(
+    former: Sequence[bpy.types.Material],
+    sources: Sequence[bpy.types.Material | None],
+) -> list[bpy.types.Material]:
+    """Return former materials without those of parts that end, which are removed.
+
+    New materials may get their names then.
+    """
+    left = [each for each in former if each in sources or not is_of_part(each)]
+    discard_unused([each for each in former if each not in left])
+    return left
 
 
 def _write_mesh(

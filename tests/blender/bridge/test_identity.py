@@ -127,6 +127,13 @@ def test_new_parts_get_names_and_colors_that_are_not_in_use(monkey):
     check_in_step(monkey)
 
 
+def test_materials_have_the_names_of_parts_that_take_the_place_of_others(suzanne):
+    for alpha in (2.0, 0.1, 2.0, 5.0):
+        bpy.ops.wcd.decompose(**FAST, parts=3, alpha=alpha)
+        materials = [material.name for material in suzanne.data.materials]
+        assert materials == [row.name for row in suzanne.wcd_parts]
+
+
 def test_mirror_images_are_pairs_by_name_and_color(suzanne):
     bpy.ops.wcd.decompose(samples=600, parts=5)
     names = {name for name, _, _ in parts_of(suzanne)}
