@@ -110,4 +110,4 @@ def _has_tag(modifier: bpy.types.Modifier, tag: str) -> bool:
     if modifier.type != "NODES":
         return False
     group = modifier.node_group
-    return bool(modifier.name == NAMES[tag] if group is None else tag in group)
+    return bool(modifier.name == NAMES.get(tag) if group is None else tag in group)

@@ -131,6 +131,13 @@ def test_instances_of_other_objects_are_told_of(cone):
     assert "Make Instances Real" in notes_of(cone)
 
 
+def test_a_modifier_without_nodes_shows_the_mesh_itself(cone):
+    cone.modifiers.new("Empty", "NODES")
+    decompose(parts=2)
+    assert [each.name for each in cone.modifiers] == ["Empty"]
+    assert len(cone.wcd_parts) == 2
+
+
 def test_a_tree_that_makes_no_faces_is_refused(cone):
     nodes_on(cone, lambda add, link, given: add("GeometryNodeMeshLine").outputs[0])
     before = snapshot(cone)
