@@ -138,6 +138,11 @@ def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
     if PIECE_TAG in hull:
         then = np.reshape(hull.get(CORNERS_TAG, ()), (-1, 3))
         points = _moved_as(np.reshape(hull[PIECE_TAG], (-1, 3)), then, corners)
+    if not (len(points) and np.isfinite(points).all()):
+        raise DecompositionError(
+            f"{hull.name} has no vertices, or coordinates that are no numbers; build"
+            " the hulls again."
+        )
     return moved(points, np.array(within)), has_margin
 
 

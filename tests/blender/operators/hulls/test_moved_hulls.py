@@ -128,6 +128,17 @@ def test_a_hull_without_size_gets_no_other_shape(placed):
         refit(placed, "BOX")
 
 
+@pytest.mark.parametrize("how", ["emptied", "not a number"])
+def test_a_hull_that_the_user_spoiled_gets_no_other_shape(placed, how):
+    (hull,) = hulls_of(placed)
+    if how == "emptied":
+        hull.data.clear_geometry()
+    else:
+        hull.data.vertices[0].co.x = np.nan
+    with pytest.raises(RuntimeError, match="hull 01 has no vertices, or coordinates"):
+        refit(placed, "BOX")
+
+
 def test_the_volume_ratio_is_right_after_the_scale_was_applied(suzanne):
     suzanne.scale = (3, 3, 3)
     bpy.context.view_layer.update()
