@@ -91,6 +91,8 @@ def digest_of_shown(obj: bpy.types.Object) -> str:
     """
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
+    if mesh is None:  # as of a curve without splines
+        return ""
     try:
         arrays = (
             vertex_positions(mesh),

@@ -170,6 +170,17 @@ def test_a_curve_without_a_flat_outline_has_its_sentence():
         assert blocks() == before
 
 
+def test_a_curve_without_points_has_its_sentence_and_stops_no_other(suzanne):
+    hand = hand_curve()
+    hand.data.splines.clear()
+    with pytest.raises(RuntimeError, match=NO_OUTLINE):
+        bpy.ops.wcd.decompose(**FAST)
+    suzanne.select_set(True)
+    bpy.ops.wcd.decompose(**FAST)
+    assert len(suzanne.wcd_parts) == 2
+    assert not hand.children
+
+
 def test_metaballs_of_a_family_and_texts_without_letters_have_sentences():
     for _ in range(2):
         bpy.ops.object.metaball_add()
