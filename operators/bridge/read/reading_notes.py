@@ -38,7 +38,8 @@ def reading_notes(
     if modifiers:
         names = ", ".join(modifiers)
         notes.append(f"The mesh was read without its modifiers ({names}).")
-    if modifiers and has_choice:  # a note of its own: panels show equal ones once
+    # A note of its own: panels show equal ones once. Point clouds have no such choice.
+    if modifiers and has_choice and obj.type == "MESH":
         notes.append(f"To include modifiers, apply them, or choose {WHAT_IS_SEEN}.")
     if shows_keys(obj):
         notes.append("The mesh was read in its Basis shape, without shape keys.")

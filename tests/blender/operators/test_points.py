@@ -176,6 +176,17 @@ def test_bad_points_have_their_sentence_and_stay(case, name):
     assert repr(snapshot(obj)) == before
 
 
+if bpy.app.version >= (5, 0):
+
+    def test_a_cloud_with_modifiers_is_told_of_no_choice_that_it_lacks():
+        obj = cloud_object()
+        obj.modifiers.new("Nodes", "NODES")
+        bpy.ops.wcd.decompose(**FAST)
+        notes = " ".join(json.loads(obj["wcd"])["notes"])
+        assert "without its modifiers (Nodes)" in notes
+        assert "Mesh: Evaluated" not in notes
+
+
 def test_an_attribute_of_the_users_is_refused():
     obj = points_object()
     write_attribute(obj.data, "wcd_color", "FLOAT_COLOR", "POINT", np.ones((900, 4)))
