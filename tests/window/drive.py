@@ -31,8 +31,9 @@ _PAUSE = 0.05
 
 def load(name):
     """Return the module of a subject."""
-    inside = (HERE / "subjects").rglob(f"{name}.py")
-    path = Path(name) if name.endswith(".py") else next(inside)
+    path = Path(name)
+    if path.suffix != ".py":
+        path = next((HERE / "subjects").rglob(f"{name}.py"))
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
