@@ -79,8 +79,8 @@ def mass_notes(
         )
     if overlapping:
         notes.append(
-            "Mass and inertia are more than those of the hulls, as of shells that"
-            f" overlap, which count twice; unite them first: {some_of(overlapping)}."
+            "Mass and inertia are more than those of the hulls; if shells overlap,"
+            f" they count twice, so unite them first: {some_of(overlapping)}."
         )
     for name, mass in masses.items():
         if min(mass.mass, *np.linalg.eigvalsh(mass.inertia)) < _LEAST:

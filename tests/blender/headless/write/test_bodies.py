@@ -151,7 +151,7 @@ def test_shells_that_overlap_are_said_to_count_twice(tmp_path, place, is_said):
     pair = bpy.context.active_object
     hulls = build_hulls([pair])
     notes = save_hulls(tmp_path / "a.xml", hulls, "Z", BodyParameters())
-    said = [f"count twice; unite them first: {pair.name}." in note for note in notes]
+    said = [f"count twice, so unite them first: {pair.name}." in note for note in notes]
     assert said == [True] * is_said
 
 
