@@ -45,6 +45,10 @@ class PartPsi:
         """Count likely and known pairs of samples by parts (P,) of the nodes."""
         return self._counted(self.visibility.likely_pairs, parts)
 
+    def tally_seen(self, parts: NDArray[np.int64]) -> PairTally:
+        """Count pairs of samples by parts (P,) of the nodes, by lines of sight."""
+        return self._counted(self.visibility.psi_pairs, parts)
+
     def _counted(self, pairs: PairVisibility, parts: NDArray[np.int64]) -> PairTally:
         """Count pairs of samples by parts (P,) of the nodes, each kind once."""
         labels, n_parts = self.transfer.to_samples(parts), count_parts(parts)
@@ -57,8 +61,7 @@ class PartPsi:
 
     def psi_seen(self, parts: NDArray[np.int64]) -> float:
         """Return psi (eq. 5) of parts (P,) of the nodes, from lines of sight alone."""
-        tally = self._counted(self.visibility.psi_pairs, parts)
-        return tally.psi(self.parameters.alpha)
+        return self.tally_seen(parts).psi(self.parameters.alpha)
 
 
 def count_parts(parts: NDArray[np.int64]) -> int:

@@ -21,6 +21,7 @@ from ..part_psi import count_parts
 from ..partition import Partitioner
 from .flush import flush_seams
 from .pieces import connected_parts
+from .shells import within_shells
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
 _CREASED = 0.25
@@ -89,7 +90,7 @@ class CreaseParts:
         high: int,
         *others: NDArray[np.int64],
     ) -> NDArray[np.int64]:
-        """Return the best of some parts, the pieces, both seams, and one part.
+        """Return the best of some parts, the pieces, both seams, shells, and one part.
 
         Parameters
         ----------
@@ -106,12 +107,15 @@ class CreaseParts:
             `parts` itself if nothing is better.
         """
         found, n_pieces = list(others), count_parts(self.pieces)
+        by = self._partitioner
         if n_pieces > 1:
             n_parts = min(max(n_pieces, low), high)
-            steps = self._partitioner.resized_in_steps(self.pieces, n_parts)
-            found.append(run(steps))
+            found.append(run(by.resized_in_steps(self.pieces, n_parts)))
             found.append(self._with_loops(parts, high))
             found.append(np.zeros_like(parts))
+        if by.visibility.shows_all_of_solid:
+            shells = within_shells(by, parts, self._costs, low, high)
+            found += [] if shells is None else [shells]
         rivals = [each for each in found if low <= count_parts(each) <= high]
         return max([parts, *rivals], key=self._worth) if rivals else parts
 

@@ -132,10 +132,11 @@ def merge_to(
     merged = np.arange(len(borders))
     borders = borders.astype(np.float64)
     while len(borders) > 1:
-        gains = tally.merge_gains(alpha) + price * borders
-        if borders.any():
-            gains[borders == 0] = -np.inf
-        if len(borders) <= n_parts and (not further or gains.max() <= 0):
+        gains, touching = tally.merge_gains(alpha) + price * borders, borders > 0
+        if touching.any():
+            gains[~touching] = -np.inf
+        saves = further and touching.any() and gains.max() > 0
+        if len(borders) <= n_parts and not saves:
             break
         kept, gone = sorted(divmod(int(gains.argmax()), len(gains)))
         tally = tally.merged(kept, gone)
