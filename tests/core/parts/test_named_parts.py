@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 import shapes
 from computed import graph_of, split_up
+from definitions import agreement
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
 
-def assert_names(agreement, decomposition, mesh, expected, at_least=0.9):
+def assert_names(decomposition, mesh, expected, at_least=0.9):
     """Check that parts agree with the labels that anyone would give the polygons."""
     surface = graph_of(mesh)
     numbers = expected(*surface.centers.T).astype(int)
@@ -34,9 +35,8 @@ def test_a_convex_shape_is_one_part_of_rank_one(decomposed, make):
     assert found.notes == ()
 
 
-def test_an_l_has_two_arms(decomposed, agreement):
+def test_an_l_has_two_arms(decomposed):
     assert_names(
-        agreement,
         decomposed(shapes.l_shape),
         shapes.l_shape(),
         lambda x, y, z: x > y,
@@ -44,11 +44,11 @@ def test_an_l_has_two_arms(decomposed, agreement):
     )
 
 
-def test_an_l_of_two_overlapping_boxes_has_two_arms(agreement):
+def test_an_l_of_two_overlapping_boxes_has_two_arms():
     one, other = shapes.box((0, 0, 0), (5, 1, 1), 3), shapes.box((0,) * 3, (1, 5, 1), 3)
     mesh = shapes.joined(one, other)
     found = split_up(mesh, samples=300)
-    assert_names(agreement, found, mesh, lambda x, y, z: np.arange(len(x)) >= 54, 0.75)
+    assert_names(found, mesh, lambda x, y, z: np.arange(len(x)) >= 54, 0.75)
 
 
 def tips_of_a_plus(found):
@@ -81,37 +81,37 @@ def test_neighboring_tips_of_a_plus_never_share_a_part(seed):
     assert found.ranks.min() > 0.99
 
 
-def test_a_dumbbell_has_two_weights_and_a_bar(decomposed, agreement):
+def test_a_dumbbell_has_two_weights_and_a_bar(decomposed):
     def expected(x, y, z):
         return np.select([x < 3 + 1e-6, x > 6 - 1e-6], [0, 1], 2)
 
     found, mesh = decomposed(shapes.dumbbell), shapes.dumbbell()
-    assert_names(agreement, found, mesh, expected, 0.999)
+    assert_names(found, mesh, expected, 0.999)
 
 
-def test_a_table_has_a_top_and_four_legs(decomposed, agreement):
+def test_a_table_has_a_top_and_four_legs(decomposed):
     def expected(x, y, z):
         return np.where(z > 3 - 1e-6, 0, 1 + (x > 2.5) + 2 * (y > 2))
 
     found = decomposed(shapes.table)
-    assert_names(agreement, found, shapes.table(), expected, 0.97)
+    assert_names(found, shapes.table(), expected, 0.97)
     assert found.ranks.min() > 0.95
 
 
-def test_a_hand_has_a_palm_and_four_fingers(decomposed, agreement):
+def test_a_hand_has_a_palm_and_four_fingers(decomposed):
     def expected(x, y, z):
         return np.where(y > 3 + 1e-6, 1 + x // 2, 0)
 
     found = decomposed(shapes.comb)
-    assert_names(agreement, found, shapes.comb(), expected, 0.999)
+    assert_names(found, shapes.comb(), expected, 0.999)
 
 
-def test_a_u_has_a_base_and_two_legs(decomposed, agreement):
+def test_a_u_has_a_base_and_two_legs(decomposed):
     def expected(x, y, z):
         return np.select([y < 2 + 1e-6, x < 4], [0, 1], 2)
 
     found = decomposed(shapes.u_shape)
-    assert_names(agreement, found, shapes.u_shape(), expected, 0.9)
+    assert_names(found, shapes.u_shape(), expected, 0.9)
 
 
 def test_spheres_far_apart_are_a_part_each():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapes
 from computed import decompose
+from definitions import agreement
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.parameters.parts import Parameters
 
@@ -55,7 +56,7 @@ def rough(outline, seed, caps):
         (bolt, [0.8], False),
     ],
 )
-def test_parts_agree_with_steps(make, rims, caps, agreement):
+def test_parts_agree_with_steps(make, rims, caps):
     mesh, places = rough(make(), 0, caps)
     found = decompose(mesh, Parameters(samples=600))
     # The ring of a rim belongs to the wider step.
