@@ -45,7 +45,8 @@ def within_shells(
     """
     graph = replace(by.graph, lengths=costs, links=by.graph.links[:0])
     shells = components_at_once(graph.neighbors, graph.n_polygons)
-    shells = connected_parts(by.graph, shells, by.smallest_area)
+    if count_parts(shells) > 1:
+        shells = connected_parts(by.graph, shells, by.smallest_area)
     n_shells = count_parts(shells)
     if not 1 < n_shells <= high:
         return None

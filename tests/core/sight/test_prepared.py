@@ -79,7 +79,8 @@ def test_wrong_normals_are_told():
 def test_a_far_stray_point_is_no_reason_for_other_parts():
     points, _ = clouds.drawn(shapes.dumbbell(), 800)
     points = np.concatenate([points, [[5000, 0, 0]]])
-    found = split_up(PointCloud(points))
+    # With fewer samples, the rounding of a processor would decide on a fifth part.
+    found = split_up(PointCloud(points), samples=400)
     check_halves(found, points, found.n_parts)
 
 
