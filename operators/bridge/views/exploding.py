@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import bpy
 
+from ....core.errors import DecompositionError
 from ..stored.names import EXPLODE_TAG, PART_LAYER
 from .node_modifiers import (
     NAMES,
@@ -45,6 +47,8 @@ def slider(modifier: bpy.types.NodesModifier) -> tuple[Any, str]:
 
 def explode(obj: bpy.types.Object, distance: float) -> None:
     """Move the parts of an object away from its center; its mesh stays as it is."""
+    if not math.isfinite(distance):
+        raise DecompositionError(f"Distance must be a number, not {distance}.")
     modifier = tagged_modifier(obj, EXPLODE_TAG)
     if modifier is None:
         modifier = obj.modifiers.new(NAMES[EXPLODE_TAG], "NODES")

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.shape import Shape
+from ....core.parameters.parameter import check, field_of
+from ....core.parameters.parts import Parameters
 from ....core.steps.progress import Progress, Steps, within_turn
 from ..parts.present_parts import PresentParts
 from .run_edit import MakeChange
@@ -108,7 +110,13 @@ def smoothing(chosen: Sequence[int], smoothness: float) -> MakeChange:
     """Return the edit that smooths the seams of parts.
 
     `smoothness` is the weight lambda of the smoothness term (eq. 4).
+
+    Raises
+    ------
+    DecompositionError
+        If it is no number, or out of bounds.
     """
+    check(field_of(Parameters, "smoothness"), smoothness)
 
     def change(
         _: Shape, memo: core.PartMemo, parts: PresentParts

@@ -47,6 +47,13 @@ def test_parts_move_away_from_the_center_together(suzanne):
     assert owner.path_resolve(path) == pytest.approx(0.7)
 
 
+def test_a_distance_that_is_no_number_is_refused(suzanne):
+    decompose_by_hand(suzanne, 4)
+    with pytest.raises(RuntimeError, match="Distance must be a number, not"):
+        call("explode", distance=float("nan"))
+    assert not suzanne.modifiers
+
+
 def test_exploded_views_end(suzanne):
     decompose_by_hand(suzanne, 4)
     before = snapshot(suzanne)

@@ -141,6 +141,13 @@ def test_smoothing_by_nothing_changes_nothing(monkey):
     assert (labels_of(monkey) == labels).all()
 
 
+def test_smoothing_by_what_is_no_number_is_refused(monkey):
+    labels = labels_of(monkey)
+    with pytest.raises(RuntimeError, match="Smoothness must be a number, not nan"):
+        bpy.ops.wcd.smooth_seams(scope="ALL", smoothness=float("nan"))
+    assert (labels_of(monkey) == labels).all()
+
+
 def test_colors_in_an_attribute_follow_edits(monkey):
     bpy.ops.wcd.decompose(**FAST)
     bpy.ops.wcd.color_attribute()
