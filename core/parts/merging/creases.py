@@ -21,7 +21,7 @@ from ..part_psi import count_parts
 from ..partition import Partitioner
 from .flush import flush_seams
 from .pieces import connected_parts
-from .shells import within_shells
+from .shells import whole_shells
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
 _CREASED = 0.25
@@ -113,8 +113,8 @@ class CreaseParts:
             found.append(run(by.resized_in_steps(self.pieces, n_parts)))
             found.append(self._with_loops(parts, high))
             found.append(np.zeros_like(parts))
-        if by.visibility.shows_all_of_solid:
-            shells = within_shells(by, parts, self._costs, low, high)
+        if low < high and by.visibility.shows_all_of_solid:
+            shells = whole_shells(by, parts, high)
             found += [] if shells is None else [shells]
         rivals = [each for each in found if low <= count_parts(each) <= high]
         return max([parts, *rivals], key=self._worth) if rivals else parts

@@ -1,8 +1,7 @@
-"""Parts that divide a shell only where that is worth the seam.
+"""The shells of a shape as its parts, such as the boards of a shelf.
 
-Likely pairs and the wish for symmetric parts may divide a board of a shelf, or take one
-side of a rod as a part. People seldom do: such a shell was made as one thing, and runs
-through others.
+Likely pairs and the wish for symmetric parts may divide such a board, or take one side
+of a rod as a part. People seldom do: it was made as one thing, and runs through others.
 """
 
 from __future__ import annotations
@@ -18,39 +17,34 @@ from ..partition import Partitioner
 from .pieces import connected_parts, merge_to
 
 
-def within_shells(
-    by: Partitioner,
-    parts: NDArray[np.int64],
-    costs: NDArray[np.float64],
-    low: int,
-    high: int,
+def whole_shells(
+    by: Partitioner, parts: NDArray[np.int64], most: int
 ) -> NDArray[np.int64] | None:
-    """Cut parts along the borders of shells, and merge what is left within a shell.
+    """Return the shells of a shape, if psi gains by none of the seams within them.
 
     Parameters
     ----------
     by : Partitioner
     parts : (P,) int
-        Part of each node.
-    costs : (E,) float
-        What a seam along each edge costs, in psi.
-    low, high : int
-        Least and largest number of parts. If they differ, neighbors are merged while
-        their seam costs more than they gain in psi.
+        Part of each node; seams are tried where these meet.
+    most : int
+        Largest number of parts.
 
     Returns
     -------
     (P,) int or None
-        None if there is one shell, or too many.
+        Shell of each node; small ones join the nearest. None if there is one shell, or
+        too many, or if one is better divided by psi, counted from lines of sight alone.
     """
-    graph = replace(by.graph, lengths=costs, links=by.graph.links[:0])
+    graph = replace(by.graph, links=by.graph.links[:0])
     shells = components_at_once(graph.neighbors, graph.n_polygons)
     if count_parts(shells) > 1:
         shells = connected_parts(by.graph, shells, by.smallest_area)
     n_shells = count_parts(shells)
-    if not 1 < n_shells <= high:
+    if not 1 < n_shells <= most:
         return None
     finer = connected_parts(by.graph, parts * n_shells + shells, by.smallest_area)
-    borders = graph.borders(finer, count_parts(finer)).toarray()
+    touching = graph.borders(finer, count_parts(finer)).toarray() > 0
     tally, alpha = by.tally_seen(finer), by.parameters.alpha
-    return merge_to(high, tally, borders, alpha, 1.0, further=low < high)[finer]
+    merged = merge_to(most, tally, touching, alpha, further=True)
+    return shells if count_parts(merged) == n_shells else None
