@@ -1,13 +1,12 @@
 """Point clouds as objects: read, decomposed, written to and cleared."""
 
-import json
-
 import bmesh
 import bpy
 import clouds
 import numpy as np
 import pytest
 import shapes
+from edited import notes_of, record_of
 from hand_made import activate, in_mode, mesh_object
 from scipy.spatial import ConvexHull
 from snapshot import snapshot
@@ -94,7 +93,7 @@ def test_parts_are_written_to_points(make):
     colors = values_of(obj, "wcd_color", "color", 4)
     assert len(np.unique(colors, axis=0)) == 2
     assert len(np.unique(np.c_[parts, colors], axis=0)) == 2
-    record = json.loads(obj["wcd"])
+    record = record_of(obj)
     assert [p["faces"] for p in record["parts"]] == np.bincount(parts).tolist()
     assert [p["name"] for p in record["parts"]] == ["Part 01", "Part 02"]
     material = obj.data.materials[0]
@@ -137,7 +136,7 @@ def test_estimated_normals_are_offered_as_an_attribute():
     bpy.ops.wcd.decompose(**FAST)
     found = values_of(obj, "wcd_normal", "vector", 3)
     assert ((found * NORMALS).sum(axis=1) > 0).mean() > 0.97
-    assert "estimated" in json.loads(obj["wcd"])["notes"][0]
+    assert "estimated" in record_of(obj)["notes"][0]
 
 
 def test_inward_normals_stay_as_they_are_and_turned_ones_are_offered():
@@ -145,13 +144,13 @@ def test_inward_normals_stay_as_they_are_and_turned_ones_are_offered():
     bpy.ops.wcd.decompose(**FAST)
     assert values_of(obj, "normal", "vector", 3) == pytest.approx(-NORMALS, abs=1e-6)
     assert values_of(obj, "wcd_normal", "vector", 3) == pytest.approx(NORMALS, abs=1e-6)
-    assert "face inwards" in json.loads(obj["wcd"])["notes"][0]
+    assert "face inwards" in record_of(obj)["notes"][0]
 
 
 def test_measuring_points_leaves_only_the_record():
     obj = MAKERS[-1]()
     assert bpy.ops.wcd.measure(samples=200) == {"FINISHED"}
-    assert json.loads(obj["wcd"])["measured"]["convexity_rank"] < 0.6
+    assert record_of(obj)["measured"]["convexity_rank"] < 0.6
     assert "wcd_part" not in obj.data.attributes
 
 
@@ -182,7 +181,7 @@ if bpy.app.version >= (5, 0):
         obj = cloud_object()
         obj.modifiers.new("Nodes", "NODES")
         bpy.ops.wcd.decompose(**FAST)
-        notes = " ".join(json.loads(obj["wcd"])["notes"])
+        notes = notes_of(obj)
         assert "without its modifiers (Nodes)" in notes
         assert "Mesh: Evaluated" not in notes
 

@@ -98,9 +98,9 @@ def bodies_of(
     for group, title in zip(groups, names, strict=True):
         frame = _frame_of(group[0]) if each else np.eye(4)
         parts = {obj: owned[obj] for obj in group}
-        mass, *named = mass_of_objects(parts, frame, parameters.density)
-        opened += named[0]
-        overlapping += named[1]
+        mass, open_ones, heavier = mass_of_objects(parts, frame, parameters.density)
+        opened += open_ones
+        overlapping += heavier
         own = [hull for its in parts.values() for hull in its]
         collisions = [_collision(hull, of_hulls[hull], frame) for hull in own]
         visuals = [p for obj in group for p in _visuals(obj, titles[obj.name], frame)]
