@@ -104,7 +104,7 @@ def shared_edges(
     neighbors : (E, 2) int32
         Pairs of polygons.
     sides : (E,) int32
-        A side of a triangle along the edge of each pair.
+        The side along each edge, of a triangle of the second polygon.
     """
     edges = yield from within(sort_edges(mesh), 0.0, 0.5)
     n_sides = len(edges.sides)
@@ -118,7 +118,7 @@ def shared_edges(
         shared = owners[1:] != owners[:-1]
         shared &= ~new[start + 1 : start + len(sides)]
         pairs = np.stack([owners[:-1][shared], owners[1:][shared]], axis=1)
-        found.append((pairs, sides[:-1][shared]))
+        found.append((pairs, sides[1:][shared]))
     yield Progress("Surface", 1.0)
     neighbors, along = zip(*found, strict=True)
     return np.concatenate(neighbors), np.concatenate(along)

@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import connected_components
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
-from ..frames import unit
+from ..frames import cross, unit
 from ..mesh import TriangleMesh
 from .components import components_at_once, components_of_labels, graph_of
 from .edges import ends_of_sides, shared_edges
@@ -226,18 +226,23 @@ def face_graph(mesh: TriangleMesh) -> Steps[FaceGraph]:
     for rows in blocks(len(neighbors)):
         yield Progress("Surface", 0.7 + 0.3 * rows.start / len(neighbors))
         ends = np.stack(ends_of_sides(mesh.triangles, sides[rows]))
-        lengths[rows] = np.linalg.norm(np.subtract(*mesh.vertices[ends]), axis=1)
-        bends[rows] = _bends(centers, normals, neighbors[rows])
+        along = np.subtract(*mesh.vertices[ends[::-1]])
+        lengths[rows] = np.linalg.norm(along, axis=1)
+        one, other = normals[neighbors[rows].T]
+        bends[rows] = _bends(one, other, along)
     return FaceGraph(areas, centers, normals, neighbors, lengths, bends)
 
 
 def _bends(
-    centers: NDArray[np.float64],
     normals: NDArray[np.float64],
-    neighbors: NDArray[np.int32],
+    others: NDArray[np.float64],
+    along: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return the signed angle (E,) between neighbors, positive at creases."""
-    one, other = neighbors.T
-    angles = np.arccos(np.clip((normals[one] * normals[other]).sum(axis=1), -1.0, 1.0))
-    rises = ((centers[other] - centers[one]) * normals[one]).sum(axis=1)
+    """Return the signed angle (E,) between two normals (E, 3), positive at creases.
+
+    `along` (E, 3) is the edge as it runs around the second polygon. What counts is on
+    which side this begins there: the center of a face around a hole may be anywhere.
+    """
+    angles = np.arccos(np.clip((normals * others).sum(axis=1), -1.0, 1.0))
+    rises = (cross(others, along) * normals).sum(axis=1)
     return np.where(rises > 0, angles, -angles)

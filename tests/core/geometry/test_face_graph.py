@@ -69,6 +69,21 @@ def test_bends_are_the_angle_between_normals(angle):
         assert surface.bends == pytest.approx([turn])
 
 
+def test_ridges_around_a_hole_are_no_creases():
+    """The centers of both large faces are in the hole, in front of its walls."""
+    full = np.ones((3, 3, 1), dtype=bool)
+    full[1, 1] = False
+    mesh = shapes.voxels(full)
+    middles, normals = graph_of(mesh).centers, np.round(graph_of(mesh).normals)
+    planes = np.c_[normals, (middles * normals).sum(axis=1)]
+    _, sides = np.unique(planes, axis=0, return_inverse=True)
+    surface = graph_of(replace(mesh, polygons=sides.ravel()[mesh.polygons]))
+    assert surface.n_polygons == 10
+    assert np.abs(surface.bends) == pytest.approx(np.full(40, np.pi / 2))
+    assert (surface.bends > 0).sum() == 4
+    assert surface.lengths[surface.bends > 0] == pytest.approx(np.ones(4))
+
+
 def test_polygons_without_area_have_a_place_and_no_normal():
     mesh = shapes.mesh_of(
         [[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [(0, 1, 2), (3, 3, 3)]
