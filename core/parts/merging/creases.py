@@ -32,6 +32,10 @@ _LEAST_PIECE = 0.01
 _ALL = 0.99
 # Pieces whose mean normal is longer than this are flat.
 _FLAT = 0.85
+# A fillet is narrower than this, relative to the square root of the area, and the
+# surface bends by less than this where it ends, in radians.
+_NARROW = 0.05
+_ROUNDED = 1.05
 # What a seam as long as the square root of the area costs, in psi. From 0.17 to 0.25
 # little changes. With 0.15 low steps are missed, with 0.3 birds lose their wings.
 _SEAM_PRICE = 0.2
@@ -64,7 +68,7 @@ class CreaseParts:
         pieces = connected_parts(graph, pieces_between(graph, seams), least)
         if count_parts(pieces) == 1:
             return pieces
-        return _joined(graph, pieces, _flat(graph, pieces))
+        return _joined(graph, pieces, _flat(graph, pieces) | _fillets(graph, pieces))
 
     def _between_corners(self, graph: FaceGraph) -> NDArray[np.int64]:
         """Return the pieces (P,) of a flat shape between its concave corners.
@@ -125,7 +129,11 @@ class CreaseParts:
         finer = connected_parts(
             by.graph, parts * n_pieces + self.pieces, by.smallest_area
         )
-        finer = _joined(by.graph, finer, _slivers(by.graph, finer, parts))
+        finer = _joined(
+            by.graph,
+            finer,
+            _slivers(by.graph, finer, parts) | _fillets(by.graph, finer),
+        )
         if count_parts(finer) <= most:
             return finer
         return by.merged(finer, most, self._costs, 1.0)
@@ -159,6 +167,18 @@ def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
     areas = graph.areas_of(pieces)
     normals = sums_by_label(graph.areas[:, None] * graph.normals, pieces, len(areas))
     return np.linalg.norm(normals, axis=1) > _FLAT * areas
+
+
+def _fillets(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return whether each piece is a strip that rounds off a crease, (K,)."""
+    areas = graph.areas_of(pieces)
+    ends = pieces[graph.neighbors]
+    rim = np.flatnonzero(ends[:, 0] != ends[:, 1])
+    columns = np.stack([graph.lengths, graph.lengths * graph.bends])[:, rim]
+    of_rim = ends[rim].T.ravel()
+    lengths, bends = (np.bincount(of_rim, np.tile(c, 2), len(areas)) for c in columns)
+    narrow = 2 * areas < _NARROW * np.sqrt(areas.sum()) * lengths
+    return narrow & (bends < _ROUNDED * lengths)
 
 
 def _slivers(

@@ -93,6 +93,20 @@ def test_parts_follow_loops_that_cost_little_psi(seed):
     assert found.psi == pytest.approx(found.psi_by_k[3])
 
 
+@pytest.mark.parametrize("parts", [0, 2])
+def test_what_rounds_off_a_crease_is_no_part(parts):
+    """A pin on a plate, and a chamfer around its foot."""
+    radii = [0, *np.linspace(0, 3, 6)[1:], *np.linspace(3, 1.2, 6), *[1.0] * 6, 0]
+    heights = [0, *[0] * 5, *[1] * 6, *np.linspace(1.2, 4, 6), 4]
+    mesh = shapes.turned(radii, heights, 48)
+    graph = graph_of(mesh)
+    assert len(set(crease_pieces(graph))) == 3
+    found = decompose(mesh, Parameters(parts=parts))
+    assert found.n_parts == 2
+    is_pin = graph.centers[:, 2] > 1.2
+    assert set(found.labels[is_pin]).isdisjoint(found.labels[graph.centers[:, 2] < 1])
+
+
 def test_other_numbers_and_limits_are_kept():
     found = decomposer(pins())
     assert found(parts=2).n_parts == 2
