@@ -91,15 +91,7 @@ def _taken(key: Any) -> Steps[Edited] | None:
     """
     global _begun
     begun, _begun = _begun, None
-    if begun is None or begun[0] != key:
-        return None
-
-    def rest(job: Job[Edited]) -> Steps[Edited]:
-        while not job.advance(0.0):
-            yield job.progress
-        return job.result()
-
-    return rest(begun[1])
+    return begun[1].rest() if begun is not None and begun[0] == key else None
 
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> SeenMesh | None:

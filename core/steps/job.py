@@ -87,6 +87,23 @@ class Job(Generic[T]):
             raise RuntimeError("the job is not done")
         return self._value  # type: ignore[return-value]  # set with `done`
 
+    def rest(self) -> Steps[T]:
+        """Run what is left as part of another computation.
+
+        Returns
+        -------
+        Steps
+            With the same value. Steps may be run between them by `advance`, too.
+
+        Raises
+        ------
+        RuntimeError
+            If the job was cancelled, or an earlier call failed.
+        """
+        while not self.advance(0.0):
+            yield self.progress
+        return self.result()
+
     def cancel(self) -> None:
         """Stop the computation and run its `finally` clauses."""
         self._ended = True

@@ -93,9 +93,8 @@ def go_on() -> float | None:
 
 def after_rest(wanted: Wanted, steps: Steps[T]) -> Steps[T]:
     """Run `steps`, which find parts too; find the rest first of those half found."""
-    while _current is not None and _current[0] == wanted and not _current[1].done:
-        _current[1].advance(0.0)
-        yield _current[1].progress
+    if _current is not None and _current[0] == wanted:
+        yield from _current[1].rest()
     return (yield from steps)
 
 

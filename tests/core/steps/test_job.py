@@ -1,6 +1,6 @@
 import pytest
 from weak_convex_decomposition.core.steps.job import Job
-from weak_convex_decomposition.core.steps.progress import Progress, within
+from weak_convex_decomposition.core.steps.progress import Progress, run, within
 
 
 class Clock:
@@ -43,6 +43,18 @@ def test_the_last_slice_ends_early_with_the_value():
     assert clock.now == 3.0
     assert job.advance(1.0)
     assert job.result() == "value"
+
+
+def test_the_rest_goes_on_where_slices_ended_and_has_the_value():
+    clock, log = Clock(), []
+    job = Job(working(clock, 4, 1.0, log), clock)
+    job.advance(0.0)
+    steps = job.rest()
+    assert next(steps) == Progress("Step 1", 0.25)
+    job.advance(0.0)  # in between, somebody else works on it too
+    assert run(steps) == "value"
+    assert log == [0, 1, 2, 3, "cleaned up"]
+    assert run(job.rest()) == "value"
 
 
 def test_a_job_that_is_not_done_has_no_result():
