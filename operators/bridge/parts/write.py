@@ -29,12 +29,7 @@ from ..views.colors import show_as_overlay
 from ..views.face_sets_and_colors import paint_points, show, shown
 from .continuing import BeforeWriting, by_number
 from .erase import erase_parts
-from .materials import (
-    discard_unused,
-    is_of_part,
-    own_materials,
-    points_material,
-)
+from .materials import discard_unused, is_of_part, own_materials, points_material
 from .part_materials import is_overlaid
 from .rows import write_rows
 from .slots import put_in_slots
@@ -165,38 +160,26 @@ def _write_mesh(
 
     Return who the parts are, and the names of their materials.
     """
-    before = _add_groups(obj, identities)
-    groups = before["groups"]
-    if groups:
-        identities = [  # taken names get a number
-            replace(each, name=group)
-            for each, group in zip(identities, groups, strict=True)
-        ]
+    identities, groups = _add_groups(obj, identities)
     materials = _materials(obj, identities, sources)
-    before |= put_in_slots(obj, materials, decomposition.labels)
-    write_restore(obj.data, Restore(**before))
-    layers = layers_of(obj)
-    numbers = np.array([identity.number for identity in identities], dtype=np.int32)
-    layers.set_faces(PART_LAYER, numbers[decomposition.labels])
-    if by_hand is not None and by_hand.any():
-        layers.set_faces(HAND_LAYER, by_hand.astype(np.int32))
-    for name, vertices in zip(groups, by_label.vertices, strict=False):  # or no groups
-        layers.fill_group(obj.vertex_groups[name], vertices)
-    layers.finish()
-    if not is_cloud(obj):
-        return identities, [each.name for each in materials]
-    paint_points(obj, decomposition.labels, identities)
-    if (normals := decomposition.normals) is not None:
-        write_attribute(obj.data, NORMAL_LAYER, "FLOAT_VECTOR", "POINT", normals)
-    return identities, [materials[0].name] * len(identities)  # they share it
+    slots = put_in_slots(obj, materials, decomposition.labels)
+    write_restore(obj.data, Restore(**groups, **slots))
+    _write_layers(obj, decomposition.labels, by_label, identities, by_hand)
+    if is_cloud(obj):
+        materials *= len(identities)  # they share it
+        paint_points(obj, decomposition.labels, identities)
+        if (normals := decomposition.normals) is not None:
+            write_attribute(obj.data, NORMAL_LAYER, "FLOAT_VECTOR", "POINT", normals)
+    return identities, [each.name for each in materials]
 
 
 def _add_groups(
     obj: bpy.types.Object, identities: Sequence[Identity]
-) -> dict[str, Any]:
+) -> tuple[Sequence[Identity], dict[str, Any]]:
     """Add a group for each part; the active one stays so.
 
-    Return the fields of `Restore` on groups.
+    Return the parts, with a number behind names that were taken, and the fields of
+    `Restore` on groups.
     """
     groups, names = obj.vertex_groups, []
     active = groups.active.name if groups.active else ""
@@ -204,7 +187,29 @@ def _add_groups(
     if obj.type == "MESH":  # point cloud objects have no groups
         names = [groups.new(name=identity.name).name for identity in identities]
         groups.active_index = groups[active].index if active else 0
-    return {"groups": names, "active_group": active, "user_groups": users}
+        pairs = zip(identities, names, strict=True)
+        identities = [replace(part, name=name) for part, name in pairs]
+    fields = {"groups": names, "active_group": active, "user_groups": users}
+    return identities, fields
+
+
+def _write_layers(
+    obj: bpy.types.Object,
+    labels: NDArray[np.int64],
+    by_label: ByLabel,
+    identities: Sequence[Identity],
+    by_hand: NDArray[np.bool_] | None,
+) -> None:
+    """Write the number of each face's part, what is by hand, and who is in a group."""
+    layers = layers_of(obj)
+    numbers = np.array([part.number for part in identities], dtype=np.int32)
+    layers.set_faces(PART_LAYER, numbers[labels])
+    if by_hand is not None and by_hand.any():
+        layers.set_faces(HAND_LAYER, by_hand.astype(np.int32))
+    if obj.type == "MESH":
+        for part, vertices in zip(identities, by_label.vertices, strict=True):
+            layers.fill_group(obj.vertex_groups[part.name], vertices)
+    layers.finish()
 
 
 def _materials(
