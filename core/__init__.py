@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from .cache import no_rays as no_rays
     from .clouds.splats import thinned_splats as thinned_splats
     from .decomposition import decompose_in_steps as decompose_in_steps
-    from .geometry.cutting.pieces import labels_by_area as labels_by_area
-    from .geometry.cutting.pieces import labels_of_pieces as labels_of_pieces
+    from .geometry.cutting.piece_labels import labels_by_area as labels_by_area
+    from .geometry.cutting.piece_labels import labels_of_pieces as labels_of_pieces
     from .geometry.cutting.planes import find_cuts as find_cuts
     from .geometry.cutting.refined import RefinedMesh as RefinedMesh
     from .geometry.cutting.refined import refined as refined
@@ -46,11 +46,11 @@ _HOMES = {
     "no_rays": "cache",
     "thinned_splats": "clouds.splats",
     "decompose_in_steps": "decomposition",
-    "labels_of_pieces": "geometry.cutting.pieces",
+    "labels_of_pieces": "geometry.cutting.piece_labels",
     "find_cuts": "geometry.cutting.planes",
     "RefinedMesh": "geometry.cutting.refined",
     "refined": "geometry.cutting.refined",
-    "labels_by_area": "geometry.cutting.pieces",
+    "labels_by_area": "geometry.cutting.piece_labels",
     "build_hulls_in_steps": "hulls.build",
     "refit_in_steps": "hulls.refit",
     "faces_of": "hulls.outline",

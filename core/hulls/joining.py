@@ -23,11 +23,11 @@ _BEYOND = 1.01
 # error. No piece while the cost is a bound.
 _Joint = tuple[float, int, int, Piece | None, bool]
 # The joined piece of each pair that was tried.
-Joints = dict[tuple[Piece, Piece], Piece]
+JoinedPairs = dict[tuple[Piece, Piece], Piece]
 
 
 def join_pieces(
-    pieces: Sequence[Piece], max_pieces: int, known: Joints, close: bool
+    pieces: Sequence[Piece], max_pieces: int, known: JoinedPairs, close: bool
 ) -> Steps[list[Piece]]:
     """Join neighbors, if there are too many pieces or if they are close as one.
 
@@ -39,7 +39,7 @@ def join_pieces(
     pieces : sequence of Piece
     max_pieces : int
         Largest number of pieces to return.
-    known : dict
+    known : JoinedPairs
         Joined pieces of pairs that were tried before, and from now on.
     close : bool
         Whether neighbors are joined, too, whose common error is allowed.
@@ -54,7 +54,7 @@ def join_pieces(
     return joined
 
 
-def part_again(pieces: list[Piece], max_pieces: int, known: Joints) -> list[Piece]:
+def part_again(pieces: list[Piece], max_pieces: int, known: JoinedPairs) -> list[Piece]:
     """Undo joints of pieces that are not close as one, while there is room for more.
 
     They were joined when there were too many pieces; others have been joined since.
@@ -64,7 +64,7 @@ def part_again(pieces: list[Piece], max_pieces: int, known: Joints) -> list[Piec
     pieces : list of Piece
     max_pieces : int
         Largest number of pieces to return.
-    known : dict
+    known : JoinedPairs
         Joined pieces of pairs, as `join_pieces` leaves them.
 
     Returns
@@ -91,7 +91,7 @@ def part_again(pieces: list[Piece], max_pieces: int, known: Joints) -> list[Piec
 def _join(
     pieces: Sequence[Piece],
     max_pieces: int,
-    known: Joints,
+    known: JoinedPairs,
     close: bool,
     may: Callable[[Piece, Piece], bool],
 ) -> Steps[list[Piece]]:
@@ -126,7 +126,7 @@ def _next_joint(
     alive: dict[int, Piece],
     queue: list[_Joint],
     max_pieces: int,
-    known: Joints,
+    known: JoinedPairs,
     close: bool,
     solid_volume: float,
 ) -> Steps[tuple[int, int, Piece] | None]:

@@ -11,10 +11,10 @@ from ...geometry.frames import settled
 from ...steps.progress import Progress, Steps, within
 from ..cost import cost_of_sides
 from ..enclosing.shapes import roughly_around
-from ..joining import Joints, join_pieces, part_again
+from ..joining import JoinedPairs, join_pieces, part_again
 from ..piece import Piece
 from .cell import Cell, cut
-from .planes import ranked_planes
+from .ranked_planes import ranked_planes
 
 # Number of pieces to cut, as a multiple of Most Hulls: joins correct cuts that were
 # best at their turn only. Shapes other than hulls take longer to fit, and spheres
@@ -54,7 +54,7 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
     -------
     Steps of list of Piece
     """
-    fit, pieces, joints = cell.fit, list[Piece](), Joints()
+    fit, pieces, joints = cell.fit, list[Piece](), JoinedPairs()
     most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
     # The whole is not tried yet: it may seem close, and its bound say otherwise.
     far, tried, share, n_rounds = [cell], set[Cell](), 0.0, 0

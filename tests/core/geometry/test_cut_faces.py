@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 import shapes
-from weak_convex_decomposition.core.geometry.cutting.pieces import labels_of_pieces
+from weak_convex_decomposition.core.geometry.cutting.piece_labels import (
+    labels_of_pieces,
+)
 from weak_convex_decomposition.core.geometry.cutting.planes import find_cuts
 from weak_convex_decomposition.core.geometry.cutting.refined import refined
 from weak_convex_decomposition.core.geometry.graphs.edges import sort_edges

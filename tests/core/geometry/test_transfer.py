@@ -4,7 +4,7 @@ import pytest
 import shapes
 from computed import graph_of
 from weak_convex_decomposition.core.geometry import transfer
-from weak_convex_decomposition.core.geometry.cutting.pieces import labels_by_area
+from weak_convex_decomposition.core.geometry.cutting.piece_labels import labels_by_area
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
 from weak_convex_decomposition.core.geometry.transfer import NearestSamples
 from weak_convex_decomposition.core.geometry.transfer import carry as transfer_in_steps

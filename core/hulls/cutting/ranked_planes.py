@@ -11,8 +11,8 @@ from ...geometry.frames import principal_axes, settled
 from ...steps.progress import Progress, Steps
 from ..convex_hull import THIN, thickened
 from .cell import Cell
-from .directions import directions_of
 from .extremes import reaches_of, volumes_beside
+from .plane_directions import directions_of
 
 # Number of evenly spaced planes along each direction.
 _PLANES = 7
