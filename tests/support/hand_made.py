@@ -111,6 +111,11 @@ def centers(obj):
     return np.array([polygon.center for polygon in mesh.polygons])
 
 
+def in_scene(obj):
+    """Return the vertices of an object in the scene, (V, 3)."""
+    return np.array([obj.matrix_world @ vertex.co for vertex in obj.data.vertices])
+
+
 def areas(mesh):
     return np.array([polygon.area for polygon in mesh.polygons])
 

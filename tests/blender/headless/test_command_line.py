@@ -9,10 +9,11 @@ from pathlib import Path
 
 import bpy
 import pytest
+from edited import record_of
+from headless.command import run_wcd
 from weak_convex_decomposition.core.parameters.parameter import info_of
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parameters.presets import preset
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.request.option_names import SETTINGS
 from weak_convex_decomposition.operators.headless.request.options import parse
 from weak_convex_decomposition.operators.headless.write import picture
@@ -28,12 +29,8 @@ def model(tmp_path):
     return tmp_path / "monkey.obj"
 
 
-def run(*arguments):
-    return main([str(argument) for argument in arguments])
-
-
 def test_help_explains_every_parameter_with_its_default(capsys):
-    assert run("--help") == 0
+    assert run_wcd("--help") == 0
     words = " ".join(capsys.readouterr().out.split())
     settings = [field for kind in SETTINGS for field in fields(kind)]
     for field in settings:
@@ -45,14 +42,14 @@ def test_help_explains_every_parameter_with_its_default(capsys):
 
 def test_each_choice_has_a_line_in_the_help(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
-    assert run("--help") == 0
+    assert run_wcd("--help") == 0
     lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
     for word in ("all-pairs", "cone", "paper", "filled", "unreal"):
         assert [line for line in lines if line.startswith(f"{word}: ")], word
 
 
 def test_version(capsys):
-    assert run("--version") == 0
+    assert run_wcd("--version") == 0
     version = (ROOT / "blender_manifest.toml").read_text().split('\nversion = "')[1]
     assert capsys.readouterr().out.strip().endswith(version.split('"')[0])
 
@@ -104,7 +101,7 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
         ("a.obj --report=", "argument --report: it is empty; name a file"),
     ]
     for arguments, message in cases:
-        status = run(*arguments.replace("{tmp}", str(tmp_path)).split())
+        status = run_wcd(*arguments.replace("{tmp}", str(tmp_path)).split())
         out, err = capsys.readouterr()
         assert (status, out) == (2, ""), arguments
         assert message in err, arguments
@@ -117,7 +114,7 @@ def test_wrong_usage_is_explained_and_writes_nothing(tmp_path, capsys):
 def test_one_input_all_results(tmp_path, model, capfd):
     report, output = tmp_path / "r.json", tmp_path / "out.blend"
     capfd.readouterr()  # what Blender said about making the input
-    status = run(model, "--output", output, "--report", report, *QUICK, "--seed", 5)
+    status = run_wcd(model, "--output", output, "--report", report, *QUICK, "--seed", 5)
     out, err = capfd.readouterr()
     assert status == 0
     assert out.startswith(f"{model}, Suzanne: 2 parts, psi ")
@@ -129,7 +126,7 @@ def test_one_input_all_results(tmp_path, model, capfd):
     assert entry["errors"] == []
     assert (result["seed"], result["k"], len(result["parts"])) == (5, 2, 2)
     bpy.ops.wm.open_mainfile(filepath=str(output))
-    record = json.loads(bpy.data.objects["Suzanne"]["wcd"])
+    record = record_of(bpy.data.objects["Suzanne"])
     told, parts = result.pop("parts"), record.pop("parts")
     assert record.items() <= result.items()
     assert all(
@@ -139,7 +136,7 @@ def test_one_input_all_results(tmp_path, model, capfd):
 
 
 def test_the_operator_gives_the_same_parts(tmp_path, model):
-    assert run(model, "--output", tmp_path / "out.blend", *QUICK) == 0
+    assert run_wcd(model, "--output", tmp_path / "out.blend", *QUICK) == 0
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.wm.obj_import(filepath=str(model))
     obj = bpy.context.active_object
@@ -156,7 +153,7 @@ def test_what_fails_leaves_the_rest_and_its_own_files_alone(tmp_path, model, cap
     (tmp_path / "bad.glb").write_text("earlier")
     report = tmp_path / "r.json"
     pattern = tmp_path / "{name}.glb"
-    status = run(
+    status = run_wcd(
         bad, "none.obj", model, "--output", pattern, "--report", report, *QUICK
     )
     out, err = capfd.readouterr()
@@ -191,7 +188,7 @@ def test_every_object_is_decomposed_once(tmp_path, capfd):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
     report = tmp_path / "r.json"
     capfd.readouterr()  # what Blender said about making the input
-    assert run(tmp_path / "a.blend", "--report", report, "--quiet", *QUICK) == 1
+    assert run_wcd(tmp_path / "a.blend", "--report", report, "--quiet", *QUICK) == 1
     out, err = capfd.readouterr()
     assert out == ""
     assert "Suzanne: 2 objects share this mesh" in err
@@ -205,7 +202,7 @@ def test_every_object_is_decomposed_once(tmp_path, capfd):
 
 def test_picture_option(tmp_path, model, monkeypatch):
     monkeypatch.setattr(picture, "SIZE", 160)
-    assert run(model, "--picture", tmp_path / "{name}.png", *QUICK, "--quiet") == 0
+    assert run_wcd(model, "--picture", tmp_path / "{name}.png", *QUICK, "--quiet") == 0
     assert (tmp_path / "monkey.png").read_bytes().startswith(b"\x89PNG")
 
 

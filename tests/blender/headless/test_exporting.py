@@ -1,10 +1,10 @@
 import errno
-import json
 from itertools import pairwise
 
 import bpy
 import numpy as np
 import pytest
+from edited import record_of
 from hand_made import bands, decomposition_of
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
@@ -153,7 +153,7 @@ def test_glb_keeps_materials_and_record(tmp_path, parted):
     counts = [names.count(f"Part 0{part + 1}") for part in range(4)]
     sizes = [len(p.vertices) - 2 for p in parted_polygons()]
     assert counts == np.bincount(labels, sizes).astype(int).tolist()
-    assert json.loads(obj["wcd"])["seed"] == 3
+    assert record_of(obj)["seed"] == 3
 
 
 def parted_polygons():
@@ -168,7 +168,7 @@ def test_blend_keeps_everything(tmp_path, parted):
     values = [d.value for d in obj.data.attributes["wcd_part"].data]
     assert values == labels.tolist()
     assert [g.name for g in obj.vertex_groups] == [f"Part 0{k}" for k in (1, 2, 3, 4)]
-    assert json.loads(obj["wcd"])["k"] == 4
+    assert record_of(obj)["k"] == 4
 
 
 @pytest.mark.parametrize("ending", [e for e in MODEL_ENDINGS if e in READ_ENDINGS])

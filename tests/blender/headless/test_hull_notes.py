@@ -4,7 +4,7 @@ import json
 
 import bpy
 import pytest
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import run_wcd
 
 READ = "The mesh was read without its modifiers (Finer)."
 
@@ -29,7 +29,7 @@ def test_each_object_has_notes_of_its_own(tmp_path, capfd, with_modifier):
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     capfd.readouterr()
     words = [f"--hulls={tmp_path / 'a.glb'}", f"--report={report}", "--quiet"]
-    assert main([str(model), *words]) == 0
+    assert run_wcd(model, *words) == 0
     (entry,) = json.loads(report.read_text())["inputs"]
     noted = {obj["name"]: READ in obj["hulls"]["notes"] for obj in entry["objects"]}
     assert noted == {name: name in with_modifier for name in "ABC"}
@@ -43,7 +43,7 @@ def test_notes_on_hulls_are_on_all_that_have_them(tmp_path):
     model, report = tmp_path / "model.blend", tmp_path / "r.json"
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     words = [f"--hulls={tmp_path / 'a.glb'}", f"--report={report}", "--quiet"]
-    assert main([str(model), *words, "--margin=-0.9"]) == 0
+    assert run_wcd(model, *words, "--margin=-0.9") == 0
     (entry,) = json.loads(report.read_text())["inputs"]
     of_hulls = [
         [note for note in obj["hulls"]["notes"] if "modifiers" not in note]

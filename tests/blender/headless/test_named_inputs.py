@@ -1,7 +1,7 @@
 """How the lines of a run name its inputs."""
 
 import pytest
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import run_wcd
 
 CORNERS = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
 FACES = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
@@ -14,7 +14,7 @@ def told(tmp_path, monkeypatch, capfd):
 
     def run(*words):
         capfd.readouterr()
-        main([*words])
+        run_wcd(*words)
         return [stream.splitlines() for stream in capfd.readouterr()]
 
     return run

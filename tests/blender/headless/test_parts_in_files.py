@@ -4,9 +4,9 @@ import json
 
 import bpy
 import pytest
+from headless.command import run_wcd
 from headless.loading import load
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
-from weak_convex_decomposition.operators.headless.command_line import main
 
 QUICK = ["--samples=100", "--parts=5", "--quiet"]
 
@@ -25,7 +25,7 @@ def model(tmp_path):
 
 
 def run(*arguments):
-    return main([str(argument) for argument in (*arguments, *QUICK)])
+    return run_wcd(*arguments, *QUICK)
 
 
 def test_hulls_of_parts_take_them_as_they_are(tmp_path, model, capfd):

@@ -9,9 +9,10 @@ import jsonschema
 import numpy as np
 import pytest
 from checkout import ROOT
+from hand_made import in_scene
+from headless.command import run_wcd
 from mathutils import Euler, Matrix, Quaternion, Vector
 from weak_convex_decomposition.operators.headless import command_line
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.stages import (
     STAGE_OF,
     STAGES,
@@ -26,7 +27,7 @@ QUICK = ["--samples", "100", "--parts", "2", "--quiet"]
 def reported(tmp_path, *arguments, status=0):
     """Run the command line; return its report, checked by the schema."""
     path = tmp_path / "report.json"
-    assert main([*map(str, arguments), "--report", str(path)]) == status
+    assert run_wcd(*arguments, "--report", path) == status
     report = json.loads(path.read_text(encoding="utf-8"))
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     jsonschema.validate(report, SCHEMA)
@@ -144,7 +145,7 @@ def test_an_unforeseen_error_leaves_a_report_of_what_was_done(tmp_path, monkeypa
     report = tmp_path / "report.json"
     words = [str(path), str(other), "--hulls", str(tmp_path / "{name}.glb"), *QUICK]
     with pytest.raises(ZeroDivisionError):
-        main([*words, "--report", str(report)])
+        run_wcd(*words, "--report", report)
     told = json.loads(report.read_text(encoding="utf-8"))
     jsonschema.validate(told, SCHEMA)
     assert told["interrupted"]
@@ -171,7 +172,7 @@ def test_poses_are_those_of_the_written_hulls(tmp_path, kind, place):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=str(hulls))
     (written,) = [o for o in bpy.context.scene.objects if o.type == "MESH"]
-    vertices = np.array([written.matrix_world @ v.co for v in written.data.vertices])
+    vertices = in_scene(written)
     rotation = Quaternion(told["rotation"])
     assert rotation.magnitude == pytest.approx(1, abs=1e-6)
     local = np.array(

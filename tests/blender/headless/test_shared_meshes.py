@@ -5,8 +5,7 @@ import json
 import bpy
 import pytest
 from hand_made import add_ring, decompose_by_hand
-from headless.command import QUICK
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import QUICK, run_wcd
 
 
 @pytest.fixture
@@ -27,7 +26,7 @@ def run_on(path, *options):
     report = path.with_name("r.json")
     hulls = path.with_name("{name}.obj")
     words = ["--hulls", hulls, "--pieces=parts", "--report", report, *options]
-    status = main([*map(str, words), *QUICK])
+    status = run_wcd(*words, *QUICK)
     return status, json.loads(report.read_text())["inputs"]
 
 

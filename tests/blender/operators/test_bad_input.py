@@ -1,7 +1,5 @@
 """Bad input: each its one sentence, and the object untouched."""
 
-import json
-
 import bpy
 import pytest
 from edited import check_in_step, parts_of, record_of
@@ -99,7 +97,7 @@ def test_parameters_that_contradict_each_other(suzanne):
 
 def test_bounds_hold_values_in(suzanne):
     bpy.ops.wcd.decompose(samples=1, parts=2, alpha=-3.0)
-    parameters = json.loads(suzanne["wcd"])["parameters"]
+    parameters = record_of(suzanne)["parameters"]
     assert parameters["samples"] == 16
     assert parameters["alpha"] == 0.0
 
@@ -124,7 +122,7 @@ def test_an_attribute_moved_elsewhere_is_the_users(suzanne):
 def test_a_shared_mesh_works(suzanne):
     bpy.context.collection.objects.link(bpy.data.objects.new("twin", suzanne.data))
     assert bpy.ops.wcd.decompose(**FAST) == {"FINISHED"}
-    assert "parts" in json.loads(suzanne["wcd"])
+    assert "parts" in record_of(suzanne)
 
 
 @pytest.fixture

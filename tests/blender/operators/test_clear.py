@@ -1,7 +1,6 @@
-import json
-
 import bpy
 import pytest
+from edited import record_of
 from hand_made import (
     decompose_by_hand,
     decomposition_of,
@@ -137,7 +136,7 @@ def test_survives_saving_and_loading(suzanne, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.context.active_object
     assert (face_values(obj.data, "wcd_part") == labels).all()
-    assert json.loads(obj["wcd"])["k"] == 4
+    assert record_of(obj)["k"] == 4
     erase.clear(obj)
     assert snapshot(obj) == before
 

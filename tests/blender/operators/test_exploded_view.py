@@ -1,11 +1,9 @@
 """Exploded views of parts."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
-from edited import check_in_step
+from edited import check_in_step, record_of
 from hand_made import (
     activate,
     centers,
@@ -144,7 +142,7 @@ def test_an_exploded_view_does_not_count_as_a_modifier(suzanne):
     bpy.ops.wcd.decompose(samples=300)
     call("explode")
     bpy.ops.wcd.decompose(samples=300)
-    assert json.loads(suzanne["wcd"])["notes"] == []
+    assert record_of(suzanne)["notes"] == []
     assert exploding(suzanne)
 
 

@@ -1,10 +1,10 @@
-import json
 from dataclasses import asdict
 from types import SimpleNamespace
 
 import bpy
 import pytest
 from computed import decompose, measure
+from edited import record_of
 from hand_made import face_values, give_user_data
 from snapshot import snapshot
 from weak_convex_decomposition.core.parameters.parts import Parameters
@@ -40,7 +40,7 @@ def test_the_operator_gives_what_the_core_gives(suzanne):
     expected = decompose(mesh, Parameters(**chosen), make_caster=BvhRayCaster)
     assert bpy.ops.wcd.decompose(**chosen) == {"FINISHED"}
     assert (face_values(suzanne.data, "wcd_part") == expected.labels).all()
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     assert record["parameters"] == asdict(Parameters(**chosen))
     assert record["psi"] == pytest.approx(expected.psi, abs=1e-12)
     assert record["psi_by_k"].keys() == {str(k) for k in expected.psi_by_k}
@@ -52,7 +52,7 @@ def test_a_cube_is_one_part(cube):
     bpy.ops.wcd.decompose(**FAST)
     assert set(face_values(cube.data, "wcd_part")) == {0}
     assert len(cube.vertex_groups) == len(cube.material_slots) == 1
-    (part,) = json.loads(cube["wcd"])["parts"]
+    (part,) = record_of(cube)["parts"]
     assert part["convexity_rank"] == pytest.approx(1.0, abs=1e-3)
     assert part["area"] == pytest.approx(24.0, rel=1e-5)
 
@@ -72,7 +72,7 @@ def test_a_dumbbell_falls_apart_in_edit_mode_too(dumbbell):
 def test_default_properties_are_the_default_parameters(suzanne):
     assert parameters_from(bpy.context.scene.wcd) == Parameters()
     bpy.ops.wcd.decompose(**FAST)
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     assert record["parameters"] == asdict(Parameters(**FAST))
 
 
@@ -98,7 +98,7 @@ def test_measure_stores_what_the_core_gives(suzanne):
         read_shape(suzanne), Parameters(**FAST), make_caster=BvhRayCaster
     )
     assert bpy.ops.wcd.measure(**FAST) == {"FINISHED"}
-    measured = json.loads(suzanne["wcd"])["measured"]
+    measured = record_of(suzanne)["measured"]
     assert measured["convexity_rank"] == pytest.approx(expected.rank)
     assert measured["standard_error"] == pytest.approx(expected.standard_error)
     assert measured["samples"] == expected.n_samples
@@ -107,11 +107,11 @@ def test_measure_stores_what_the_core_gives(suzanne):
 
 def test_measurement_and_decomposition_keep_each_other(suzanne):
     bpy.ops.wcd.measure(**FAST)
-    measured = json.loads(suzanne["wcd"])["measured"]
+    measured = record_of(suzanne)["measured"]
     bpy.ops.wcd.decompose(**FAST)
-    assert json.loads(suzanne["wcd"])["measured"] == measured
+    assert record_of(suzanne)["measured"] == measured
     bpy.ops.wcd.measure(**FAST)
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     assert record["measured"] == measured
     assert record["parts"]
 

@@ -1,6 +1,5 @@
 """The public functions with Blender's objects, beside the operators."""
 
-import json
 import re
 
 import bpy
@@ -8,6 +7,7 @@ import numpy as np
 import pytest
 import weak_convex_decomposition as wcd
 from conftest import ROOT
+from edited import record_of
 from weak_convex_decomposition.operators.bridge.parts.read import part_labels
 from weak_convex_decomposition.operators.bridge.read.place import place_now
 
@@ -24,10 +24,10 @@ def test_the_manual_tells_of_all_that_is_recorded(suzanne):
     bpy.ops.wcd.decompose(samples=100)
     bpy.ops.wcd.measure(samples=100)
     bpy.ops.wcd.build_hulls(max_hulls=1)
-    recorded = json.loads(suzanne["wcd"])
+    recorded = record_of(suzanne)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.wcd.measure_selection(samples=100)
-    recorded |= json.loads(suzanne["wcd"])
+    recorded |= record_of(suzanne)
     manual = (ROOT / "docs" / "scripts.md").read_text(encoding="utf-8")
     table = manual.partition("| key | holds |\n|---|---|\n")[2].partition("\n\n")[0]
     first_cells = [row.split("|")[1] for row in table.splitlines()]

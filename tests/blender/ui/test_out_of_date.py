@@ -1,13 +1,12 @@
 """Figures in the sidebar are of the mesh as it is now, or said to be out of date."""
 
-import json
 from types import SimpleNamespace
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
-from edited import FAST
+from edited import FAST, record_of
 from hand_made import (
     activate,
     bands,
@@ -18,6 +17,7 @@ from hand_made import (
     mesh_object,
 )
 from mathutils import Matrix
+from stand_ins.layout import context
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.bridge.mesh.fingerprint import (
@@ -40,16 +40,6 @@ class Texts(list):
 
     def __getattr__(self, name):
         return lambda *_, **look: self.append(look.get("text")) or self
-
-
-def context():
-    return SimpleNamespace(
-        active_object=bpy.context.active_object,
-        scene=bpy.context.scene,
-        mode=bpy.context.mode,
-        region=SimpleNamespace(width=900),
-        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
-    )
 
 
 def value_of(panel, name):
@@ -174,7 +164,7 @@ def test_a_hull_is_that_of_the_part_with_its_number(suzanne):
     decompose_by_hand(suzanne, 3, **FAST)
     delete_faces(suzanne, face_values(suzanne.data, "wcd_part") == 0)
     bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
-    hulls = json.loads(suzanne["wcd"])["hulls"]["hulls"]
+    hulls = record_of(suzanne)["hulls"]["hulls"]
     errors = {hull["part"]: f"{hull['error']:.2f}" for hull in hulls}
     assert hull_cells(suzanne) == {"Part 02": errors[1], "Part 03": errors[2]}
 
@@ -225,7 +215,7 @@ def test_hulls_around_former_parts_are_of_none_of_the_new_ones(suzanne):
     decompose_by_hand(suzanne, 3, **FAST)
     bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
     decompose_by_hand(suzanne, 2, **FAST)
-    hulls = json.loads(suzanne["wcd"])["hulls"]["hulls"]
+    hulls = record_of(suzanne)["hulls"]["hulls"]
     assert [hull["part"] for hull in hulls] == [None] * 3
 
 

@@ -5,6 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
+from edited import record_of
 from hand_made import decompose_by_hand
 from snapshot import snapshot
 from weak_convex_decomposition.core.errors import DecompositionError
@@ -117,7 +118,7 @@ def test_parameters_of_a_later_version_are_unknown_and_stop_nothing():
     bpy.ops.mesh.primitive_monkey_add()
     obj = bpy.context.active_object
     decompose_by_hand(obj, 3)
-    record = json.loads(obj["wcd"])
+    record = record_of(obj)
     record["parameters"]["sight"] = "TELEPATHY"
     obj["wcd"] = json.dumps(record)
     assert noted_parameters(obj) is None

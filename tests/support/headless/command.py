@@ -1,12 +1,18 @@
-"""The command line in a process of its own, as a user starts it."""
+"""The command line, in this process, or in one of its own as a user starts it."""
 
 import os
 import subprocess
 import sys
 
 from checkout import ROOT
+from weak_convex_decomposition.operators.headless.command_line import main
 
 QUICK = ["--samples=100", "--parts=2", "--max-hulls=3"]
+
+
+def run_wcd(*words):
+    """Run the command line in this process; return its status."""
+    return main([*map(str, words)])
 
 
 def start(*arguments, **options):

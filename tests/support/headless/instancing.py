@@ -2,6 +2,7 @@
 
 import bpy
 import numpy as np
+from hand_made import in_scene
 
 TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 FACES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
@@ -79,7 +80,7 @@ def boxes(objects):
     for obj in objects:
         if not obj.data.vertices:
             continue
-        points = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+        points = in_scene(obj)
         low, high = points.min(axis=0), points.max(axis=0)
         found[obj.name] = [*np.round(low, 3).tolist(), *np.round(high, 3).tolist()]
     return found

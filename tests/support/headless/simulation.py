@@ -7,8 +7,9 @@ from hand_made import mesh_object
 from scipy.spatial import cKDTree
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.sampling import sample_surface
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.quiet import quiet_blender
+
+from .command import run_wcd
 
 # Radius of the balls that rest on a surface.
 SMALL = 0.03
@@ -33,7 +34,7 @@ def hull_file(folder, name, mesh, *words):
         mesh_object(file.stem, mesh.vertices.tolist(), mesh.triangles.tolist())
         bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     words = [model, "--hulls", file, "--samples=200", "--parts=4", "--quiet", *words]
-    assert main([str(word) for word in words]) == 0
+    assert run_wcd(*words) == 0
     return file
 
 

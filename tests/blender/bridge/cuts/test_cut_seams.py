@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from edited import check_in_step
 from hand_made import activate, areas, in_mode
+from headless.command import run_wcd
 from random_work.low_poly import check_kept, figures, low_poly
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
@@ -14,7 +15,6 @@ from weak_convex_decomposition.operators.bridge.cuts.whole_mesh import (
     is_cut,
 )
 from weak_convex_decomposition.operators.bridge.stored.record import record_of
-from weak_convex_decomposition.operators.headless.command_line import main
 
 FAST = {"samples": 200, "containers": "HOLLOW", "max_parts": 4}
 
@@ -234,7 +234,7 @@ def test_the_command_line_writes_the_cut_faces(angle, tmp_path):
     source, output = tmp_path / "l.blend", tmp_path / "l.obj"
     bpy.ops.wm.save_as_mainfile(filepath=str(source))
     options = ["--samples", "200", "--parts", "2", "--seams", "cut", "--quiet"]
-    assert main([str(source), "--output", str(output), *options]) == 0
+    assert run_wcd(source, "--output", output, *options) == 0
     lines = output.read_text(encoding="utf-8").splitlines()
     assert sum(line.startswith("f ") for line in lines) == 11
 

@@ -2,8 +2,7 @@
 
 import bpy
 import pytest
-from headless.command import QUICK
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import QUICK, run_wcd
 
 
 @pytest.fixture
@@ -17,4 +16,4 @@ def model(tmp_path):
 @pytest.fixture
 def run():
     """Return a function that runs the command line and returns the status."""
-    return lambda *words: main([*map(str, words), *QUICK, "--quiet"])
+    return lambda *words: run_wcd(*words, *QUICK, "--quiet")

@@ -3,7 +3,7 @@
 import bpy
 import pytest
 from hand_made import decompose_by_hand, mesh_object
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import run_wcd
 from weak_convex_decomposition.operators.headless.request.options import parse
 
 ANGLES = "--cone-angle, --psi-pairs change nothing without --sight cone."
@@ -61,7 +61,7 @@ def test_objects_that_keep_their_parts_are_named(tmp_path, capsys, option, is_na
     path = tmp_path / "a.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     words = [str(path), f"--hulls={tmp_path / 'h.glb'}", "--pieces=parts", option]
-    assert main([*words, "--quiet"]) == 0
+    assert run_wcd(*words, "--quiet") == 0
     said = capsys.readouterr().err
     assert said.count("Solid: It keeps its parts; options that find") == is_named
 

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import bpy
 import pytest
-from headless.command import QUICK, content, start
+from headless.command import QUICK, content, run_wcd, start
 from weak_convex_decomposition.operators.headless import command_line
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read import load
 from weak_convex_decomposition.operators.headless.write import model_files
 
@@ -43,7 +42,7 @@ def test_the_report_has_what_was_finished(tmp_path, model, monkeypatch, capfd, n
     inputs = [str(model.with_stem(name)) for name in "abc"]
     outputs = ["--output", f"{tmp_path}/{{name}}.glb", "--report", f"{tmp_path}/r.json"]
     capfd.readouterr()
-    assert main([*inputs, *outputs, *QUICK, "--quiet"]) == 130
+    assert run_wcd(*inputs, *outputs, *QUICK, "--quiet") == 130
     assert capfd.readouterr().err.endswith("error: Interrupted.\n")
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["interrupted"] is True
@@ -69,7 +68,7 @@ def test_a_terminal_that_closes_sends_two_signals(tmp_path, model, monkeypatch):
         "decompose_file",
         lambda *_: os.kill(os.getpid(), signal.SIGHUP) or time.sleep(10),
     )
-    assert main([str(model), f"--report={tmp_path / 'r.json'}", *QUICK]) == 130
+    assert run_wcd(model, f"--report={tmp_path / 'r.json'}", *QUICK) == 130
     assert json.loads((tmp_path / "r.json").read_text())["interrupted"] is True
 
 
@@ -90,7 +89,7 @@ def test_an_operator_in_python_does_not_lose_it(tmp_path, model, monkeypatch, mo
     monkeypatch.setitem(known, ".ply", lambda path, up: bpy.ops.wcd.interrupted())
     words = [str(model), "b.ply", f"--output={tmp_path}/out/{{name}}.ply", "--quiet"]
     report = tmp_path / "r.json"
-    assert main([*words, f"--report={report}", *QUICK]) == 130
+    assert run_wcd(*words, f"--report={report}", *QUICK) == 130
     bpy.utils.unregister_class(WCD_OT_interrupted)
     assert json.loads(report.read_text())["not_done"] == [str(model), "b.ply"]
     assert not (tmp_path / "out").exists()
@@ -98,7 +97,7 @@ def test_an_operator_in_python_does_not_lose_it(tmp_path, model, monkeypatch, mo
 
 def test_a_report_of_all_is_not_interrupted(tmp_path, model):
     report = tmp_path / "r.json"
-    assert main([str(model), "--report", str(report), *QUICK, "--quiet"]) == 0
+    assert run_wcd(model, "--report", report, *QUICK, "--quiet") == 0
     found = json.loads(report.read_text())
     assert (found["interrupted"], found["not_done"]) == (False, [])
 

@@ -6,11 +6,10 @@ import signal
 
 import bpy
 import pytest
-from headless.command import QUICK
+from headless.command import QUICK, run_wcd
 from weak_convex_decomposition.core import decomposition
 from weak_convex_decomposition.core.hulls import build as hulls_of_shapes
 from weak_convex_decomposition.core.steps import processes
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.run import hulls_ahead
 
 
@@ -58,7 +57,7 @@ def copies(tmp_path):
 def build(model, name, *options):
     """Build hulls; return the status and the file."""
     file = model.with_name(name)
-    status = main([str(model), "--hulls", str(file), *QUICK, *options])
+    status = run_wcd(model, "--hulls", file, *QUICK, *options)
     return status, file
 
 

@@ -10,8 +10,7 @@ import sys
 import bpy
 import pytest
 from checkout import PACKAGE, ROOT
-from headless.command import QUICK, content, start
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import QUICK, content, run_wcd, start
 from weak_convex_decomposition.operators.headless.request.options import parse
 
 NOBODY = 65534
@@ -33,7 +32,7 @@ def model(tmp_path):
 
 
 def run(*arguments):
-    return main([str(argument) for argument in (*arguments, *QUICK)])
+    return run_wcd(*arguments, *QUICK)
 
 
 def test_the_report_on_standard_output_is_alone_there(tmp_path, model):

@@ -2,8 +2,8 @@ import struct
 import warnings
 
 import bpy
-import numpy as np
 import pytest
+from hand_made import in_scene
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.formats import READ_ENDINGS
@@ -57,7 +57,7 @@ def write_wedge(path):
 
 
 def world_vertices(obj):
-    return {tuple(np.round(obj.matrix_world @ v.co, 4)) for v in obj.data.vertices}
+    return set(map(tuple, in_scene(obj).round(4)))
 
 
 @pytest.mark.parametrize("ending", MESH_ENDINGS)

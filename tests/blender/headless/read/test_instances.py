@@ -5,6 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
+from headless.command import run_wcd
 from headless.instancing import (
     add,
     box,
@@ -19,7 +20,6 @@ from headless.instancing import (
 from headless.loading import load
 from mathutils import Matrix
 from weak_convex_decomposition.core.errors import DecompositionError
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read.load import load_file
 
 QUICK = ["--samples", "60", "--parts", "1", "--pieces", "parts", "--quiet"]
@@ -38,7 +38,7 @@ def hulls_in(path):
 def run(path, *options):
     hulls, report = path.with_suffix(".hulls.obj"), path.with_suffix(".json")
     words = [path, "--hulls", hulls, "--report", report, "--up", "Z", *QUICK, *options]
-    assert main([str(word) for word in words]) == 0
+    assert run_wcd(*words) == 0
     (entry,) = json.loads(report.read_text())["inputs"]
     return hulls, entry["objects"]
 
@@ -146,7 +146,7 @@ def test_children_of_an_instancer_that_is_left_out_stay_in_place(tmp_path, endin
         name: boxes([bpy.data.objects[name]])[name] for name in ("Rock", "Turned")
     }
     output = tmp_path / f"b.{ending}"
-    assert main([str(path), "--output", str(output), *QUICK]) == 0
+    assert run_wcd(path, "--output", output, *QUICK) == 0
     after = boxes(load(output))
     assert {name: after[name] for name in before} == before
 

@@ -4,6 +4,7 @@ import json
 
 import bpy
 import pytest
+from headless.command import run_wcd
 from headless.instancing import (
     add,
     collection_with_rock,
@@ -15,7 +16,6 @@ from headless.instancing import (
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.read.reading_notes import reading_notes
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.read.load import load_file
 
 QUICK = ["--samples=60", "--parts=1", "--max-hulls=1", "--quiet"]
@@ -43,7 +43,7 @@ def test_curves_and_texts_that_are_seen_are_counted(tmp_path, capfd):
     model, report = saved(tmp_path / "a.blend"), tmp_path / "r.json"
     capfd.readouterr()
     words = [model, "--output", tmp_path / "o.obj", "--report", report, *QUICK]
-    assert main([str(word) for word in words]) == 0
+    assert run_wcd(*words) == 0
     note = (
         "3 curves, texts or metaballs get neither parts nor hulls; convert them to"
         " meshes first (Object > Convert > Mesh)."
@@ -107,7 +107,7 @@ def test_objects_without_faces_are_named(tmp_path, capfd, goal):
     bpy.data.meshes["Wire"].edges[0].vertices = (0, 1)
     model = saved(tmp_path / "a.blend")
     capfd.readouterr()
-    assert main([str(model), goal[0], str(tmp_path / goal[1]), *QUICK]) == 0
+    assert run_wcd(model, goal[0], tmp_path / goal[1], *QUICK) == 0
     assert f"warning: {model}, Wire: It has no faces and" in capfd.readouterr().err
 
 
@@ -118,7 +118,7 @@ def test_instances_of_no_size_are_not_written(tmp_path, ending):
     instance_of(rocks, "Flat", (0, 9, 0)).scale.x = 0.0
     output = tmp_path / f"o.{ending}"
     model = saved(tmp_path / "a.blend")
-    assert main([str(model), "--output", str(output), *QUICK]) == 0
+    assert run_wcd(model, "--output", output, *QUICK) == 0
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     (rock,) = load(output)
     assert len(rock.data.polygons) == 4
@@ -162,7 +162,7 @@ def test_layers_that_are_missing_are_named(tmp_path, has_rock, capfd):
     model, report = tmp_path / "a.usda", tmp_path / "r.json"
     model.write_text(f"#usda 1.0\n{''.join(prims)}")
     capfd.readouterr()
-    status = main([str(model), "--report", str(report), *QUICK])
+    status = run_wcd(model, "--report", report, *QUICK)
     assert "_ReportErrors" not in capfd.readouterr().err  # USD's own words
     (entry,) = json.loads(report.read_text())["inputs"]
     note = (

@@ -3,7 +3,7 @@
 import bpy
 import pytest
 from hand_made import activate, in_mode
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import run_wcd
 from weak_convex_decomposition.operators.headless.read.load import load_file
 
 MODES = ("EDIT", "SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT")
@@ -27,7 +27,7 @@ def test_files_saved_in_any_mode_go_through(tmp_path, two_cubes, mode, ending):
     path, output = tmp_path / "a.blend", tmp_path / f"out{ending}"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     words = [path, "--output", output, "--samples", "60", "--hulls", tmp_path / "h.stl"]
-    assert main([str(word) for word in words]) == 0
+    assert run_wcd(*words) == 0
     faces = [len(obj.data.polygons) for obj in load_file(output, None, False).objects]
     assert sum(faces) == (24 if ending == ".glb" else 12)
 

@@ -5,7 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import run_wcd
 from weak_convex_decomposition.operators.headless.read.load import load_file
 
 QUICK = ["--samples", "60", "--parts", "1", "--quiet"]
@@ -35,7 +35,7 @@ def test_the_option_reaches_parts_files_and_report(tmp_path, capsys):
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     report = tmp_path / "r.json"
     words = [path, "--output", output, "--report", report, *QUICK, "--apply-modifiers"]
-    assert main(list(map(str, words))) == 0
+    assert run_wcd(*words) == 0
     note = "6 faces became 96; the parts are on the new ones."
     assert f"Cube: Its modifiers were applied: {note}" in capsys.readouterr().err
     (obj,) = json.loads(report.read_text())["inputs"][0]["objects"]
@@ -51,7 +51,7 @@ def test_without_the_option_modifiers_stay(tmp_path, capsys):
     cube().modifiers.new("Finer", "SUBSURF")
     path = tmp_path / "a.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
-    assert main([str(path), *QUICK]) == 0
+    assert run_wcd(path, *QUICK) == 0
     err = capsys.readouterr().err
     assert "The mesh was read without its modifiers (Finer)" in err
     assert "(Mesh: Evaluated is --apply-modifiers.)" in err
@@ -62,7 +62,7 @@ def test_outputs_hold_the_mesh_that_parts_and_hulls_are_of(tmp_path, ending):
     cube().modifiers.new("Row", "ARRAY").count = 3
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
     output = tmp_path / f"out.{ending}"
-    assert main([str(tmp_path / "a.blend"), f"--output={output}", *QUICK]) == 0
+    assert run_wcd(tmp_path / "a.blend", f"--output={output}", *QUICK) == 0
     (read,) = load_file(output, "Z", with_modifiers=False).objects
     assert len(read.data.polygons) == (12 if ending == "glb" else 6)
     assert width(read) * read.scale.x == pytest.approx(2)
@@ -131,7 +131,7 @@ def test_a_mesh_that_modifiers_empty_is_left_as_it_is(tmp_path, capsys):
     mask.vertex_group = gone.vertex_groups.new(name="None").name
     path = tmp_path / "a.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
-    assert main([str(path), *QUICK, "--apply-modifiers"]) == 0
+    assert run_wcd(path, *QUICK, "--apply-modifiers") == 0
     err = capsys.readouterr().err
     assert "Gone: Its modifiers were applied: 6 faces became none." in err
     assert "Gone: It has no faces and was left as it is." in err
@@ -145,7 +145,7 @@ def test_earlier_parts_and_exploded_views_give_way(tmp_path):
     path, output = tmp_path / "a.blend", tmp_path / "out.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     words = [path, "--output", output, *QUICK, "--apply-modifiers"]
-    assert main(list(map(str, words))) == 0
+    assert run_wcd(*words) == 0
     bpy.ops.wm.open_mainfile(filepath=str(output))
     written = bpy.data.objects["Cube"]
     assert width(written) < 2.0  # Subdivision Surface shrinks it

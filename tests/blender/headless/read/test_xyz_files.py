@@ -5,12 +5,12 @@ import clouds
 import numpy as np
 import pytest
 import shapes
+from headless.command import run_wcd
 from headless.loading import load
 from weak_convex_decomposition.operators.bridge.mesh.points import (
     normals_of,
     positions_of,
 )
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.write import picture as pictures
 
 POINTS, NORMALS = clouds.drawn(shapes.dumbbell(), 600)
@@ -118,7 +118,7 @@ def test_bad_files_have_their_sentence_and_leave_the_output(
     output.write_text("mine")
     for name in BAD_FILES:
         words = [str(tmp_path / name), "--output", str(output), *FAST]
-        assert main(words) == 1, name
+        assert run_wcd(*words) == 1, name
         assert "Traceback" not in capsys.readouterr().err, name
         assert output.read_text() == "mine", name
 
@@ -140,7 +140,7 @@ def test_bad_points_fail_on_the_command_line(tmp_path, ending, capsys):
         columns = ("x", "y", "z", "nx", "ny", "nz")[: table.shape[1]]
         xyz = ending == ".xyz"
         path.write_bytes(rows(table).encode() if xyz else ply(table, columns=columns))
-        assert main([str(path), "--output", str(output), *FAST]) == 1, case
+        assert run_wcd(path, "--output", output, *FAST) == 1, case
         said = capsys.readouterr().err
         assert match in said, case
         assert "Traceback" not in said, case
@@ -151,7 +151,7 @@ def test_points_keep_their_axes(tmp_path):
     for ending in (".xyz", ".pwn", ".pts"):
         path, output = tmp_path / f"a{ending}", tmp_path / f"{ending[1:]}.obj"
         path.write_text(rows(TABLE))
-        assert main([str(path), "--output", str(output), *FAST]) == 0
+        assert run_wcd(path, "--output", output, *FAST) == 0
         lines = output.read_text().splitlines()
         written = [line.split()[1:4] for line in lines if line.startswith("v ")]
         assert np.array(written, float) == pytest.approx(POINTS, abs=1e-5), ending
@@ -163,7 +163,7 @@ def test_parts_of_points_go_out(tmp_path, monkeypatch):
     path.write_text(rows(TABLE))
     output, picture = tmp_path / "out.ply", tmp_path / "out.png"
     arguments = [str(path), "--output", str(output), "--picture", str(picture), *FAST]
-    assert main(arguments) == 0
+    assert run_wcd(*arguments) == 0
     assert picture.stat().st_size > 1000
     assert not [m for m in bpy.data.materials if m.name.startswith("Part 0")]
     (obj,) = load(output)

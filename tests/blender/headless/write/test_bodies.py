@@ -11,8 +11,8 @@ import trimesh
 import weak_convex_decomposition as package
 from hand_made import add_ring, build_hulls
 from headless import simulation
+from headless.command import run_wcd
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.write.hull_files import save_hulls
 from weak_convex_decomposition.operators.headless.write.placed_meshes import (
     matrix_of,
@@ -176,12 +176,12 @@ def test_the_command_line_has_density_and_bodies(tmp_path, capsys):
         "--parts=2",
         "--quiet",
     ]
-    assert main([*map(str, words), "--density=10", "--bodies=each"]) == 0
+    assert run_wcd(*words, "--density=10", "--bodies=each") == 0
     masses = [
         mass for mass, _, _ in simulation.placed_masses(loaded(tmp_path / "h.xml"))
     ]
     assert sorted(masses) == pytest.approx([10 * 8 * 0.2 * 0.3 * 0.4, 80], rel=1e-5)
-    assert main([*map(str, words), "--density=0"]) == 2
+    assert run_wcd(*words, "--density=0") == 2
     assert "Density is 0" in capsys.readouterr().err
 
 

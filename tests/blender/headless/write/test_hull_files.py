@@ -6,9 +6,10 @@ from functools import cache
 import bpy
 import numpy as np
 import pytest
+from hand_made import in_scene
+from headless.command import run_wcd
 from headless.loading import load
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.request.options import parse
 
 QUICK = ["--samples=100", "--parts=2", "--max-hulls=3", "--naming=unreal"]
@@ -28,7 +29,7 @@ def model(tmp_path):
 
 
 def run(*arguments):
-    return main([str(argument) for argument in (*arguments, "--quiet")])
+    return run_wcd(*arguments, "--quiet")
 
 
 def boxes(objects):
@@ -36,7 +37,7 @@ def boxes(objects):
     bpy.context.view_layer.update()
     found = {}
     for obj in objects:
-        places = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+        places = in_scene(obj)
         found[obj.name] = np.concatenate([places.min(axis=0), places.max(axis=0)])
     return found
 

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 
 import bpy
 import pytest
-from weak_convex_decomposition.operators.headless.command_line import main
+from headless.command import run_wcd
 
 # Names that some formats change, and one that simulators use themselves.
 OBJECTS = ["A b", "A_b", "A/b", "world", "  ", "1é"]
@@ -22,7 +22,7 @@ def run(tmp_path, *words):
     model, report = tmp_path / "model.blend", tmp_path / "r.json"
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     words = [*words, "--samples=60", "--parts=1", "--quiet", f"--report={report}"]
-    assert main([str(model), *words]) == 0
+    assert run_wcd(model, *words) == 0
     (entry,) = json.loads(report.read_text(encoding="utf-8"))["inputs"]
     return [hull["name"] for obj in entry["objects"] for hull in obj["hulls"]["hulls"]]
 
@@ -88,6 +88,6 @@ def test_a_template_without_the_name_of_the_object_is_the_culprit(tmp_path, caps
     model = tmp_path / "model.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     words = [f"--hulls={tmp_path / 'a.glb'}", "--naming=template", "--template=x{n}"]
-    assert main([str(model), *words, "--quiet"]) == 1
+    assert run_wcd(model, *words, "--quiet") == 1
     sentence = "Another object has a hull x1 already; put {name} into Template, or"
     assert sentence in capsys.readouterr().err

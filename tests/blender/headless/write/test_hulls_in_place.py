@@ -4,11 +4,11 @@ import bpy
 import numpy as np
 import pytest
 import trimesh
-from hand_made import build_hulls
+from hand_made import build_hulls, in_scene
+from headless.command import run_wcd
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.write import hull_files
 from weak_convex_decomposition.operators.headless.write.collider_marks import mark_glb
 
@@ -61,10 +61,10 @@ def add_moving():
 def boxes_in(path, words=()):
     """Return the boxes of the hulls that a run writes, by the names of the objects."""
     model = path.with_name("model.blend")
-    assert main([str(model), f"--hulls={path}", "--quiet", *words]) == 0
+    assert run_wcd(model, f"--hulls={path}", "--quiet", *words) == 0
     found = {}
     for obj in load(path):
-        places = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+        places = in_scene(obj)
         ends = places.min(axis=0), places.max(axis=0)
         found[obj.name.replace("_", " ").partition(" ")[0]] = np.concatenate(ends)
     return found
@@ -86,7 +86,7 @@ def test_glb_has_hulls_where_the_objects_are(tmp_path):
 
 
 def box_of(obj):
-    places = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+    places = in_scene(obj)
     return np.concatenate([places.min(axis=0), places.max(axis=0)])
 
 
@@ -103,7 +103,7 @@ def test_glb_of_a_model_has_its_hulls_where_it_is(tmp_path):
     model = tmp_path / "model.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     path = tmp_path / "both.glb"
-    assert main([str(model), f"--output={path}", "--with-hulls", "--quiet"]) == 0
+    assert run_wcd(model, f"--output={path}", "--with-hulls", "--quiet") == 0
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.import_scene.gltf(filepath=str(path))
     bpy.context.view_layer.update()
@@ -132,7 +132,7 @@ def test_glb_of_a_model_alone_is_where_its_hulls_are_in_another_file(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     paths = tmp_path / "model.glb", tmp_path / "hulls.glb"
     words = [f"--output={paths[0]}", f"--hulls={paths[1]}", "--quiet"]
-    assert main([str(model), *words]) == 0
+    assert run_wcd(model, *words) == 0
     found, expected = map(boxes_of_nodes, paths)
     assert sorted(found) == sorted(expected) == names
     for name, box in found.items():
@@ -146,7 +146,7 @@ def test_glb_has_skins_at_rest_as_hulls_are_around_them(tmp_path, words):
     skin.vertex_groups.new(name="Bone").add(range(8), 1, "REPLACE")
     model, path = tmp_path / "model.blend", tmp_path / "model.glb"
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
-    assert main([str(model), f"--output={path}", "--quiet", *words]) == 0
+    assert run_wcd(model, f"--output={path}", "--quiet", *words) == 0
     matrix, _ = trimesh.load(path).graph.get("Bone", "Armature")
     assert matrix == pytest.approx(np.eye(4), abs=1e-6)
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import trimesh
 from checkout import ROOT
-from hand_made import add_ring, build_hulls, decompose_by_hand
+from hand_made import add_ring, build_hulls, decompose_by_hand, in_scene
+from headless.command import run_wcd
 from headless.loading import load
 from weak_convex_decomposition.operators.bridge.hulls.listed import is_hull
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.formats import HULLS_WITHIN_ENDINGS
 from weak_convex_decomposition.operators.headless.read.known_hulls import hull_note
 from weak_convex_decomposition.operators.headless.write.model_files import save
@@ -78,7 +78,7 @@ def places(objects):
     bpy.context.view_layer.update()
     found = {}
     for obj in objects:
-        points = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+        points = in_scene(obj)
         found[obj.name] = np.unique(points.round(4), axis=0)
     return found
 
@@ -175,7 +175,7 @@ def test_a_model_without_hulls_is_not_written_as_if_it_had_some(tmp_path, capsys
     output.write_text("earlier")
     bpy.ops.wm.save_as_mainfile(filepath=str(model), copy=True)
     words = [model, "--output", output, "--with-hulls", "--samples=60", "--parts=2"]
-    assert main([*map(str, words), "--quiet"]) == 1
+    assert run_wcd(*words, "--quiet") == 1
     assert "There is an object A b hull 01 already" in capsys.readouterr().err
     assert output.read_text() == "earlier"
 
@@ -185,7 +185,7 @@ def test_wrong_usage(tmp_path, capsys):
         (["--with-hulls"], "--with-hulls needs --output"),
         (["--with-hulls", "--output", "a.obj"], "has to end in one of .blend .glb"),
     ):
-        assert main(["a.off", *words]) == 2
+        assert run_wcd("a.off", *words) == 2
         assert sentence in capsys.readouterr().err
 
 

@@ -6,9 +6,9 @@ import struct
 import bpy
 import numpy as np
 import pytest
-from hand_made import build_hulls
+from hand_made import build_hulls, in_scene
+from headless.command import run_wcd
 from headless.loading import load
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.headless.write.one_scene import one_scene
 
 QUICK = ["--samples=60", "--parts=1", "--quiet"]
@@ -62,8 +62,8 @@ def spans(objects):
     """Return where each object begins and ends along x, in their order there."""
     ends = []
     for obj in objects:
-        x = [(obj.matrix_world @ vertex.co).x for vertex in obj.data.vertices]
-        ends.append((min(x), max(x)))
+        x = in_scene(obj)[:, 0]
+        ends.append((x.min(), x.max()))
     return sorted(ends)
 
 
@@ -71,7 +71,7 @@ def spans(objects):
 def test_hidden_objects_and_other_scenes_are_written(tmp_path, ending):
     add_cubes()
     output = tmp_path / f"parts.{ending}"
-    assert main([str(model_in(tmp_path)), f"--output={output}", *QUICK]) == 0
+    assert run_wcd(model_in(tmp_path), f"--output={output}", *QUICK) == 0
     found = spans(load(output, "Z" if ending == "usd" else None))
     assert np.array(found) == pytest.approx(np.array(SPANS), abs=1e-4)
 
@@ -79,7 +79,7 @@ def test_hidden_objects_and_other_scenes_are_written(tmp_path, ending):
 def test_ply_holds_them_too(tmp_path):
     add_cubes()
     output = tmp_path / "parts.ply"
-    assert main([str(model_in(tmp_path)), f"--output={output}", *QUICK]) == 0
+    assert run_wcd(model_in(tmp_path), f"--output={output}", *QUICK) == 0
     assert spans(load(output)) == [(-1, 41)]
 
 
@@ -87,7 +87,7 @@ def test_hulls_for_unreal_have_their_models(tmp_path):
     add_cubes()
     output = tmp_path / "parts.fbx"
     words = [f"--output={output}", "--with-hulls", *QUICK]
-    assert main([str(model_in(tmp_path)), *words]) == 0
+    assert run_wcd(model_in(tmp_path), *words) == 0
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.import_scene.fbx(filepath=str(output))
     names = {obj.name for obj in bpy.data.objects}
@@ -97,7 +97,7 @@ def test_hulls_for_unreal_have_their_models(tmp_path):
 def test_a_file_with_nothing_in_sight_is_written(tmp_path):
     cube("off", 0).hide_viewport = True
     output = tmp_path / "parts.obj"
-    assert main([str(model_in(tmp_path)), f"--output={output}", *QUICK]) == 0
+    assert run_wcd(model_in(tmp_path), f"--output={output}", *QUICK) == 0
     assert [obj.name for obj in load(output)] == ["off"]
 
 
@@ -107,7 +107,7 @@ def test_glb_has_one_scene_and_what_its_objects_hang_on(tmp_path):
     bpy.data.collections["Excluded"].objects.link(empty)
     bpy.data.objects["seen"].parent = empty
     output = tmp_path / "parts.glb"
-    assert main([str(model_in(tmp_path)), f"--output={output}", *QUICK]) == 0
+    assert run_wcd(model_in(tmp_path), f"--output={output}", *QUICK) == 0
     data = output.read_bytes()
     (length,) = struct.unpack_from("<I", data, 12)
     content = json.loads(data[20 : 20 + length])
@@ -120,7 +120,7 @@ def test_hulls_of_an_earlier_run_are_left_out(tmp_path, ending):
     ring, _ = cube("Ring", 0), cube("Other", 10)
     build_hulls([ring], max_hulls=1)
     output = tmp_path / f"again.{ending}"
-    assert main([str(model_in(tmp_path)), f"--output={output}", *QUICK]) == 0
+    assert run_wcd(model_in(tmp_path), f"--output={output}", *QUICK) == 0
     load(output, "Z" if ending == "usd" else None)
     meshes = [each.data for each in bpy.data.objects if each.type == "MESH"]
     faces = [len(mesh.polygons) for mesh in meshes]
@@ -136,7 +136,7 @@ def test_hulls_that_are_built_are_written_alone(tmp_path):
     add_to_excluded(bpy.data.objects["excluded"])
     output = tmp_path / "both.glb"
     words = [f"--output={output}", "--with-hulls", *QUICK]
-    assert main([str(model_in(tmp_path)), *words]) == 0
+    assert run_wcd(model_in(tmp_path), *words) == 0
     load(output)
     names = sorted(each.name for each in bpy.data.objects)
     assert names == ["Other", "Ring", "Ring hull 01"]
@@ -162,7 +162,7 @@ def test_objects_without_a_place_are_named_and_left_out(tmp_path, capsys):
     for ending in ("glb", "obj", "usd", "fbx", "ply"):
         output, hulls = tmp_path / f"a.{ending}", tmp_path / "hulls.glb"
         words = [f"--output={output}", f"--hulls={hulls}", f"--report={report}"]
-        assert main([str(model), *words, *QUICK]) == 1
+        assert run_wcd(model, *words, *QUICK) == 1
         assert "nowhere: The object's location" in capsys.readouterr().err
         assert len(load(output)) == len(load(hulls)) == 1
     entries = json.loads(report.read_text())["inputs"][0]["objects"]

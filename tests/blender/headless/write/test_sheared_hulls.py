@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 import trimesh
-from hand_made import activate, build_hulls, mesh_object
+from hand_made import activate, build_hulls, in_scene, mesh_object
 from headless.loading import load
 from weak_convex_decomposition.core.parameters.bodies import BodyParameters
 from weak_convex_decomposition.operators.bridge.hulls.listed import is_hull
@@ -40,7 +40,7 @@ def add_sheared(name):
 def places(obj):
     """Return the vertices of an object in the world, sorted."""
     bpy.context.view_layer.update()
-    found = np.array([obj.matrix_world @ v.co for v in obj.data.vertices])
+    found = in_scene(obj)
     return np.unique(found.round(4), axis=0)
 
 

@@ -1,10 +1,9 @@
-import json
-
 import bpy
 import numpy as np
 import pytest
 from definitions import assert_convex
-from hand_made import decompose_by_hand, in_mode, mesh_object
+from edited import record_of
+from hand_made import decompose_by_hand, in_mode, in_scene, mesh_object
 from snapshot import snapshot
 from weak_convex_decomposition.core.hulls.convex_hull import Hull
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
@@ -30,10 +29,6 @@ def polyhedron(obj):
     return Hull(vertices, triangles, planes, volume)
 
 
-def positions(obj):
-    return np.array([obj.matrix_world @ vertex.co for vertex in obj.data.vertices])
-
-
 def test_hulls_are_objects_of_their_own(suzanne):
     suzanne.location, suzanne.scale = (5, 0, 0), (1, 2, 3)
     bpy.context.view_layer.update()
@@ -47,22 +42,22 @@ def test_hulls_are_objects_of_their_own(suzanne):
         f"Suzanne hull {n:02d}" for n in range(1, len(hulls) + 1)
     ]
     bpy.context.view_layer.update()
-    low, high = (getattr(positions(suzanne), name)(axis=0) for name in ("min", "max"))
+    low, high = (getattr(in_scene(suzanne), name)(axis=0) for name in ("min", "max"))
     for hull in hulls:
         assert hull.parent == suzanne
         assert hull.matrix_world == suzanne.matrix_world
         assert_convex(polyhedron(hull), 1e-7)
-        places = positions(hull)
+        places = in_scene(hull)
         assert (places >= low - 1e-4).all()
         assert (places <= high + 1e-4).all()
-    every = np.concatenate([positions(hull) for hull in hulls])
+    every = np.concatenate([in_scene(hull) for hull in hulls])
     assert every.min(axis=0) == pytest.approx(low, abs=0.05)
 
 
 def test_the_record_tells_each_error(suzanne):
     bpy.ops.wcd.measure(samples=50)
     build(max_hulls=2)
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     hulls = record["hulls"]
     assert "measured" in record
     assert [entry["name"] for entry in hulls["hulls"]] == [
@@ -77,7 +72,7 @@ def test_the_record_tells_each_error(suzanne):
     decompose_by_hand(suzanne, 3)
     for entry in hulls["hulls"]:
         entry["part"] = None
-    assert json.loads(suzanne["wcd"])["hulls"] == hulls
+    assert record_of(suzanne)["hulls"] == hulls
 
 
 def test_parts_lead_the_cuts(suzanne):
@@ -222,7 +217,7 @@ def test_errors_in_the_scene_count_the_scale(scale):
     cube.scale = scale
     bpy.context.view_layer.update()
     bpy.ops.wcd.build_hulls(pieces="PARTS", shape="SPHERE", error_unit="SCENE")
-    noted = json.loads(cube["wcd"])["hulls"]
+    noted = record_of(cube)["hulls"]
     sides = 2 * np.array(scale)
     # From the middle of a largest side to the sphere.
     expected = np.linalg.norm(sides) - sides.min()
@@ -246,4 +241,4 @@ def test_another_shape_of_a_hull_has_its_margin_once():
     build(max_hulls=1, margin=0.1)
     (hull,) = hulls_of(bpy.context.active_object)
     bpy.ops.wcd.refit_hull(hull=hull.name, shape="BOX")
-    assert np.ptp(positions(hull), axis=0) == pytest.approx([2.2] * 3, abs=1e-3)
+    assert np.ptp(in_scene(hull), axis=0) == pytest.approx([2.2] * 3, abs=1e-3)

@@ -1,10 +1,8 @@
 """The materials of hulls, and what the list of hulls shows of them."""
 
-import json
-
 import bpy
 import pytest
-from edited import FAST
+from edited import FAST, record_of
 from hand_made import decompose_by_hand
 from stand_ins.layout import drawn
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
@@ -20,9 +18,9 @@ def test_without_parts_each_hull_has_a_color_of_its_own(suzanne):
     build()
     hulls = hulls_of(suzanne)
     assert len({hull.data.materials[0].name for hull in hulls}) == len(hulls) > 1
-    record = json.loads(suzanne["wcd"])["hulls"]
+    record = record_of(suzanne)["hulls"]
     assert [entry["part"] for entry in record["hulls"]] == [None] * len(hulls)
-    assert "parts" not in json.loads(suzanne["wcd"])
+    assert "parts" not in record_of(suzanne)
 
 
 def test_hulls_of_no_part_share_materials_with_those_of_other_objects(suzanne):
@@ -136,6 +134,6 @@ def test_the_list_finds_linked_hulls_beside_objects_of_their_names(suzanne, tmp_
 def test_hulls_of_parts_that_the_object_does_not_have_belong_to_none(suzanne):
     bpy.context.scene.wcd.samples, bpy.context.scene.wcd.parts = 100, 3
     bpy.ops.wcd.build_hulls(pieces="PARTS", shape="BOX")
-    hulls = json.loads(suzanne["wcd"])["hulls"]["hulls"]
+    hulls = record_of(suzanne)["hulls"]["hulls"]
     assert [hull["part"] for hull in hulls] == [None] * 3
     assert len(suzanne.wcd_parts) == 0

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from edited import record_of
-from hand_made import activate
+from hand_made import activate, in_scene
 from weak_convex_decomposition.operators.bridge.hulls.listed import hulls_of
 from weak_convex_decomposition.operators.bridge.hulls.placed import primitive_of
 
@@ -34,7 +34,7 @@ def refit(obj, shape):
 
 def corners_of(hull):
     bpy.context.view_layer.update()
-    return np.array([hull.matrix_world @ vertex.co for vertex in hull.data.vertices])
+    return in_scene(hull)
 
 
 def distances(corners):

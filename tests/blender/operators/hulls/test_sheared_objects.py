@@ -7,7 +7,9 @@ import bpy
 import numpy as np
 import pytest
 import weak_convex_decomposition as wcd
-from hand_made import activate, build_hulls, mesh_object
+from edited import record_of
+from hand_made import activate, build_hulls, in_scene, mesh_object
+from headless.command import run_wcd
 from mathutils import Matrix
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.bridge.read.extents import half_side_of
@@ -16,7 +18,6 @@ from weak_convex_decomposition.operators.bridge.read.shape import (
     read_shape,
     scene_unit,
 )
-from weak_convex_decomposition.operators.headless.command_line import main
 from weak_convex_decomposition.operators.viewport import sight_overlay
 
 TURN, LONG = Matrix.Rotation(pi / 4, 4, "Y"), Matrix.Diagonal((1, 1, 6, 1))
@@ -74,11 +75,6 @@ def unsheared(obj):
     return obj
 
 
-def in_scene(obj):
-    """Return the vertices of an object in the scene, (V, 3)."""
-    return np.array([obj.matrix_world @ vertex.co for vertex in obj.data.vertices])
-
-
 def distances(points):
     return np.linalg.norm(points[:, None] - points, axis=2)
 
@@ -104,7 +100,7 @@ def test_a_solid_has_the_same_hulls_however_it_is_built(unit):
     assert one.half_side == pytest.approx(4, rel=1e-5)
     assert half_side_of(sheared, "ORIGINAL") == pytest.approx(4, rel=1e-5)
     build_hulls([sheared], **options)
-    record = json.loads(sheared["wcd"])["hulls"]
+    record = record_of(sheared)["hulls"]
     errors = [hull["error"] for hull in record["hulls"]]
     assert errors == pytest.approx(one.errors.tolist())
 
@@ -151,7 +147,7 @@ def told_of(path, *options):
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     report = path.with_name("r.json")
     words = [path, "--hulls", path.with_name("h.obj"), "--report", report, *options]
-    assert main([*map(str, words), "--quiet"]) == 0
+    assert run_wcd(*words, "--quiet") == 0
     (entry,) = json.loads(report.read_text())["inputs"]
     return {each["name"]: each["hulls"]["hulls"] for each in entry["objects"]}
 

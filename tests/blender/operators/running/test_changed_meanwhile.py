@@ -1,11 +1,11 @@
 """What a user does while an operator computes: nothing of it is overwritten."""
 
-import json
 from types import SimpleNamespace
 
 import bpy
 import pytest
 import weak_convex_decomposition as package
+from edited import record_of
 from hand_curves import hand_curve
 from hand_made import mesh_object
 from snapshot import snapshot
@@ -128,7 +128,7 @@ def test_parts_of_a_shape_that_changed_are_written_without_figures(
 
 
 def noted_parts(obj):
-    return json.loads(obj["wcd"])["parts"]
+    return record_of(obj)["parts"]
 
 
 @pytest.mark.parametrize("factor", [-1, 2])

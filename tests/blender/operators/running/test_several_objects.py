@@ -1,9 +1,8 @@
 """What the operators do when several objects are selected."""
 
-import json
-
 import bpy
 import pytest
+from edited import record_of
 from hand_made import activate, mesh_object
 from snapshot import snapshot
 from weak_convex_decomposition.operators import hulls
@@ -42,9 +41,9 @@ def test_all_selected_objects_are_decomposed_and_no_other():
     assert decomposed(second)
     assert not decomposed(other)
     assert snapshot(other)["mesh"] == before
-    assert "measured" not in json.loads(second["wcd"])
+    assert "measured" not in record_of(second)
     bpy.ops.wcd.measure(**FAST)
-    assert all("measured" in json.loads(obj["wcd"]) for obj in (first, second))
+    assert all("measured" in record_of(obj) for obj in (first, second))
     bpy.ops.wcd.clear()
     assert not decomposed(first)
     assert not decomposed(second)

@@ -1,11 +1,9 @@
 """Colors of parts as an overlay: slots and materials stay as the user had them."""
 
-import json
-
 import bpy
 import numpy as np
 import pytest
-from edited import check_in_step
+from edited import check_in_step, record_of
 from hand_made import activate, decompose_by_hand, give_user_data, in_mode
 from snapshot import snapshot
 from stand_ins.presses import Pressed
@@ -161,7 +159,7 @@ def test_joined_objects_keep_their_parts_apart(suzanne, kinds):
     bpy.ops.object.join()
     assert len(part_identities(suzanne)) == 5
     bpy.ops.wcd.refresh_parts()
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     assert sorted(part["faces"] for part in record["parts"]) == [3, 3, 166, 167, 167]
     assert is_overlaid(suzanne) == (kinds[0] == "OVERLAY")
     bpy.ops.wcd.clear()

@@ -1,6 +1,5 @@
 """Lines of sight over the viewports, ranks of selected faces, and pictures."""
 
-import json
 from types import SimpleNamespace
 
 import bmesh
@@ -8,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 import weak_convex_decomposition as package
+from edited import record_of
 from hand_made import decompose_by_hand, in_mode
 from mathutils import Matrix
 from snapshot import snapshot
@@ -178,19 +178,19 @@ def test_selected_faces_are_measured(suzanne):
     in_mode(suzanne, "EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.wcd.measure_selection(**FAST)
-    everything = json.loads(suzanne["wcd"])["selection"]
+    everything = record_of(suzanne)["selection"]
     assert everything["faces"] == 500
     bpy.ops.mesh.select_all(action="DESELECT")
     in_mode(suzanne, "OBJECT")
     bpy.ops.wcd.measure(**FAST)
-    measured = json.loads(suzanne["wcd"])["measured"]
+    measured = record_of(suzanne)["measured"]
     assert everything["convexity_rank"] == pytest.approx(measured["convexity_rank"])
     for polygon in suzanne.data.polygons:
         polygon.select = polygon.center.x > 0.8  # an ear
     in_mode(suzanne, "EDIT")
     bpy.ops.wcd.measure_selection(**FAST)
     in_mode(suzanne, "OBJECT")
-    record = json.loads(suzanne["wcd"])
+    record = record_of(suzanne)
     assert record["selection"]["faces"] < 100
     assert record["selection"]["convexity_rank"] != everything["convexity_rank"]
     assert record["measured"] == measured
