@@ -55,10 +55,10 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
     record = record_of(obj)
     measured_on = sums_by_label(obj, found.labels, len(found.identities))
     ranks = np.full(len(measured_on), np.nan)
-    for row, (identity, (_, turn)) in enumerate(
+    for row, (identity, origin) in enumerate(
         zip(found.identities, found.origins, strict=True)
     ):
-        entry = entry_of(record, identity.number) if turn == 0 else None
+        entry = entry_of(record, identity.number) if origin.turn == 0 else None
         if entry is None or entry["convexity_rank"] is None:
             continue
         if fits(entry, measured_on[row]):

@@ -7,6 +7,7 @@ Marks of overlays, materials of parts, or runs of the same faces tell them apart
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -21,6 +22,21 @@ from ..stored.noted_parts import entry_of, n_faces_of
 from ..stored.record import record_of
 from .materials import color_of, is_ours, name_of
 from .part_materials import marked_groups, part_slots, tagged_slots
+
+
+class Origin(NamedTuple):
+    """Where a part comes from, as far as its faces tell.
+
+    Attributes
+    ----------
+    number : int
+        What its faces have in the attribute. Other parts may have the same.
+    turn : int
+        0 for a part of the object itself, 1 and more for those joined to it.
+    """
+
+    number: int
+    turn: int
 
 
 def highest_number(
@@ -40,38 +56,32 @@ def highest_number(
 
 
 def told_of_part(
-    obj: bpy.types.Object, origin: tuple[int, int], face: int
+    obj: bpy.types.Object, origin: Origin, face: int
 ) -> tuple[str | None, Color | None]:
     """Return the name and color that a part had, None for what its faces do not tell.
 
-    `origin` is its number, and its turn among the parts with that number. Any `face`
-    of the part serves.
+    Any `face` of the part serves.
     """
-    number, turn = origin
     if is_cloud(obj):
         return None, None
-    slots = part_slots(obj).get(number, [])
-    if turn < len(slots):
-        material = obj.data.materials[slots[turn]]
-        return name_of(material), color_of(material)
-    layers = layers_of(obj)
-    marks, indices = layers.faces(GROUP_LAYER), layers.material_indices()
-    if marks is not None and (name := marked_groups(obj).get(int(marks[face]))):
-        return name, None
-    place = 0 if indices is None else indices[face]
-    if place not in tagged_slots(obj.data).get(number, ()):
-        return None, None
-    material = obj.data.materials[place]
+    layers, slots = layers_of(obj), part_slots(obj).get(origin.number, [])
+    if origin.turn < len(slots):
+        slot = slots[origin.turn]
+    else:  # as while colors are an overlay
+        marks, indices = layers.faces(GROUP_LAYER), layers.material_indices()
+        if marks is not None and (name := marked_groups(obj).get(int(marks[face]))):
+            return name, None
+        slot = 0 if indices is None else int(indices[face])
+        if slot not in tagged_slots(obj.data).get(origin.number, ()):
+            return None, None
+    material = obj.data.materials[slot]
     return name_of(material), color_of(material)
 
 
 def turns_of_faces(
     obj: bpy.types.Object, numbers: NDArray[np.int64]
 ) -> NDArray[np.int64] | None:
-    """Return 0 for faces of the object's own parts, 1 and more for those joined to it.
-
-    None if all are its own.
-    """
+    """Return the turn of each face's part, see `Origin`; None if all are 0."""
     if is_cloud(obj):
         return None
     owners = layers_of(obj).faces(OWNER_LAYER)

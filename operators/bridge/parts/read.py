@@ -24,7 +24,7 @@ from ..stored.noted_parts import identities_of
 from ..stored.record import record_of
 from ..stored.restore import read_restore
 from .identities import Newcomers
-from .joined import highest_number, told_of_part, turns_of_faces
+from .joined import Origin, highest_number, told_of_part, turns_of_faces
 from .materials import color_of
 from .part_materials import part_materials, part_slots
 
@@ -39,14 +39,13 @@ class FoundParts:
         Place of the part of each face, or point, in `identities`.
     identities : tuple of Identity
         By number; each has a face.
-    origins : tuple of (int, int)
-        The number that the faces of each part have, and 0 for a part of the object
-        itself, 1 and more for a part that was joined to it.
+    origins : tuple of Origin
+        Where each part comes from.
     """
 
     labels: NDArray[np.int64]
     identities: tuple[Identity, ...]
-    origins: tuple[tuple[int, int], ...]
+    origins: tuple[Origin, ...]
 
     @property
     def numbers(self) -> IntArray:
@@ -85,11 +84,11 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
         keys += stride * turns
     counts = np.bincount(keys)
     there = np.flatnonzero(counts)
-    origins = [divmod(int(key), stride)[::-1] for key in there]
+    origins = [Origin(key % stride, key // stride) for key in there.tolist()]
     told = {
         origin: told_of_part(obj, origin, int(np.argmax(keys == key)))
         for origin, key in zip(origins, there, strict=True)
-        if origin[1] or origin[0] not in noted
+        if origin.turn or origin.number not in noted
     }
     identities = _identified(origins, noted, told)
     order = sorted(range(len(origins)), key=lambda row: identities[row].number)
@@ -103,9 +102,9 @@ def find_parts_on(obj: bpy.types.Object) -> FoundParts | None:
 
 
 def _identified(
-    origins: list[tuple[int, int]],
+    origins: list[Origin],
     noted: dict[int, Identity],
-    told: dict[tuple[int, int], tuple[str | None, Color | None]],
+    told: dict[Origin, tuple[str | None, Color | None]],
 ) -> list[Identity]:
     """Return who the parts are that faces with these origins belong to.
 
@@ -113,8 +112,8 @@ def _identified(
     those that they are `told` to have, before parts that have none.
     """
     own = [origin for origin in origins if origin not in told]
-    newcomers = Newcomers((noted[number] for number, _ in own), noted.values())
-    found = {origin: noted[origin[0]] for origin in own}
+    found = {origin: noted[origin.number] for origin in own}
+    newcomers = Newcomers(found.values(), noted.values())
     for origin in sorted(told, key=lambda each: told[each][0] is None):
         found[origin] = newcomers.add(*told[origin])
     return [found[origin] for origin in origins]
