@@ -79,7 +79,7 @@ def replaced_carriers(
     if not _needs_carrier(obj, seen):
         return []
     earlier = [child for child in _carriers_of(obj) if not is_waiting(child)]
-    return [each for each in earlier if _is_ours_alone(each) and not is_copy(each)]
+    return list(filter(_is_ours_alone, earlier))
 
 
 def _carriers_of(source: bpy.types.Object) -> list[bpy.types.Object]:
@@ -88,9 +88,9 @@ def _carriers_of(source: bpy.types.Object) -> list[bpy.types.Object]:
 
 
 def _is_ours_alone(carrier: bpy.types.Object) -> bool:
-    """Return whether a carrier is still a mesh, and holds nothing but hulls."""
+    """Return whether a carrier is no copy, still a mesh, and holds only hulls."""
     only_hulls = all(HULL_TAG in child for child in carrier.children_recursive)
-    return only_hulls and carrier.type == "MESH"
+    return only_hulls and carrier.type == "MESH" and not is_copy(carrier)
 
 
 def _take_place(carrier: bpy.types.Object) -> None:
@@ -145,22 +145,18 @@ def _layer_of(carrier: bpy.types.Object) -> bpy.types.ViewLayer:
 
 
 def _remove(source: bpy.types.Object, carriers: list[bpy.types.Object]) -> None:
-    """Remove carriers of a source, and show it; some are the user's from now on.
+    """Remove carriers of a source, and show it.
 
-    These are all copies, and carriers that the user converted to something else, or
-    that have children of the user's.
+    Those that are not ours alone are the user's from now on, and so are all copies.
     """
-    copies = list(filter(is_copy, _carriers_of(source)))  # while the carriers are there
+    copies = filter(is_copy, _carriers_of(source))
+    ours = list(filter(_is_ours_alone, carriers))
+    others = [each for each in {*carriers, *copies} if each not in ours]
     for carrier in carriers:
         _show_source(carrier)
-        if carrier in copies:
-            continue
-        if _is_ours_alone(carrier):
-            discard([carrier])
-        else:
-            _leave_to_user(carrier)
-    for copy in copies:
-        _leave_to_user(copy)
+    discard(ours)
+    for each in others:
+        _leave_to_user(each)
 
 
 def is_copy(carrier: bpy.types.Object) -> bool:
