@@ -36,7 +36,7 @@ _WRITING = (1.45e-7, 0.35e-8)
 _RETRY = 0.02
 
 # Parts that a slider did not wait for: what is wanted of which object, and the work.
-_begun: tuple[Any, Job[Edited]] | None = None
+_half_found: tuple[Any, Job[Edited]] | None = None
 # The address of that slider's window, which may be closed before the run starts; 0 for
 # no window, as where a script sets the slider.
 _window = 0
@@ -63,9 +63,9 @@ class _Recut(Replacement):
 
     def _begin(self, obj: bpy.types.Object) -> Steps[Edited]:
         context = bpy.context
-        begun = _taken(self._key(context, obj))
-        if begun is not None:
-            return begun
+        rest = _taken(self._key(context, obj))
+        if rest is not None:
+            return rest
         seen, keep_edits = _seen(context, obj), context.scene.wcd.keep_edits
         wanted = self._wanted(context)
         steps = decompose_unlocked(obj, wanted, keep_edits, seen, self._rough)
@@ -85,13 +85,13 @@ class _Recut(Replacement):
 
 
 def _taken(key: Any) -> Steps[Edited] | None:
-    """Return the rest of the work that was begun with a key; None if it is other work.
+    """Return the rest of the work on what is half found; None if it has another key.
 
-    Nothing is begun any more then.
+    Nothing is half found any more then.
     """
-    global _begun
-    begun, _begun = _begun, None
-    return begun[1].rest() if begun is not None and begun[0] == key else None
+    global _half_found
+    half, _half_found = _half_found, None
+    return half[1].rest() if half is not None and half[0] == key else None
 
 
 def _seen(context: bpy.types.Context, obj: bpy.types.Object) -> SeenMesh | None:
@@ -139,9 +139,9 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
 
     def _cut(self, context: bpy.types.Context) -> bool:
         """Replace the parts if they differ; return False if that takes too long."""
-        global _begun
+        global _half_found
         obj, parameters = active_object(context), self._wanted(context)
-        _begun = None  # settings have changed since
+        _half_found = None  # settings have changed since
         mesh = which_mesh(context.scene.wcd.mesh, obj)
         if (noted_parameters(obj), noted_mesh(obj)) == (parameters, mesh):
             return True
@@ -154,7 +154,7 @@ class WCD_OT_recut(_Recut, bpy.types.Operator):
         if job.advance(began + _moment(obj, parameters) - time.perf_counter()):
             self._commit(obj, job.result())
         else:
-            _begun = key, job
+            _half_found = key, job
         return job.done
 
 
@@ -168,9 +168,9 @@ def _moment(obj: bpy.types.Object, wanted: Parameters) -> float:
 
 def _invoke() -> float | None:
     """Start a modal run as soon as nothing else runs; return when to try again."""
-    global _begun
+    global _half_found
     if modal.busy():
-        _begun = None  # the object may be another one after what runs
+        _half_found = None  # the object may be another one after what runs
         return _RETRY
     windows = list(bpy.context.window_manager.windows)
     asked = [each for each in windows if each.as_pointer() == _window]
@@ -183,8 +183,8 @@ def _invoke() -> float | None:
 
 def stop(*_: object) -> None:
     """Forget a modal run that waits to be started. Blender passes arguments."""
-    global _begun
-    _begun = None
+    global _half_found
+    _half_found = None
     stop_timer(_invoke)
 
 

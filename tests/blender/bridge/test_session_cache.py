@@ -116,7 +116,7 @@ from weak_convex_decomposition.operators.bridge.work.computing import decompose_
 job = Job(decompose_object(bpy.context.active_object, Parameters(samples=150)))
 while job.progress.stage != "Lines of sight":
     job.advance(0.0)
-recut._begun = "key", job
+recut._half_found = "key", job
 """
 
 

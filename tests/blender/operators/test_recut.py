@@ -152,9 +152,9 @@ def test_live_needs_no_window(suzanne, settings, capfd):
 
 def test_work_that_waits_for_a_window_ends_with_its_file(suzanne, settings):
     for end in (lambda: bpy.ops.wm.read_homefile(use_empty=True), package.unregister):
-        recut._begun = "key", Job(iter(()))
+        recut._half_found = "key", Job(iter(()))
         end()
-        assert recut._begun is None
+        assert recut._half_found is None
     package.register()
 
 
