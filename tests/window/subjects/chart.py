@@ -1,14 +1,13 @@
 """A click on the chart of psi chooses a number of parts; undo takes it back."""
 
-import json
-
 import bpy
+from edited import record_of
 from leftovers import leftovers
 from weak_convex_decomposition.operators.running import modal as running
 
 
 def record():
-    return json.loads(bpy.context.active_object["wcd"])
+    return record_of(bpy.context.active_object)
 
 
 def steps(hands):

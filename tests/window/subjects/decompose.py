@@ -1,8 +1,7 @@
 """The button Decompose, its result, and undo."""
 
-import json
-
 import bpy
+from edited import record_of
 from leftovers import leftovers
 from snapshot import snapshot
 from weak_convex_decomposition.operators.running import modal as running
@@ -19,7 +18,7 @@ def steps(hands):
     hands.picture("running")
     yield lambda: running.current is None
     obj = bpy.context.active_object
-    parts = json.loads(obj["wcd"])["parts"]
+    parts = record_of(obj)["parts"]
     assert "wcd_part" in obj.data.attributes
     assert len(obj.vertex_groups) == len(obj.data.materials) == len(parts) > 1
     assert leftovers() == []

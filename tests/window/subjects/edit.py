@@ -1,9 +1,8 @@
 """Parts ticked in the list, merged and split by the buttons, each undone by Ctrl+Z."""
 
-import json
-
 import bpy
 import numpy as np
+from edited import record_of
 from leftovers import leftovers
 from snapshot import snapshot
 from weak_convex_decomposition.operators.bridge.parts import rows
@@ -18,7 +17,7 @@ _LOOK = 5.0
 
 
 def names():
-    record = json.loads(bpy.context.active_object["wcd"])
+    record = record_of(bpy.context.active_object)
     return [part["name"] for part in record["parts"]]
 
 

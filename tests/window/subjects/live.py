@@ -3,10 +3,10 @@
 Parts of a large mesh are seen roughly at first, and exactly once the hand rests.
 """
 
-import json
 import time
 
 import bpy
+from edited import record_of
 from leftovers import leftovers
 from weak_convex_decomposition.operators.bridge.mesh.attributes import read_ints
 from weak_convex_decomposition.operators.bridge.stored.record import is_rough
@@ -17,7 +17,7 @@ _OFFSETS = (5, 10, 15, 20)
 
 
 def n_parts():
-    return json.loads(bpy.context.active_object["wcd"])["k"]
+    return record_of(bpy.context.active_object)["k"]
 
 
 def labels():

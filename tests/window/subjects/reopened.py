@@ -1,9 +1,8 @@
 """Parts are there in a file that another Blender has saved, and nothing complains."""
 
-import json
-
 import bpy
 import numpy as np
+from edited import record_of
 from hands import PICTURES
 from leftovers import leftovers, remembered
 
@@ -14,7 +13,7 @@ def steps(hands):
         bpy.ops.wm.open_mainfile(filepath=str(path))
     yield 1.0
     obj = bpy.context.active_object
-    record = json.loads(obj["wcd"])
+    record = record_of(obj)
     labels = np.zeros(len(obj.data.polygons), dtype=np.int32)
     obj.data.attributes["wcd_part"].data.foreach_get("value", labels)
     assert np.bincount(labels).tolist() == [p["faces"] for p in record["parts"]]
