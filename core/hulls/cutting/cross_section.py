@@ -106,7 +106,8 @@ class Section:
         Returns
         -------
         (M,) bool
-            False where the contour is open on the point's line along the first axis.
+            False where the contour is open on the point's line along the first axis,
+            and where it runs clockwise: a dome seen from inside holds nothing.
         """
         across, up = coordinates_along(self.axes, points).T[..., None]
         (x0, y0), (x1, y1) = self.segments.transpose(1, 2, 0)
@@ -114,7 +115,7 @@ class Section:
         rise = np.where(y1 == y0, 1.0, y1 - y0)
         before = x0 + (up - y0) / rise * (x1 - x0) <= across
         windings = (turns * before).sum(axis=1)
-        return (windings != 0) & (turns.sum(axis=1) == 0)
+        return (windings < 0) & (turns.sum(axis=1) == 0)
 
 
 def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
@@ -198,4 +199,4 @@ def _is_inside(
     windings = np.cumsum(windings, axis=1)
     # A row whose winding number does not return to 0 crosses an open contour; its
     # inside is not defined.
-    return (windings[:, :-1] != 0) & (windings[:, -1:] == 0)
+    return (windings[:, :-1] < 0) & (windings[:, -1:] == 0)

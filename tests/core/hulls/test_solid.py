@@ -121,6 +121,17 @@ def test_open_shapes_have_no_cross_section():
     assert len(cross_section(sheet, plane).spread(sheet.vertices)) == 0
 
 
+def test_domes_seen_from_inside_have_no_cross_section():
+    """As they have no volume: else cuts fill their hollow, and hulls stay far off."""
+    ball = shapes.uv_sphere()
+    is_upper = (ball.vertices[ball.triangles][..., 2] >= -0.01).all(axis=1)
+    dome = shapes.mesh_of(ball.vertices, ball.triangles[is_upper])
+    for mesh, has_inside in ((dome, True), (changes.inside_out(dome), False)):
+        section = cross_section(solid_of(mesh), PLANE)
+        assert bool(len(section.spread(mesh.vertices))) == has_inside
+        assert section.holds(np.array([[0.1, 0.1, 0.5]])) == has_inside
+
+
 def test_points_inside_a_cross_section():
     section = cross_section(
         solid_of(shapes.hollow_sphere(0.5, 3)), PLANE * [1, 1, 1, 0]
