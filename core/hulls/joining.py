@@ -19,6 +19,10 @@ _NEAR = 0.03
 # something must be found out.
 _BEYOND = 1.01
 
+# Films are left out where other hulls are at most this far away: planes along a face
+# take off 1e-7 of what is below it.
+_COVERED = 1e-5
+
 # Cost, numbers of two pieces, the joined piece, and whether the cost is by its stated
 # error. No piece while the cost is a bound.
 _Joint = tuple[float, int, int, Piece | None, bool]
@@ -86,6 +90,28 @@ def part_again(pieces: list[Piece], max_pieces: int, known: JoinedPairs) -> list
         worst = max(far, key=lambda one: round(one.known_error, 6))
         pieces = [*(one for one in pieces if one is not worst), *halves[worst]]
     return pieces
+
+
+def without_films(pieces: Sequence[Piece]) -> list[Piece]:
+    """Return pieces without the films that cuts leave along faces of others.
+
+    Their hulls would be thickened, and cover nothing that those of others do not.
+
+    Parameters
+    ----------
+    pieces : sequence of Piece
+
+    Returns
+    -------
+    list of Piece
+    """
+    kept = list(pieces)
+    for film in pieces:
+        if film.is_film:
+            rest = [one for one in kept if one is not film and _touch(one, film)]
+            if _cover(rest, film):
+                kept.remove(film)
+    return kept
 
 
 def _join(
@@ -178,3 +204,11 @@ def _touch(one: Piece, other: Piece) -> bool:
     """Return whether the bounding boxes of two pieces meet or nearly meet."""
     (low, high), (other_low, other_high) = one.hull.bounds, other.hull.bounds
     return bool(((low - _NEAR <= other_high) & (other_low - _NEAR <= high)).all())
+
+
+def _cover(pieces: Sequence[Piece], film: Piece) -> bool:
+    """Return whether the hulls of other pieces hold all points of a film."""
+    points = np.concatenate([film.points, film.boundary])
+    for piece in pieces:
+        points = points[piece.hull.heights(points) > _COVERED]
+    return len(points) == 0

@@ -89,6 +89,11 @@ class Piece:
         return flat and bool(self.on_surface.all())
 
     @property
+    def is_film(self) -> bool:
+        """Whether it is what a cut beside a face of a solid left of it."""
+        return self.hull.is_thickened and self.solid.closed and not self.is_sheet
+
+    @property
     def extremes(self) -> NDArray[np.float64]:
         """Few points with the same convex hull, not thickened, (M, 3)."""
         return self.points if self.is_sheet else self.hull.vertices

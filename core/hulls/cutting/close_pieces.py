@@ -11,7 +11,7 @@ from ...geometry.frames import settled
 from ...steps.progress import Progress, Steps, within
 from ..cost import cost_of_sides
 from ..enclosing.shapes import roughly_around
-from ..joining import JoinedPairs, join_pieces, part_again
+from ..joining import JoinedPairs, join_pieces, part_again, without_films
 from ..piece import Piece
 from .cell import Cell, cut
 from .ranked_planes import ranked_planes
@@ -64,14 +64,14 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
         cutting, joining = share + 0.7 * rest, share + 0.8 * rest
         pieces += yield from within(_cut_until_close(far, room), share, cutting)
         joined = join_pieces(pieces, most, joints, close=True)
-        pieces = yield from within(joined, cutting, joining)
+        pieces = without_films((yield from within(joined, cutting, joining)))
         share = joining
         cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
         again = len(pieces) < most and n_rounds < _MOST_ROUNDS
         far = [one for one in cells if not one.is_close] if again else []
         tried.update(far)
         pieces = [one for one in pieces if one not in far]
-    return part_again(pieces, most, joints)
+    return without_films(part_again(pieces, most, joints))
 
 
 def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:

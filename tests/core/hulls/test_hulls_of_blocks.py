@@ -108,3 +108,23 @@ def test_a_face_without_area_in_the_air_is_no_obstacle():
     far = [[9.0, 0, 0], [10, 0, 0], [11, 0, 0]]
     mesh = shapes.joined(shapes.l_prism(3.0), shapes.mesh_of(far, [(0, 1, 2)]))
     assert build_hulls(mesh, HullParameters()).n_hulls >= 2
+
+
+def test_cuts_leave_no_films_on_faces():
+    """Films of the plate, where it meets the wall, once were boxes of their own."""
+    turns = np.arange(24) * np.pi / 12
+    hole = 0.25 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    rim = hole / np.abs(hole).max(axis=1, keepdims=True)
+    rings = [(hole, 0), (rim, 0), (rim, 0.3), (hole, 0.3)]
+    vertices = [(x, y, z) for ring, z in rings for x, y in ring]
+    faces = [
+        (k + 24 * i, k + 24 * j, (k + 1) % 24 + 24 * j, (k + 1) % 24 + 24 * i)
+        for i, j in ((0, 1), (1, 2), (2, 3), (3, 0))
+        for k in range(24)
+    ]
+    plate = shapes.mesh_of(vertices, faces)
+    mesh = shapes.joined(plate, shapes.box((-1, -1, 0.3), (-0.7, 1, 3)))
+    found = build_hulls(mesh, HullParameters(shape="BOX"))
+    assert min(shape.sizes.min() for shape in found.shapes) > 0.01
+    assert found.n_hulls < 13
+    assert found.errors.max() <= 0.05

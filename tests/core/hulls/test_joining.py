@@ -4,10 +4,12 @@ from itertools import islice
 
 import numpy as np
 import shapes
-from computed import build_hulls
+from computed import build_hulls, solid_of
 from weak_convex_decomposition.core.cache import ShapeCache, no_rays
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
-from weak_convex_decomposition.core.hulls.joining import part_again
+from weak_convex_decomposition.core.hulls.cutting.cell import cut, whole
+from weak_convex_decomposition.core.hulls.fitting import Fit
+from weak_convex_decomposition.core.hulls.joining import part_again, without_films
 from weak_convex_decomposition.core.hulls.piece import Piece
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
 
@@ -48,3 +50,13 @@ def test_joints_come_apart_again_where_there_is_room_and_something_to_gain():
     assert part_again(pieces, 3, known) == pieces
     assert part_again(pieces, 4, known) == [vain, close, worse, c]
     assert part_again(pieces, 9, known) == [vain, close, c, a, b]
+
+
+def test_films_are_left_out_if_others_cover_them():
+    solid = solid_of(shapes.box((-1, -1, -1), (1, 1, 1)))
+    cell = whole(solid, Fit(HullParameters(), 1.0, 0.05))
+    below, film = cut(cell, np.array([0, 0, 1, -1 + 1e-7]))
+    part, rest = cut(below, np.array([1, 0, 0, -0.2]))
+    assert without_films([part, film, rest]) == [part, rest]
+    for pieces in ([film], [part, film], [part, rest]):
+        assert without_films(pieces) == pieces
