@@ -172,8 +172,8 @@ def name_refusal(name: str, part: str, taken: Iterable[str]) -> str | None:
         return f"A part needs a name; this one is still {part}"
     if len(name.encode()) > LONGEST_NAME:
         return (
-            f"A name has at most {LONGEST_NAME} letters, fewer with accents; this part"
-            f" is still {part}"
+            f"A name has at most {LONGEST_NAME} letters, fewer with accents or of"
+            f" other scripts; this part is still {part}"
         )
     if name in taken:
         return f"Another part is called {name}; this one is still {part}"

@@ -1,4 +1,4 @@
-"""Names of hulls that are no longer than Blender keeps them."""
+"""Names of hulls and of other objects that are no longer than Blender keeps them."""
 
 from __future__ import annotations
 
@@ -32,8 +32,7 @@ def names_that_fit(
         As `hull_names` does, or if Unreal needs a name that is too long: it finds the
         mesh of a hull by the whole of its name.
     """
-    # Names end with a zero. Blender 4.2 keeps 63 bytes, and 5.2 255.
-    longest = bpy.types.Object.bl_rna.properties["name"].length_max - 1
+    longest = _longest()
     names = hull_names(naming, template, obj.name, kinds)
     excess = _most_bytes(names) - longest
     if excess <= 0:
@@ -55,10 +54,22 @@ def names_that_fit(
     return _shortened(fill, obj.name, "", longest)
 
 
+def name_that_fits(name: str, ending: str) -> str:
+    """Return a name and the whole of what is added to it, with less of a long name."""
+    (found,) = _shortened(lambda kept: [f"{kept} {ending}"], name, "", _longest())
+    return found.strip()
+
+
+def _longest() -> int:
+    """Return the bytes that Blender keeps of a name: 4.2 keeps 63, and 5.2 255."""
+    # Names end with a zero.
+    return int(bpy.types.Object.bl_rna.properties["name"].length_max) - 1
+
+
 def _shortened(
     fill: Callable[[str], list[str]], name: str, ending: str, longest: int
 ) -> list[str]:
-    """Return names of hulls with as much of a name as they have room for."""
+    """Return filled names with as much of a name as they have room for."""
     names = fill(name + ending)
     while name and (excess := _most_bytes(names) - longest) > 0:
         name = name.encode()[:-excess].decode(errors="ignore")

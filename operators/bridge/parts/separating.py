@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..cuts.whole_mesh import forget_whole
 from ..homes import hand_over, new_collection
+from ..hulls.fitting_names import name_that_fits
 from ..hulls.hull_objects import erase_hulls
 from ..hulls.rigid_bodies import soften
 from ..mesh.corner_normals import give_back_normals, keep_normals
@@ -46,7 +47,7 @@ def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
     identities, own = found.identities, materials_of(obj, found)
     pieces: list[bpy.types.Object] = []
     with ExitStack() as on_error:
-        collection = new_collection(obj, f"{obj.name} parts")
+        collection = new_collection(obj, name_that_fits(obj.name, "parts"))
         on_error.callback(bpy.data.collections.remove, collection)
         on_error.callback(discard, pieces)
         with _bare_copy(obj) as bare:
@@ -55,7 +56,8 @@ def separate(obj: bpy.types.Object, stays: bool) -> list[bpy.types.Object]:
             for part, identity in enumerate(identities):
                 piece = _copy(bare)
                 pieces.append(piece)
-                piece.name = piece.data.name = f"{obj.name} {identity.name}"
+                name = name_that_fits(obj.name, identity.name)
+                piece.name = piece.data.name = name
                 _keep_faces(piece.data, found.labels == part, loose=part == 0)
                 piece.color = materials[part].diffuse_color
                 if not piece.data.materials:

@@ -45,6 +45,18 @@ def test_separate_objects_get_no_normals_that_nobody_gave(suzanne):
         assert not piece.data.has_custom_normals
 
 
+@pytest.mark.parametrize("letter", ["x", "頭"])
+def test_separate_objects_of_long_names_tell_their_parts(suzanne, letter):
+    suzanne.name = 300 * letter  # Blender keeps what it has room for
+    decompose_by_hand(suzanne, 2)
+    suzanne.wcd_parts[0].name = 21 * "耳"
+    endings = [row.name for row in suzanne.wcd_parts]
+    bpy.ops.wcd.separate()
+    collection = next(c for c in bpy.data.collections if c.name.endswith(" parts"))
+    names = [piece.name for piece in collection.objects]
+    assert sorted(name.lstrip(letter).strip() for name in names) == sorted(endings)
+
+
 @pytest.mark.parametrize("kind", ["OBJECT", "VERTEX", "VERTEX_3"])
 def test_children_stay_in_place_where_the_original_goes(suzanne, kind):
     suzanne.location, suzanne.scale = (1, 2, 3), (1, 2, 1)
