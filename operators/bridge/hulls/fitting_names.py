@@ -1,14 +1,15 @@
-"""Names of hulls and of other objects that are no longer than Blender keeps them."""
+"""Names of hulls that are no longer than Blender keeps them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 import bpy
 
 from ....core.errors import DecompositionError
 from ....core.parameters.hull_names import hull_names
+from ..stored.long_names import longest_name, most_bytes, shortened_names
 from .listed import hulls_of
 
 
@@ -32,9 +33,9 @@ def names_that_fit(
         As `hull_names` does, or if Unreal needs a name that is too long: it finds the
         mesh of a hull by the whole of its name.
     """
-    longest = _longest()
+    longest = longest_name()
     names = hull_names(naming, template, obj.name, kinds)
-    excess = _most_bytes(names) - longest
+    excess = most_bytes(names) - longest
     if excess <= 0:
         return names
     if naming == "UNREAL":
@@ -48,35 +49,7 @@ def names_that_fit(
     fill = partial(hull_names, naming, template, kinds=kinds)
     for number in range(1, len(bpy.data.objects) + 1):
         ending = f" {number}" if number > 1 else ""
-        shortened = _shortened(fill, obj.name, ending, longest)
+        shortened = shortened_names(fill, obj.name, ending, longest)
         if taken.isdisjoint(shortened):
             return shortened
-    return _shortened(fill, obj.name, "", longest)
-
-
-def name_that_fits(name: str, ending: str) -> str:
-    """Return a name and the whole of what is added to it, with less of a long name."""
-    (found,) = _shortened(lambda kept: [f"{kept} {ending}"], name, "", _longest())
-    return found.strip()
-
-
-def _longest() -> int:
-    """Return the bytes that Blender keeps of a name: 4.2 keeps 63, and 5.2 255."""
-    # Names end with a zero.
-    return int(bpy.types.Object.bl_rna.properties["name"].length_max) - 1
-
-
-def _shortened(
-    fill: Callable[[str], list[str]], name: str, ending: str, longest: int
-) -> list[str]:
-    """Return filled names with as much of a name as they have room for."""
-    names = fill(name + ending)
-    while name and (excess := _most_bytes(names) - longest) > 0:
-        name = name.encode()[:-excess].decode(errors="ignore")
-        names = fill(name + ending)
-    return names
-
-
-def _most_bytes(names: Sequence[str]) -> int:
-    """Return the bytes of the longest name."""
-    return max((len(name.encode()) for name in names), default=0)
+    return shortened_names(fill, obj.name, "", longest)

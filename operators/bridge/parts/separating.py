@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from ..cuts.whole_mesh import forget_whole
 from ..homes import hand_over, new_collection
-from ..hulls.fitting_names import name_that_fits
 from ..hulls.hull_objects import erase_hulls
 from ..hulls.rigid_bodies import soften
 from ..mesh.corner_normals import give_back_normals, keep_normals
 from ..mesh.known import face_areas
+from ..stored.long_names import name_that_fits
 from ..views.node_modifiers import discard_views, remove_views
 from .erase import clear
 from .materials import discard, discard_unused, none_missing

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..stored.long_names import name_that_fits
 from .carrier import is_waiting
 from .shown_mesh import shown_modifiers, shows_keys
 
@@ -30,8 +31,8 @@ def reading_notes(
     if is_waiting(obj):
         curve = obj.parent.name
         return (
-            f'Parts are on faces: they are on the new mesh object "{curve} parts",'
-            f" and {curve} is hidden.",
+            "Parts are on faces: they are on the new mesh object"
+            f' "{name_that_fits(curve, "parts")}", and {curve} is hidden.',
         )
     notes = []
     modifiers = [modifier.name for modifier in shown_modifiers(obj)]

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..stored.long_names import name_that_fits
 from ..stored.names import IMAGE_TAG, PICTURE_TAG
 
 # An object notes under the same tag the names, in lines, that it had when its pictures
@@ -34,7 +35,7 @@ def write_image(
     former = (each for each in images_of(obj) if each.library is None)
     image = next((each for each in former if each.get(PICTURE_TAG) == label), None)
     if image is None:
-        image = bpy.data.images.new(f"{obj.name} {label}", width, height)
+        image = bpy.data.images.new(name_that_fits(obj.name, label), width, height)
         image[IMAGE_TAG], image[PICTURE_TAG] = obj.name, label
         image.use_fake_user = True  # images without users are not saved
         obj[IMAGE_TAG] = "\n".join(sorted({*_noted(obj), obj.name}))

@@ -44,6 +44,18 @@ def test_the_outline_of_a_hand_has_a_palm_and_five_fingers():
     assert "Hand is hidden" in record_of(carrier)["notes"][0]
 
 
+def test_what_is_made_for_a_long_name_tells_what_it_is():
+    hand = hand_curve()
+    hand.name = 300 * "手"  # Blender keeps what it has room for
+    bpy.ops.wcd.decompose(samples=200, parts=2)
+    carrier = bpy.context.active_object
+    assert carrier.name == carrier.data.name
+    assert carrier.name.endswith("手 parts")
+    assert f'"{carrier.name}"' in record_of(carrier)["notes"][0]
+    bpy.ops.wcd.show_picture()
+    assert any(i.name.endswith("手 Lines of Sight") for i in bpy.data.images)
+
+
 @pytest.mark.parametrize("in_renders", [True, False])
 def test_the_curve_is_hidden_until_clear(in_renders):
     hand = hand_curve()
