@@ -32,8 +32,8 @@ _LEAST_PIECE = 0.01
 _ALL = 0.99
 # Pieces whose mean normal is longer than this are flat.
 _FLAT = 0.85
-# A fillet is narrower than this, relative to the square root of the area, and the
-# surface bends by less than this where it ends, in radians.
+# A fillet is narrower than this, relative to the square root of the area, and its
+# borders bend by less than this on average, in radians.
 _NARROW = 0.05
 _ROUNDED = 1.05
 # What a seam as long as the square root of the area costs, in psi. From 0.17 to 0.25
@@ -129,11 +129,8 @@ class CreaseParts:
         finer = connected_parts(
             by.graph, parts * n_pieces + self.pieces, by.smallest_area
         )
-        finer = _joined(
-            by.graph,
-            finer,
-            _slivers(by.graph, finer, parts) | _fillets(by.graph, finer),
-        )
+        small = _slivers(by.graph, finer, parts) | _fillets(by.graph, finer)
+        finer = _joined(by.graph, finer, small)
         if count_parts(finer) <= most:
             return finer
         return by.merged(finer, most, self._costs, 1.0)
@@ -171,12 +168,10 @@ def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 def _fillets(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Return whether each piece is a strip that rounds off a crease, (K,)."""
-    areas = graph.areas_of(pieces)
-    ends = pieces[graph.neighbors]
-    rim = np.flatnonzero(ends[:, 0] != ends[:, 1])
-    columns = np.stack([graph.lengths, graph.lengths * graph.bends])[:, rim]
-    of_rim = ends[rim].T.ravel()
-    lengths, bends = (np.bincount(of_rim, np.tile(c, 2), len(areas)) for c in columns)
+    n_pieces, areas = count_parts(pieces), graph.areas_of(pieces)
+    lengths = graph.borders(pieces, n_pieces).sum(axis=1)
+    bent = replace(graph, lengths=graph.lengths * graph.bends)
+    bends = bent.borders(pieces, n_pieces).sum(axis=1)
     narrow = 2 * areas < _NARROW * np.sqrt(areas.sum()) * lengths
     return narrow & (bends < _ROUNDED * lengths)
 
