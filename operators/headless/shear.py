@@ -17,10 +17,14 @@ from mathutils import Matrix
 
 from ...core.geometry.frames import moved
 from ..bridge.mesh.attributes import read_floats, write_floats
-from ..bridge.refusals import WORKED_ON
+from ..bridge.refusals import CONVERTIBLE, WORKED_ON
 
 # Largest difference between a matrix and its location, rotation and scale, as a share.
 _NO_SHEAR = 1e-5
+# Parents, and ways to hang on them, that nodes of .glb and .fbx tell rightly. Nodes of
+# cameras and lights are turned; .fbx has none of lattices, speakers and their like.
+_TOLD_PARENTS = {"ARMATURE", "EMPTY", "MESH", *CONVERTIBLE}
+_TOLD_TIES = {"OBJECT", "BONE"}
 
 
 def has_shear(matrix: Matrix) -> bool:
@@ -139,7 +143,7 @@ def in_their_places(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
     """Take off their parents the objects that nodes would put elsewhere, or nowhere.
 
     The exporter of .glb leaves out what hangs on others than `objects`, and writes
-    others that hang on them; that of .fbx knows no vertices as parents.
+    others that hang on them.
     """
     among = set(objects)
     loose = [obj for obj in objects if _is_elsewhere(obj, among)]
@@ -158,7 +162,8 @@ def _is_elsewhere(obj: bpy.types.Object, among: set[bpy.types.Object]) -> bool:
         above = above @ pose.bones[obj.parent_bone].matrix
     if (
         obj.parent not in among
-        or obj.parent_type.startswith("VERTEX")
+        or obj.parent.type not in _TOLD_PARENTS
+        or obj.parent_type not in _TOLD_TIES
         or has_shear(above.inverted_safe() @ obj.matrix_world)
     ):
         return True

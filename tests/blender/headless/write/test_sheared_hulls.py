@@ -165,6 +165,12 @@ def add_hanging():
     boned = cube_below(rig, "Boned")
     boned.parent_type, boned.parent_bone = "BONE", rig.data.bones[0].name
     boned.matrix_parent_inverse = rig.matrix_world.inverted()
+    cube_below(rig, "Posed", parent_type="ARMATURE")
+    for data in (bpy.data.cameras.new("Cam"), bpy.data.lattices.new("Lattice")):
+        holder = bpy.data.objects.new(data.name, data)
+        bpy.context.collection.objects.link(holder)
+        holder.rotation_euler.y, holder.scale.z = 0.4, 3
+        cube_below(holder, f"{data.name}Kid").matrix_parent_inverse.identity()
     bpy.context.view_layer.update()
     return [each for each in bpy.data.objects if each.type == "MESH"]
 
