@@ -139,8 +139,8 @@ def _stl(path: Path, hulls: Sequence[bpy.types.Object], up: str) -> None:
     mode = (
         {"evaluation_mode": "DAG_EVAL_VIEWPORT"} if "evaluation_mode" in known else {}
     )
-    select_only(hulls)
-    with quiet_blender():
+    with quiet_blender(), one_scene(hulls):
+        select_only(hulls)
         bpy.ops.wm.stl_export(
             filepath=str(path), export_selected_objects=True, **axes(up), **mode
         )

@@ -112,6 +112,20 @@ def assert_marked_as_convex(path):
     assert text.count('physics:approximation = "convexHull"') == 3
 
 
+def test_stl_holds_hulls_of_collections_that_cannot_be_selected(tmp_path):
+    collection = bpy.data.collections.new("Locked")
+    bpy.context.scene.collection.children.link(collection)
+    bpy.ops.mesh.primitive_cube_add()
+    collection.objects.link(bpy.context.active_object)
+    bpy.context.scene.collection.objects.unlink(bpy.context.active_object)
+    collection.hide_select = True
+    path, hulls = tmp_path / "locked.blend", tmp_path / "hulls.stl"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+    assert run(path, f"--hulls={hulls}") == 0
+    (read,) = load(hulls, "Z")
+    assert len(read.data.vertices) == 8
+
+
 def test_stl_holds_all_hulls(tmp_path, model):
     path = tmp_path / "hulls.stl"
     assert run(model, "--hulls", path, *QUICK) == 0
