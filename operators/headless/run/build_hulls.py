@@ -91,7 +91,7 @@ def _named_as_in_file(
 def _show(hulls: Sequence[bpy.types.Object]) -> None:
     """Put hulls into the scene that are in hidden collections or other scenes.
 
-    Blender's exporters write what can be selected.
+    Blender does not compute the places of others.
     """
     bpy.context.view_layer.update()
     for hull in hulls:
