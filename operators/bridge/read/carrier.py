@@ -14,7 +14,7 @@ from ..homes import home_of, homes_of, objects_in, takes_more, view_layers
 from ..parts.erase import erase_parts
 from ..parts.materials import discard
 from ..refusals import CONVERTIBLE
-from ..stored.long_names import name_that_fits
+from ..stored.long_names import carrier_name
 from ..stored.names import CARRIER_TAG, HIDDEN_IN_TAG, HIDDEN_TAG, HULL_TAG
 from .converting import converted
 from .evaluated import SeenMesh
@@ -61,7 +61,7 @@ def placed_carrier(obj: bpy.types.Object, seen: SeenMesh | None) -> bpy.types.Ob
     waiting = [child for child in obj.children if is_waiting(child)]
     carrier = waiting[0] if waiting else carrier_for(obj, seen)
     _remove(obj, [each for each in _carriers_of(obj) if each != carrier])
-    carrier.name = carrier.data.name = name_that_fits(obj.name, "parts")
+    carrier.name = carrier.data.name = carrier_name(obj.name)
     carrier.data[CARRIER_TAG] = carrier.data.name
     carrier.matrix_basis = Matrix()
     for collection in {home_of(obj), *filter(takes_more, homes_of(obj))}:
@@ -170,7 +170,7 @@ def is_copy(carrier: bpy.types.Object) -> bool:
         return False
     mesh = carrier.data
     # Data that the user gave a carrier have no note.
-    noted = mesh.get(CARRIER_TAG, name_that_fits(carrier[CARRIER_TAG], "parts"))
+    noted = mesh.get(CARRIER_TAG, carrier_name(carrier[CARRIER_TAG]))
     return carrier.name != noted and (mesh.name != noted or mesh.users > 1)
 
 

@@ -20,7 +20,7 @@ from ....core.geometry.mesh import TriangleMesh
 from ....core.results.parts import Decomposition
 from ..mesh.attributes import read_floats, read_labels, write_ints
 from ..mesh.known import triangles_of
-from ..stored.long_names import name_that_fits
+from ..stored.long_names import carrier_name
 from ..stored.record import EVALUATED, ORIGINAL
 from .shape import stretch
 from .shown_mesh import count_instances, differs, evaluated
@@ -72,7 +72,7 @@ class SeenMesh:
         elif for_parts:
             where += (
                 f" that do not come from {own}: the parts are on the new object"
-                f' "{name_that_fits(self.name, "parts")}", and {self.name} is hidden'
+                f' "{carrier_name(self.name)}", and {self.name} is hidden'
             )
         return (f"{where}.", *_leaving_out(self.n_left_out))
 

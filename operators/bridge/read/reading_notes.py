@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..stored.long_names import name_that_fits
+from ..stored.long_names import carrier_name
 from .carrier import is_waiting
 from .shown_mesh import shown_modifiers, shows_keys
 
@@ -32,7 +32,7 @@ def reading_notes(
         curve = obj.parent.name
         return (
             "Parts are on faces: they are on the new mesh object"
-            f' "{name_that_fits(curve, "parts")}", and {curve} is hidden.',
+            f' "{carrier_name(curve)}", and {curve} is hidden.',
         )
     notes = []
     modifiers = [modifier.name for modifier in shown_modifiers(obj)]

@@ -15,6 +15,11 @@ def name_that_fits(name: str, ending: str) -> str:
     return found.strip()
 
 
+def carrier_name(source: str) -> str:
+    """Return the name of the mesh object that has the parts of another object."""
+    return name_that_fits(source, "parts")
+
+
 def longest_name() -> int:
     """Return the bytes that Blender keeps of a name: 4.2 keeps 63, and 5.2 255."""
     # Names end with a zero.

@@ -74,8 +74,9 @@ def test_ridges_around_a_hole_are_no_creases():
     full = np.ones((3, 3, 1), dtype=bool)
     full[1, 1] = False
     mesh = shapes.voxels(full)
-    middles, normals = graph_of(mesh).centers, np.round(graph_of(mesh).normals)
-    planes = np.c_[normals, (middles * normals).sum(axis=1)]
+    quads = graph_of(mesh)
+    normals = quads.normals.round()
+    planes = np.c_[normals, (quads.centers * normals).sum(axis=1)]
     _, sides = np.unique(planes, axis=0, return_inverse=True)
     surface = graph_of(replace(mesh, polygons=sides.ravel()[mesh.polygons]))
     assert surface.n_polygons == 10
