@@ -95,7 +95,8 @@ class PartCountSearch:
         3. If psi still rises at the last number that was tried, try more, up to `most`.
         4. Cut along closed loops of creases, too, or only there, if what that saves in
            seams outweighs what is lost in psi. Or leave the shape whole, if that is
-           better than any of these and Fewest Parts does not ask for more.
+           better than any of these. Merge parts whose seam gains next to nothing.
+           Fewest Parts sets a limit to both.
 
         Returns
         -------

@@ -39,6 +39,8 @@ _ROUNDED = 1.05
 # What a seam as long as the square root of the area costs, in psi. From 0.17 to 0.25
 # little changes. With 0.15 low steps are missed, with 0.3 birds lose their wings.
 _SEAM_PRICE = 0.2
+# A seam that gains less than this share of that price is none.
+_IDLE = 0.1
 
 
 class CreaseParts:
@@ -121,7 +123,21 @@ class CreaseParts:
             shells = whole_shells(by, parts, high)
             found += [] if shells is None else [shells]
         rivals = [each for each in found if low <= count_parts(each) <= high]
-        return max([parts, *rivals], key=self._worth) if rivals else parts
+        best = max([parts, *rivals], key=self._worth) if rivals else parts
+        return self._without_idle_seams(best, low) if low < high else best
+
+    def _without_idle_seams(
+        self, parts: NDArray[np.int64], low: int
+    ) -> NDArray[np.int64]:
+        """Return the parts, (P,), merged where a seam gains less than it costs.
+
+        They stay as they are if fewer than `low` would be left.
+        """
+        n_parts = count_parts(parts)
+        merged = self._partitioner.merged(
+            parts, n_parts, self._costs, _IDLE, further=True
+        )
+        return merged if low <= count_parts(merged) < n_parts else parts
 
     def _with_loops(self, parts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
         """Return the parts, cut along the loops too; at most so many (P,)."""

@@ -130,6 +130,18 @@ def test_what_lies_between_a_seam_and_a_loop_is_no_part():
     assert len(set(found)) == 3
 
 
+@pytest.mark.parametrize(("bend", "expected"), [(0.17, 1), (0.2, 2)])
+def test_auto_leaves_no_seams_that_gain_next_to_nothing(bend, expected):
+    """Both halves of a bent bar gain 0.007, or 0.114; the seam costs 0.127."""
+    bar, few = shapes.box((-3, 0, 0), (3, 1, 1), 8), Parameters(samples=300)
+    sunk = bar.vertices - [0, 0, bend] * np.abs(bar.vertices[:, :1])
+    memo = see(replace(bar, vertices=sunk), few)
+    halves = (memo.transfer.graph.centers[:, 0] > 0).astype(np.int64)
+    better = part_count_search(memo, few, 2, 9).creases.better
+    assert len(set(better(halves, 1, 9))) == expected
+    assert len(set(better(halves, 2, 2))) == 2
+
+
 def ears():
     """Return a flat disc with two small square ears, fanned from its center."""
     angles = np.linspace(0.0, 2 * np.pi, 48, endpoint=False)

@@ -69,7 +69,7 @@ def test_the_layout_of_vertices_does_not_matter():
     usual = decompose(scene, Parameters())
     for layout in LAYOUTS.values():
         found = decompose(layout(scene), Parameters())
-        assert found.n_parts == usual.n_parts == 4
+        assert found.n_parts == usual.n_parts == 3
         assert (found.labels == usual.labels).mean() > 0.98
         assert found.psi_before == pytest.approx(usual.psi_before, abs=0.02)
 
