@@ -41,41 +41,30 @@ if TYPE_CHECKING:
     from .solids.mass import mass_of_mesh as mass_of_mesh
     from .solids.mass import mass_of_surface as mass_of_surface
 
-_HOMES = {
-    "ShapeCache": "cache",
-    "no_rays": "cache",
-    "thinned_splats": "clouds.splats",
-    "decompose_in_steps": "decomposition",
-    "labels_of_pieces": "geometry.cutting.piece_labels",
-    "find_cuts": "geometry.cutting.planes",
-    "RefinedMesh": "geometry.cutting.refined",
-    "refined": "geometry.cutting.refined",
-    "labels_by_area": "geometry.cutting.piece_labels",
-    "build_hulls_in_steps": "hulls.build",
-    "refit_in_steps": "hulls.refit",
-    "faces_of": "hulls.outline",
-    "outline_of": "hulls.outline",
-    "mass_of_mesh": "solids.mass",
-    "mass_of_surface": "solids.mass",
-    "measure_in_steps": "measurement",
-    "Change": "parts.editing",
-    "compacted": "parts.editing",
-    "give": "parts.editing",
-    "mirror": "parts.editing",
-    "match_parts": "parts.matching",
-    "given_back": "parts.matching",
-    "describe": "parts.describe",
-    "notes_on_count": "parts.describe",
-    "mirror_pairs": "parts.pairs",
-    "PartMemo": "parts.part_memo",
-    "smooth_seams": "parts.seams.smoothing",
-    "draw_picture": "pictures",
-    "PointViewer": "sight.point_view",
-    "point_viewer_in_steps": "sight.point_view",
+_NAMES = {
+    "cache": ("ShapeCache", "no_rays"),
+    "clouds.splats": ("thinned_splats",),
+    "decomposition": ("decompose_in_steps",),
+    "geometry.cutting.piece_labels": ("labels_of_pieces", "labels_by_area"),
+    "geometry.cutting.planes": ("find_cuts",),
+    "geometry.cutting.refined": ("RefinedMesh", "refined"),
+    "hulls.build": ("build_hulls_in_steps",),
+    "hulls.refit": ("refit_in_steps",),
+    "hulls.outline": ("faces_of", "outline_of"),
+    "solids.mass": ("mass_of_mesh", "mass_of_surface"),
+    "measurement": ("measure_in_steps",),
+    "parts.editing": ("Change", "compacted", "give", "mirror"),
+    "parts.matching": ("match_parts", "given_back"),
+    "parts.describe": ("describe", "notes_on_count"),
+    "parts.pairs": ("mirror_pairs",),
+    "parts.part_memo": ("PartMemo",),
+    "parts.seams.smoothing": ("smooth_seams",),
+    "pictures": ("draw_picture",),
+    "sight.point_view": ("PointViewer", "point_viewer_in_steps"),
 }
-
-# The modules that the names come from, to be imported one at a time.
-MODULES = tuple(f"{__name__}.{home}" for home in dict.fromkeys(_HOMES.values()))
+_HOMES = {name: home for home, names in _NAMES.items() for name in names}
+# The modules, to be imported one at a time.
+MODULES = tuple(f"{__name__}.{home}" for home in _NAMES)
 
 
 def __getattr__(name: str) -> Any:
