@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import bpy
 from mathutils import Matrix
 
@@ -78,12 +80,20 @@ def takes_more(collection: bpy.types.Collection) -> bool:
 def _shown_in(layer: bpy.types.ViewLayer) -> dict[bpy.types.Collection, bool]:
     """Return the collections of a view layer, and of each whether it is shown."""
     found: dict[bpy.types.Collection, bool] = {}
+    for each in layer_collections(layer):
+        found[each.collection] = found.get(each.collection, False) or each.is_visible
+    return found
+
+
+def layer_collections(
+    layer: bpy.types.ViewLayer,
+) -> Iterator[bpy.types.LayerCollection]:
+    """Yield the collections of a view layer; one that is linked twice comes twice."""
     waiting = [layer.layer_collection]
     while waiting:
         each = waiting.pop()
-        found[each.collection] = found.get(each.collection, False) or each.is_visible
+        yield each
         waiting.extend(each.children)
-    return found
 
 
 def within_parent(obj: bpy.types.Object) -> Matrix:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import bpy
 
-from ...bridge.homes import objects_in, view_layers
+from ...bridge.homes import layer_collections, objects_in, view_layers
 from ...bridge.parts.erase import erase_parts
 from ...bridge.parts.materials import discard_unused
 from ...bridge.read.shown_mesh import new_mesh_of, shown_modifiers
@@ -56,7 +56,7 @@ def everything_shown() -> Iterator[list[bpy.types.ViewLayer]]:
     hidden += [
         collection
         for layer in layers
-        for collection in _with_children(layer.layer_collection)
+        for collection in layer_collections(layer)
         if collection.hide_viewport
     ]
     by_eye = [
@@ -78,15 +78,6 @@ def everything_shown() -> Iterator[list[bpy.types.ViewLayer]]:
             obj.hide_set(True, view_layer=layer)
         for owner in hidden:
             owner.hide_viewport = True
-
-
-def _with_children(
-    collection: bpy.types.LayerCollection,
-) -> Iterator[bpy.types.LayerCollection]:
-    """Yield a collection of a view layer and all below it."""
-    yield collection
-    for child in collection.children:
-        yield from _with_children(child)
 
 
 def apply_modifiers(objects: Iterable[bpy.types.Object]) -> dict[str, str]:
