@@ -49,16 +49,11 @@ def vertices_now(obj: bpy.types.Object) -> FloatArray:
 
 def normals_of(obj: bpy.types.Object) -> FloatArray | None:
     """Return the normals of a cloud, (N, 3), None if no attribute holds them."""
+    data = obj.data
     for name in _NORMALS:
-        normals = read_vectors(obj, name)
+        normals = read_attribute(data, name, "FLOAT_VECTOR", "POINT")
         if normals is not None:
             return normals
-    data = obj.data
     columns = [read_attribute(data, n, "FLOAT", "POINT") for n in _NORMALS_BY_AXIS]
     found = [column for column in columns if column is not None]
     return np.stack(found, axis=1) if len(found) == len(columns) else None
-
-
-def read_vectors(obj: bpy.types.Object, name: str) -> FloatArray | None:
-    """Return an attribute of vectors of the points, (N, 3), None if there is none."""
-    return read_attribute(obj.data, name, "FLOAT_VECTOR", "POINT")

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from .... import core
 from ....core.geometry.frames import moved
-from ...bridge.mesh.attributes import corner_vertices, write_ints
-from ...bridge.mesh.points import is_cloud, normals_of, positions_of, read_vectors
+from ...bridge.mesh.attributes import corner_vertices, read_attribute, write_ints
+from ...bridge.mesh.points import is_cloud, normals_of, positions_of
 from ...bridge.parts.materials import discard_unused, our_materials, own_materials
 from ...bridge.parts.read import find_parts_on
 from ...bridge.stored.names import NORMAL_LAYER
@@ -69,7 +69,7 @@ def splat_mesh(obj: bpy.types.Object) -> bpy.types.Mesh:
     The mesh is empty if the cloud was not decomposed.
     """
     points = positions_of(obj).astype(np.float64)
-    normals = read_vectors(obj, NORMAL_LAYER)
+    normals = read_attribute(obj.data, NORMAL_LAYER, "FLOAT_VECTOR", "POINT")
     if normals is None:
         normals = normals_of(obj)
     mesh = bpy.data.meshes.new(obj.name)
