@@ -5,10 +5,10 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-import tempfile
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 
 def swap(moves: Sequence[tuple[Path, Path]], owned: frozenset[str]) -> None:
@@ -30,39 +30,31 @@ def swap(moves: Sequence[tuple[Path, Path]], owned: frozenset[str]) -> None:
     OSError
         If something cannot be moved; everything is as it was then.
     """
-    rooms: list[Path] = []
-    back: list[tuple[Path, Path]] = []  # renames that undo what was done, oldest first
-    try:
+    with ExitStack() as rooms, ExitStack() as back:
+        waiting = []
         for new, goal in moves:
-            rooms.append(_room_for(new, goal))
-        for (_, goal), room in zip(moves, rooms, strict=True):
+            # A folder beside the goal, on its disk: new and old are in it for a while.
+            beside = TemporaryDirectory(
+                prefix=".wcd-", dir=goal.parent, ignore_cleanup_errors=True
+            )
+            room = Path(rooms.enter_context(beside))
+            _bring(new, room / "new", goal)
+            waiting.append((goal, room))
+        for goal, room in waiting:
             _replace(goal, room, owned, back)
-    except BaseException:
-        for now, before in reversed(back):
-            with suppress(FileNotFoundError):  # it was not renamed yet
-                os.replace(now, before)
-        _remove(rooms)
-        raise
-    _remove(rooms)
+        back.pop_all()
 
 
-def _room_for(new: Path, goal: Path) -> Path:
-    """Make a folder beside the goal, on its disk, and bring the new one there."""
-    room = Path(tempfile.mkdtemp(prefix=".wcd-", dir=goal.parent))
-    there = room / "new"
+def _bring(new: Path, there: Path, goal: Path) -> None:
+    """Bring a new file or folder near its goal, with the rights of what it replaces."""
     try:
-        try:
-            os.rename(new, there)
-        except OSError as error:
-            if error.errno != errno.EXDEV:
-                raise
-            _copy(new, there)
-        if goal.exists():
-            shutil.copymode(goal, there)
-    except BaseException:
-        _remove([room])
-        raise
-    return room
+        os.rename(new, there)
+    except OSError as error:
+        if error.errno != errno.EXDEV:
+            raise
+        _copy(new, there)
+    if goal.exists():
+        shutil.copymode(goal, there)
 
 
 def _copy(new: Path, there: Path) -> None:
@@ -77,33 +69,37 @@ def _copy(new: Path, there: Path) -> None:
                 os.fsync(opened.fileno())
 
 
-def _replace(
-    goal: Path, room: Path, owned: frozenset[str], back: list[tuple[Path, Path]]
-) -> None:
-    """Replace what is at `goal`; note in `back` how each step is undone."""
+def _replace(goal: Path, room: Path, owned: frozenset[str], back: ExitStack) -> None:
+    """Replace what is at `goal`; let `back` undo each step if there is an error."""
     new, old = room / "new", room / "old"
     if goal.is_dir() and not new.is_dir():
         raise IsADirectoryError(errno.EISDIR, f"{goal} is a folder")
     if goal.is_dir():
-        back.append((old, goal))
+        back.callback(_put_back, old, goal)
         os.rename(goal, old)
         for name in sorted(set(os.listdir(old)) - owned):
             if os.path.lexists(new / name):
                 raise FileExistsError(errno.EEXIST, f"{goal / name} is not ours")
-            back.append((new / name, old / name))
+            back.callback(_put_back, new / name, old / name)
             os.rename(old / name, new / name)
-        back.append((goal, new))
+        back.callback(_put_back, goal, new)
     elif goal.exists():
         try:
             os.link(goal, old)
         except OSError:  # not every disk has hard links
             shutil.copy2(goal, old)
-        back.append((old, goal))
+        back.callback(_put_back, old, goal)
     else:
-        back.append((goal, new))
+        back.callback(_put_back, goal, new)
     os.replace(new, goal)
     with suppress(OSError):  # Windows cannot wait for a folder
         _sync_folder(goal.parent)
+
+
+def _put_back(now: Path, before: Path) -> None:
+    """Undo a rename, if it was done."""
+    with suppress(FileNotFoundError):
+        os.replace(now, before)
 
 
 def _sync_folder(folder: Path) -> None:
@@ -113,9 +109,3 @@ def _sync_folder(folder: Path) -> None:
         os.fsync(opened)
     finally:
         os.close(opened)
-
-
-def _remove(rooms: Sequence[Path]) -> None:
-    """Remove the folders in which old and new waited."""
-    for room in rooms:
-        shutil.rmtree(room, ignore_errors=True)
