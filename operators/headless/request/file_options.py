@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -73,27 +74,14 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 
 def _add_outputs(files: argparse._ArgumentGroup) -> None:
     """Add the files to write."""
-    files.add_argument(
-        "--output",
-        metavar="OUTPUT",
-        action=_Once,
-        type=_name,
-        help="write the model with its parts",
-    )
-    files.add_argument(
+    add_file = partial(files.add_argument, action=_Once, type=_name)
+    add_file("--output", metavar="OUTPUT", help="write the model with its parts")
+    add_file(
         "--picture",
         metavar="PICTURE.png",
-        action=_Once,
-        type=_name,
         help="write a picture of the parts, seen from the front and the back",
     )
-    files.add_argument(
-        "--hulls",
-        metavar="HULLS",
-        action=_Once,
-        type=_name,
-        help="write collision hulls",
-    )
+    add_file("--hulls", metavar="HULLS", help="write collision hulls")
     files.add_argument(
         "--hulls-format",
         type=str.lower,
@@ -106,10 +94,9 @@ def _add_outputs(files: argparse._ArgumentGroup) -> None:
         action="store_true",
         help=f"put collision hulls into OUTPUT, too ({' '.join(HULLS_WITHIN_ENDINGS)})",
     )
-    files.add_argument(
+    add_file(
         "--report",
         metavar="FILE.json",
-        action=_Once,
         type=_path,
         help="write the parameters and the parts with their areas and convexity ranks"
         " as JSON; - prints it to standard output, and results to standard error",
