@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import bpy
 
@@ -49,24 +49,19 @@ def evaluated(
     Instances that Geometry Nodes make are faces of its mesh. What its `to_mesh` makes
     is removed at the end.
     """
-    views = [m for m in obj.modifiers if m.show_viewport and is_view(m)]
-    active = obj.modifiers.active
-    for modifier in views:
-        modifier.show_viewport = False
-    try:
+    with ExitStack() as back:
+        back.callback(setattr, obj.modifiers, "active", obj.modifiers.active)
+        for modifier in obj.modifiers:
+            if modifier.show_viewport and is_view(modifier):
+                modifier.show_viewport = False
+                back.callback(setattr, modifier, "show_viewport", True)
         if any(each.type == "NODES" for each in shown_modifiers(obj)):
+            back.callback(remove_modifier, obj, REALIZE_TAG)
             _realize_instances(obj)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         found = obj.evaluated_get(depsgraph)
-        try:
-            yield found, depsgraph
-        finally:
-            found.to_mesh_clear()
-    finally:
-        remove_modifier(obj, REALIZE_TAG)
-        obj.modifiers.active = active
-        for modifier in views:
-            modifier.show_viewport = True
+        back.callback(found.to_mesh_clear)
+        yield found, depsgraph
 
 
 def _realize_instances(obj: bpy.types.Object) -> None:
