@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8
 from collections.abc import Iterator
 from pathlib import Path
 
-# UTF-8 text may begin with it.
-BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 # No file has as many rows as a number with more digits; Python refuses thousands.
 MOST_DIGITS = 18
 
@@ -16,7 +15,7 @@ def lines_of(path: Path) -> Iterator[str]:
 
     A byte order mark counts for nothing, and lines may end as on old Macs.
     """
-    lines = path.read_bytes().removeprefix(BYTE_ORDER_MARK).splitlines()
+    lines = path.read_bytes().removeprefix(BOM_UTF8).splitlines()
     texts = (line.partition(b"#")[0].strip().decode("latin-1") for line in lines)
     yield from filter(None, texts)
 

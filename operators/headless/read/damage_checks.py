@@ -8,11 +8,12 @@ from __future__ import annotations
 import os
 import re
 import zipfile
+from codecs import BOM_UTF8
 from pathlib import Path
 
 from ....core.errors import DecompositionError
 from ..files.headers import n_stl_triangles, read_header
-from ..files.text import BYTE_ORDER_MARK, MOST_DIGITS
+from ..files.text import MOST_DIGITS
 from ..formats import READ_ENDINGS
 from .face_checks import mesh_without_its_points, refers_to_missing
 from .ply_names import misnamed
@@ -51,7 +52,7 @@ _STL_WORD = re.compile(rb"\n[ \t]*vertex(?!(?:\s++%b){3})" % _NUMBER)
 # Words of .stl and .obj files that Blender knows in small letters alone.
 _CAPITALS = re.compile(rb"\n[ \t]*(?:(?!vertex)(?i:vertex)|[VF])\s")
 # The mark with a line behind it that Blender then does not know.
-_MARKED = re.compile(BYTE_ORDER_MARK + rb"[ \t]*[^#\s]")
+_MARKED = re.compile(BOM_UTF8 + rb"[ \t]*[^#\s]")
 # Numbers on a line of an .obj file, by keyword, at least.
 _N_OBJ_NUMBERS = {"v": 3, "vn": 3, "vt": 1, "f": 3}
 

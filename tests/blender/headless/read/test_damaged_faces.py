@@ -2,6 +2,7 @@
 
 import struct
 import time
+from codecs import BOM_UTF8
 
 import bpy
 import numpy as np
@@ -10,7 +11,6 @@ from hand_made import add_ring, decompose_by_hand
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.files.headers import read_header
-from weak_convex_decomposition.operators.headless.files.text import BYTE_ORDER_MARK
 from weak_convex_decomposition.operators.headless.read.face_checks import (
     refers_to_missing,
 )
@@ -224,11 +224,11 @@ def test_text_that_blender_cannot_read(tmp_path, unexpected):
     }
     for ending, contents in texts.items():
         for text in contents:
-            marked = BYTE_ORDER_MARK + text.encode(), "begins with a byte order mark"
+            marked = BOM_UTF8 + text.encode(), "begins with a byte order mark"
             old = text.replace("\n", "\r").encode(), "has line ends of old Macs"
             assert unexpected({f"a{ending}": marked, f"b{ending}": old}) == {}
     path = tmp_path / "b.obj"
-    path.write_bytes(BYTE_ORDER_MARK + f"# of another program\n{TRIANGLE}".encode())
+    path.write_bytes(BOM_UTF8 + f"# of another program\n{TRIANGLE}".encode())
     assert len(load(path)[0].data.polygons) == 1
 
 
