@@ -17,7 +17,7 @@ from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
 from ..core.results.hulls import HullDecomposition
 from ..core.results.parts import Decomposition, Measurement
-from ..core.steps.progress import Progress, Steps, T, mapped, run
+from ..core.steps.progress import Steps, T, run
 from .bridge.rays.choice import choose_ray_caster
 from .bridge.read.arrays import mesh_of, scene_unit_of, shape_of
 
@@ -239,11 +239,6 @@ def _finish(steps: Steps[T], progress: ShowProgress | None) -> T:
             "`progress` must be a function of stage and fraction, not"
             f" {described(progress)}."
         )
-
-    def tell(now: Progress) -> Progress:
-        progress(now.stage, float(now.fraction))
-        return now
-
-    found = run(mapped(steps, tell))
+    found = run(steps, lambda now: progress(now.stage, float(now.fraction)))
     progress("Done", 1.0)
     return found

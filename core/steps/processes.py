@@ -23,7 +23,7 @@ from typing import IO, Any
 
 from ..errors import DecompositionError
 from .memo import Memo
-from .progress import Progress, Steps, T, mapped, run
+from .progress import Progress, Steps, T, run
 
 # More processes hardly help: one process writes what the others compute.
 _MOST = 8
@@ -65,24 +65,23 @@ def serve() -> None:
             compute, arguments = pickle.load(calls)
             answer: tuple[Any, str | None]
             try:
-                answer = run(_reported(compute(*arguments), answers)), None
+                answer = run(compute(*arguments), _teller(answers)), None
             except DecompositionError as error:
                 answer = None, str(error)
             _send(answer, answers)
 
 
-def _reported(steps: Steps[T], answers: IO[bytes]) -> Steps[T]:
-    """Run `steps` and send their progress now and then."""
+def _teller(answers: IO[bytes]) -> Callable[[Progress], None]:
+    """Return what sends progress now and then."""
     sent = time.monotonic()
 
-    def report(progress: Progress) -> Progress:
+    def tell(progress: Progress) -> None:
         nonlocal sent
         if time.monotonic() > sent + _SECONDS:
             _send(progress, answers)
             sent = time.monotonic()
-        return progress
 
-    return mapped(steps, report)
+    return tell
 
 
 def _send(value: Any, answers: IO[bytes]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -30,13 +31,15 @@ class Progress:
 Steps = Generator[Progress, None, T]
 
 
-def run(steps: Steps[T]) -> T:
+def run(steps: Steps[T], tell: Callable[[Progress], None] | None = None) -> T:
     """Run `steps` to the end without a pause and return their value.
 
     Parameters
     ----------
     steps : Steps
         The computation.
+    tell : callable, optional
+        Takes each `Progress` that the computation reports.
 
     Returns
     -------
@@ -52,11 +55,14 @@ def run(steps: Steps[T]) -> T:
     >>> run(count())
     3
     """
-    while True:
-        try:
-            next(steps)
-        except StopIteration as stop:
-            return stop.value
+    with closing(steps):  # even if `tell` raises
+        while True:
+            try:
+                progress = next(steps)
+            except StopIteration as stop:
+                return stop.value
+            if tell is not None:
+                tell(progress)
 
 
 def as_steps(value: T) -> Steps[T]:
@@ -80,15 +86,13 @@ def mapped(steps: Steps[T], change: Callable[[Progress], Progress]) -> Steps[T]:
     Steps
         With the same value.
     """
-    try:
+    with closing(steps):
         while True:
             try:
                 progress = next(steps)
             except StopIteration as stop:
                 return stop.value
             yield change(progress)
-    finally:
-        steps.close()
 
 
 def within(steps: Steps[T], low: float, high: float) -> Steps[T]:

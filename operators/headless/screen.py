@@ -7,9 +7,10 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import TextIO
 
-from ...core.steps.progress import Progress, Steps, T, mapped, run
+from ...core.steps.progress import Progress, Steps, T, run
 from .formats import one_line
 from .request.option_names import with_options
 from .stages import Stages
@@ -79,12 +80,7 @@ class Screen:
 
     def follow(self, title: str, steps: Steps[T]) -> T:
         """Finish a computation, show its progress and return its value."""
-
-        def show(progress: Progress) -> Progress:
-            self.progress(title, progress)
-            return progress
-
-        return run(mapped(self.stages.watched(steps), show))
+        return run(self.stages.watched(steps), partial(self.progress, title))
 
     def progress(self, title: str, progress: Progress) -> None:
         """Show where a computation stands, unless something was just shown."""

@@ -27,6 +27,20 @@ def test_run_lets_errors_through():
         run(failing())
 
 
+def test_run_tells_of_progress_and_closes_the_steps_if_that_fails():
+    told, log = [], []
+    assert run(counting(2), lambda progress: told.append(progress.fraction)) == 2
+    assert told == [0.0, 0.5]
+
+    def failing(progress):
+        raise ValueError("no")
+
+    steps = counting(2, log)
+    with pytest.raises(ValueError, match="no"):
+        run(steps, failing)
+    assert log == ["closed"]
+
+
 def test_within_shrinks_fractions_and_keeps_stage_and_value():
     def outer():
         return (yield from within(within(counting(4), 0.0, 0.5), 0.5, 0.9))
