@@ -130,9 +130,8 @@ def brief(figure: float) -> str:
     """
     if 0.0 < figure < 0.005 or figure >= 9999.5:
         return in_powers(figure, 0)
-    return next(
-        f"{figure:.{n}f}" for n in (2, 1, 0) if figure < 10 ** (3 - n) or n == 0
-    )
+    digits = 2 if figure < 10 else 1 if figure < 100 else 0
+    return f"{figure:.{digits}f}"
 
 
 def _cell(line: bpy.types.UILayout, name: str, text: str) -> None:
@@ -161,10 +160,9 @@ def draw_table(layout: bpy.types.UILayout, obj: bpy.types.Object, width: float) 
     n_rows = len(obj.wcd_parts)
     for name in headings(hull_rows_of(obj), width, n_rows):
         _cell(heading, name, name)
-    for _ in range(
-        2 if n_rows > _MOST_ROWS else 1
-    ):  # below are the padlock and a scroll bar
-        heading.label(text="", icon="BLANK1")
+    heading.label(text="", icon="BLANK1")  # above the padlocks
+    if n_rows > _MOST_ROWS:
+        heading.label(text="", icon="BLANK1")  # above the scroll bar
     layout.template_list(
         "WCD_UL_parts",
         "",

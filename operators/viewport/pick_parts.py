@@ -233,7 +233,9 @@ def _refusal(context: bpy.types.Context) -> str | None:
         return "Parts are picked in Object Mode, or a mesh's Edit Mode; switch the mode"
     reason = faces_refusal(context.active_object)
     noted = (obj for obj in context.visible_objects if RESULT in obj)
-    return reason and (None if any(not faces_refusal(obj) for obj in noted) else reason)
+    if reason and any(not faces_refusal(obj) for obj in noted):
+        return None
+    return reason
 
 
 def _modified(event: bpy.types.Event) -> bool:
