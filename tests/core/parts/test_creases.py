@@ -114,11 +114,15 @@ def test_other_numbers_and_limits_are_kept():
     assert found(min_parts=4, max_parts=6).n_parts >= 4
 
 
-def test_what_lies_between_a_seam_and_a_loop_is_no_part():
-    """Two balls without a loop between them, and a tail behind a step."""
+@pytest.mark.parametrize("tip", [0.25, 0.1])
+def test_what_lies_between_a_seam_and_a_loop_is_no_part(tip):
+    """Two balls without a loop between them, and a tail behind a step.
+
+    Where the tail tapers, the loop around its foot is longer than the seam beside it.
+    """
     heights = np.array([*np.linspace(-4, 2, 73), 2.0, 2.05, *np.linspace(2.1, 4, 8)])
     radii = 0.5 + 0.5 * np.sin(np.pi * (heights + 4) / 3) ** 2
-    radii[73:], radii[[0, -1]] = 0.25, 0.0
+    radii[73:], radii[[0, -1]] = np.linspace(0.25, tip, 10), 0.0
     parameters = Parameters(samples=300, smallest_part=0.002)
     memo = see(shapes.turned(radii, heights, 32), parameters)
     creases = part_count_search(memo, parameters, 2, 9).creases
@@ -128,6 +132,7 @@ def test_what_lies_between_a_seam_and_a_loop_is_no_part():
     found = creases.better(beside, 1, 9)
     assert found is not beside
     assert len(set(found)) == 3
+    assert set(found[along < step - 1e-3]).isdisjoint(found[along > step + 1e-3])
 
 
 @pytest.mark.parametrize(("bend", "expected"), [(0.17, 1), (0.2, 2)])
