@@ -60,9 +60,12 @@ class Limb:
 
     def __init__(self, part: PartSurface, far: NDArray[np.float64]) -> None:
         self.part, self.far, self.length = part, far, float(far.max())
-        area = float(part.graph.areas.sum())
+        areas = part.graph.areas
+        area = float(areas.sum())
         self.radius = area / (2 * np.pi * self.length)
-        most = min(self.length / self.radius / _SLICE, len(far) / _NODES_OF_SLICE)
+        # So many of equal area tell as much: small ones beside large ones tell little.
+        n_nodes = area**2 / float(areas @ areas)
+        most = min(self.length / self.radius / _SLICE, n_nodes / _NODES_OF_SLICE)
         self._n_slices = int(most)
         self.is_fine = most >= self.length / self.radius / _MOST_SLICE
 

@@ -68,7 +68,11 @@ def limb(radii, turn=0.0):
     path = np.cumsum(0.25 * np.stack([np.sin(ways), np.cos(ways)], axis=1), axis=0)
     aside, up = (np.interp(along, heights, column) for column in path.T)
     bent = [aside + x * np.cos(angles), y, up - x * np.sin(angles)]
-    mesh = replace(mesh, vertices=np.stack(bent, axis=1))
+    return hanging(replace(mesh, vertices=np.stack(bent, axis=1)))
+
+
+def hanging(mesh):
+    """Return a mesh that hangs from its upper end as a limb, None if it is none."""
     graph = graph_of(mesh)
     at_seams = np.zeros(graph.n_polygons, dtype=bool)
     at_seams[np.argsort(graph.centers[:, 2])[-32:]] = True
@@ -82,6 +86,15 @@ def test_necks_are_where_a_limb_is_thinnest():
     middles = [found.far[joints.pieces == piece].mean() for piece in (2, 1, 0)]
     assert len(joints.sizes) == 2
     assert np.diff(middles) == pytest.approx(8, abs=1)
+
+
+@pytest.mark.parametrize(("end", "is_limb"), [(12.0, True), (1.0, False)])
+def test_small_faces_at_the_ends_tell_nothing_between(end, is_limb):
+    """The faces between them are as many and as wide, but long."""
+    lower = np.linspace(0, end, 49)
+    heights = np.concatenate([lower, 24.5 - lower[::-1]])
+    found = hanging(shapes.turned(np.full(98, 1.0), heights))
+    assert (found is not None) == is_limb
 
 
 @pytest.mark.parametrize("end", [0.3, 1.0])
