@@ -89,7 +89,7 @@ class SeamCutter:
             Part of each node, in 0…K − 1.
         enough : float, optional
             Least psi. By default seams cost at most what the moves of samples gained
-            over k-means.
+            over k-means, or the sampling error.
 
         Returns
         -------
@@ -107,7 +107,8 @@ class SeamCutter:
             enough = -np.inf
         elif enough is None:
             enough = min(
-                partitioner.psi(partitioner.plain(n_parts)), partitioner.psi(parts)
+                partitioner.psi(partitioner.plain(n_parts)),
+                partitioner.psi(parts) - 2 * partitioner.negligible,
             )
         costs = yield from within(self._costs_of_nodes(parts, n_parts), 0.0, 0.0)
         yield Progress("Seams", 0.0)

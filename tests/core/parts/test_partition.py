@@ -124,14 +124,24 @@ def test_seams_get_short_at_the_end_if_all_cuts_cost_too_much_psi(seen):
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
 @pytest.mark.parametrize("n_parts", [2, 3, 5])
-def test_seams_leave_psi_at_or_above_that_of_k_means(seen, make, n_parts):
+def test_seams_cost_no_more_than_moves_gained_or_sampling_errs(seen, make, n_parts):
     memo = seen(make)
     heavy = replace(PARAMETERS, smoothness=20.0)
     partitioner = Partitioner(memo, heavy)
     parts = partitioner.partition(n_parts)
     plain = Partitioner(seen(make), replace(heavy, refinement="EMBEDDING"))
-    won = min(partitioner.psi(parts), plain.psi(plain.partition(n_parts)))
-    assert partitioner.psi(cut_seams_of(partitioner, parts)) >= won
+    noise = 2 * partitioner.negligible
+    enough = min(partitioner.psi(parts) - noise, plain.psi(plain.partition(n_parts)))
+    assert partitioner.psi(cut_seams_of(partitioner, parts)) >= enough
+
+
+def test_seams_get_short_where_moves_gained_nothing(seen):
+    """A third of a seam for 0.002 of psi."""
+    partitioner = Partitioner(seen(shapes.dumbbell), PARAMETERS)
+    parts = partitioner.plain(2)
+    cut, borders = cut_seams_of(partitioner, parts), partitioner.graph.borders
+    assert partitioner.psi(cut) < partitioner.psi(parts)
+    assert borders(cut, 2).sum() < 0.7 * borders(parts, 2).sum()
 
 
 def test_a_large_smallest_part_leaves_few(seen):
