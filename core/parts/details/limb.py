@@ -64,7 +64,7 @@ class Limb:
         area = float(areas.sum())
         self.radius = area / (2 * np.pi * self.length)
         # So many of equal area tell as much: small ones beside large ones tell little.
-        n_nodes = area**2 / float(areas @ areas)
+        n_nodes = area**2 / float(np.square(areas).sum())
         most = min(self.length / self.radius / _SLICE, n_nodes / _NODES_OF_SLICE)
         self._n_slices = int(most)
         self.is_fine = most >= self.length / self.radius / _MOST_SLICE
