@@ -63,7 +63,8 @@ def test_a_property_of_somebody_else_ends_the_work_on_one_object(
     capfd.readouterr()
     status, entries = run_on(path, models[0], path, models[1])
     assert status == 1
-    errors = [line for line in capfd.readouterr().err.splitlines() if "error" in line]
+    said = capfd.readouterr().err.splitlines()
+    errors = [line for line in said if "error:" in line]
     assert len(errors) == 1
     assert errors[0].startswith(f"error: {path}, A: ")
     assert [[bool(obj["error"]) for obj in entry["objects"]] for entry in entries] == [

@@ -18,11 +18,11 @@ def model(tmp_path):
     """Return a file of four tori, the last with the mesh of the first, and a plane."""
     for place in range(3):
         bpy.ops.mesh.primitive_torus_add(
-            major_segments=8, minor_segments=4, minor_radius=0.2 + 0.1 * place
+            major_segments=8, minor_segments=4, minor_radius=0.2 + 0.05 * place
         )
         bpy.context.object.location = (3 * place, 0, 0)
     torus = bpy.data.objects["Torus"].copy()
-    torus.location, torus.scale = (0, 5, 0), (1, 2, 1)
+    torus.location, torus.scale = (0, 5, 0), (1, 1.2, 1)
     bpy.context.collection.objects.link(torus)
     bpy.ops.mesh.primitive_plane_add()
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in.blend"), copy=True)
