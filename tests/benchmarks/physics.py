@@ -27,11 +27,10 @@ def figures(path):
     mesh = simulation.on_the_ground(read_shape(obj))
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
+        words = "--report", report
+        file = simulation.hull_file(Path(folder), "model.xml", mesh, *words)
         loose, fixed = (
-            simulation.hulls_in_mujoco(
-                Path(folder), name, mesh, "--report", report, loose=name == "loose"
-            )
-            for name in ("loose", "fixed")
+            simulation.in_mujoco(file, loose=is_loose) for is_loose in (True, False)
         )
         hulls = json.loads(report.read_text())["inputs"][0]["objects"][0]["hulls"]
         data = simulation.dropped(loose, SECONDS)

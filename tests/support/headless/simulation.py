@@ -38,9 +38,8 @@ def hull_file(folder, name, mesh, *words):
     return file
 
 
-def hulls_in_mujoco(folder, name, mesh, *words, loose):
-    """Return what MuJoCo reads of a mesh's hulls: a body that may fall, or stays."""
-    file = hull_file(folder, f"{name}.xml", mesh, *words)
+def in_mujoco(file, *, loose):
+    """Return what MuJoCo reads of a file of hulls: a body that may fall, or stays."""
     spec = mujoco.MjSpec.from_file(str(file))
     if not loose:
         spec.delete(spec.worldbody.first_body().first_joint())

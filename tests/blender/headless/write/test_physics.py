@@ -1,5 +1,7 @@
 """Hulls in a physics engine: compounds fall, balls rest on them and in them."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import shapes
@@ -19,15 +21,22 @@ MODELS = {
 }
 
 
-def simulated(folder, name, loose):
-    """Return a model on the ground, and its hulls as MuJoCo reads them."""
-    mesh = simulation.on_the_ground(MODELS[name]())
-    return mesh, simulation.hulls_in_mujoco(folder, name, mesh, loose=loose)
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """Return a function from "name.ending" to a model on the ground and its hulls."""
+
+    @cache
+    def found(file):
+        mesh = simulation.on_the_ground(MODELS[file.partition(".")[0]]())
+        return mesh, simulation.hull_file(tmp_path_factory.mktemp(file), file, mesh)
+
+    return found
 
 
 @pytest.mark.parametrize("name", ["chair", "mug", "dumbbell"])
-def test_compounds_come_to_rest(tmp_path, name):
-    _, spec = simulated(tmp_path, name, loose=True)
+def test_compounds_come_to_rest(built, name):
+    _, file = built(f"{name}.xml")
+    spec = simulation.in_mujoco(file, loose=True)
     assert len(simulation.hulls_in(spec)) >= 2
     data = simulation.dropped(spec, 4.5)
     assert np.abs(data.qvel).max() < 0.02
@@ -40,15 +49,18 @@ def test_compounds_come_to_rest(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["chair", "mug", "dumbbell"])
-def test_small_balls_rest_on_the_surface(tmp_path, name):
-    gaps = simulation.gaps_below_balls(*simulated(tmp_path, name, loose=False))
+def test_small_balls_rest_on_the_surface(built, name):
+    mesh, file = built(f"{name}.xml")
+    spec = simulation.in_mujoco(file, loose=False)
+    gaps = simulation.gaps_below_balls(mesh, spec)
     assert len(gaps) > 10
     assert np.abs(gaps).max() < ERROR
 
 
 @pytest.mark.parametrize(("name", "floor"), [("bowl", 0.08), ("mug", 0.12)])
-def test_vessels_hold_a_ball(tmp_path, name, floor):
-    mesh, spec = simulated(tmp_path, name, loose=False)
+def test_vessels_hold_a_ball(built, name, floor):
+    mesh, file = built(f"{name}.xml")
+    spec = simulation.in_mujoco(file, loose=False)
     assert len(simulation.hulls_in(spec)) <= 32
     radius, rim = 0.3, mesh.vertices[:, 2].max()
     inside = 0.0 if name == "bowl" else 0.5 * (mesh.vertices[:, 0].min() + 0.7)
@@ -59,9 +71,8 @@ def test_vessels_hold_a_ball(tmp_path, name, floor):
 
 
 @pytest.mark.parametrize("ending", ["xml", "urdf"])
-def test_simulators_read_names_and_places(tmp_path, ending):
-    mesh = simulation.on_the_ground(shapes.chair())
-    file = simulation.hull_file(tmp_path, f"chair.{ending}", mesh)
+def test_simulators_read_names_and_places(built, ending):
+    mesh, file = built(f"chair.{ending}")
     model = mujoco.MjModel.from_xml_path(str(file))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
