@@ -13,6 +13,7 @@ from ...clusters.moves import MoveGains
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
+from ..merging.pieces import connected_parts
 from ..part_memo import SeamsKey
 from ..part_psi import count_parts
 from ..partition import Partitioner
@@ -148,7 +149,8 @@ class SeamCutter:
         yield Progress("Seams", 0.9)
         smooth, _ = self._none_lost(smooth, parts)
         yield Progress("Seams", 0.9)
-        smooth = self._partitioner.tidied(smooth, n_parts)
+        # A part that is torn in two, where it is narrow, makes one part more.
+        smooth = connected_parts(graph, smooth, self._partitioner.smallest_area)
         smooth = yield from within(self._evened(smooth, -np.inf), 0.9, 1.0)
         return Seams(smooth if count_parts(smooth) == n_parts else parts, smoothness)
 

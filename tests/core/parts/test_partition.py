@@ -4,7 +4,7 @@ import changes
 import numpy as np
 import pytest
 import shapes
-from computed import cut_seams_of, search_part_count
+from computed import cut_seams_of, search_part_count, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
 from weak_convex_decomposition.core.parts.part_psi import count_parts
 from weak_convex_decomposition.core.parts.partition import Partitioner
@@ -120,6 +120,19 @@ def test_seams_get_short_at_the_end_if_all_cuts_cost_too_much_psi(seen):
     borders = partitioner.graph.borders
     assert borders(smooth.parts, 5).sum() < borders(parts, 5).sum()
     assert (smooth.parts == parts).mean() > 0.8
+
+
+def test_short_seams_tear_no_part_in_two():
+    """Of two bars that cross, one is whole on a narrow strip of the other one's back."""
+    bars = ((0, 24), (9, 15), (0, 6)), ((9, 15), (0, 24), (0, 6))
+    mesh = shapes.blocks((24, 24, 6), *bars)
+    partitioner = Partitioner(see(mesh, PARAMETERS), PARAMETERS)
+    x, y, z = partitioner.graph.centers.T * mesh.diagonal  # in cells, from the middle
+    strip = (np.abs(y) < 1) & (z < -2.9)
+    parts = np.where((np.abs(x) < 3) & ~strip, 0, 1)
+    cutter = SeamCutter(partitioner)
+    smooth = run(cutter.smoothed(run(cutter.cut(parts, np.inf))))
+    assert (smooth.parts == parts).mean() > 0.95
 
 
 @pytest.mark.parametrize("make", SHAPES, ids=by_name)
