@@ -123,7 +123,7 @@ def test_seams_get_short_at_the_end_if_all_cuts_cost_too_much_psi(seen):
 
 
 def test_short_seams_tear_no_part_in_two():
-    """Of two bars that cross, one is whole on a narrow strip of the other one's back."""
+    """Of two bars that cross, one is whole on a strip of the other one's back."""
     bars = ((0, 24), (9, 15), (0, 6)), ((9, 15), (0, 24), (0, 6))
     mesh = shapes.blocks((24, 24, 6), *bars)
     partitioner = Partitioner(see(mesh, PARAMETERS), PARAMETERS)
