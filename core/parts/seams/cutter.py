@@ -144,15 +144,19 @@ class SeamCutter:
         graph, n_parts = self._partitioner.graph, count_parts(parts)
         areas = np.bincount(parts, graph.areas * ragged)
         chosen = np.flatnonzero(areas > _MOSTLY * graph.areas_of(parts))
-        steps = smooth_seams(graph, parts, chosen.tolist(), smoothness, _SWEEPS)
-        smooth = yield from within(steps, 0.0, 0.9)
-        yield Progress("Seams", 0.9)
-        smooth, _ = self._none_lost(smooth, parts)
-        yield Progress("Seams", 0.9)
-        # A part that is torn in two, where it is narrow, makes one part more.
-        smooth = connected_parts(graph, smooth, self._partitioner.smallest_area)
-        smooth = yield from within(self._evened(smooth, -np.inf), 0.9, 1.0)
-        return Seams(smooth if count_parts(smooth) == n_parts else parts, smoothness)
+        for share in _SOFTER:
+            weight = share * smoothness
+            steps = smooth_seams(graph, parts, chosen.tolist(), weight, _SWEEPS)
+            smooth = yield from within(steps, 0.0, 0.9)
+            yield Progress("Seams", 0.9)
+            smooth, _ = self._none_lost(smooth, parts)
+            yield Progress("Seams", 0.9)
+            # A part that is torn in two, where it is narrow, makes one part more.
+            smooth = connected_parts(graph, smooth, self._partitioner.smallest_area)
+            if count_parts(smooth) == n_parts:
+                smooth = yield from within(self._evened(smooth, -np.inf), 0.9, 1.0)
+                return Seams(smooth, smoothness)
+        return Seams(parts, smoothness)
 
     def _none_lost(
         self, cut: NDArray[np.int64], parts: NDArray[np.int64]
