@@ -100,6 +100,8 @@ class CreaseParts:
     ) -> NDArray[np.int64]:
         """Return the best of some parts, the pieces, both seams, shells, and one part.
 
+        If `low` is below `high`, seams that gain next to nothing are left out of it.
+
         Parameters
         ----------
         parts : (P,) int
@@ -112,7 +114,7 @@ class CreaseParts:
         Returns
         -------
         (P,) int
-            `parts` itself if nothing is better.
+            `parts` itself if nothing is better and all its seams gain.
         """
         found, n_pieces = list(others), count_parts(self.pieces)
         by = self._partitioner
@@ -131,7 +133,7 @@ class CreaseParts:
     def _without_idle_seams(
         self, parts: NDArray[np.int64], low: int
     ) -> NDArray[np.int64]:
-        """Return the parts, (P,), merged where a seam gains less than it costs.
+        """Return the parts, (P,), merged where a seam gains a small share of its cost.
 
         They stay as they are if fewer than `low` would be left.
         """
@@ -145,8 +147,7 @@ class CreaseParts:
         """Return the parts, cut along the loops too; at most so many (P,)."""
         by, n_pieces = self._partitioner, count_parts(self.pieces)
         # What is small joins across seams rather than across loops: these are cut.
-        one, other = self.pieces[by.graph.neighbors].T
-        lengths = np.where(one != other, _TINY, 1.0) * by.graph.lengths
+        lengths = np.where(self._on_loops, _TINY, 1.0) * by.graph.lengths
         graph = replace(by.graph, lengths=lengths)
         finer = parts * n_pieces + self.pieces
         finer = connected_parts(graph, finer, by.smallest_area)
@@ -170,9 +171,14 @@ class CreaseParts:
         crease. So that much is taken off.
         """
         graph = self._partitioner.graph
-        one, other = self.pieces[graph.neighbors].T
-        saved = np.where(one != other, graph.lengths - graph.seam_costs, 0.0)
+        saved = np.where(self._on_loops, graph.lengths - graph.seam_costs, 0.0)
         return _price(graph) * (graph.seam_costs - saved)
+
+    @cached_property
+    def _on_loops(self) -> NDArray[np.bool_]:
+        """(E,) whether each edge is on a loop, between two pieces."""
+        one, other = self.pieces[self._partitioner.graph.neighbors].T
+        return one != other
 
 
 def _price(graph: FaceGraph) -> float:
