@@ -4,12 +4,13 @@ Several processes share the tests, file by file: see `pytest_xdist_make_schedule
 tests/conftest.py. Each has a Blender of its own.
 
 Blender 4.2 crashes now and then in a process that has loaded hundreds of files, so that
-each file of its tests has a process of its own there, one after the other.
+each file of its tests has a process of its own there, several at a time.
 """
 
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
 
@@ -20,25 +21,38 @@ NOTHING_COLLECTED = 5
 MOST_PROCESSES = 4
 
 
-def groups() -> list[list[str]]:
-    """Return the arguments of each run of pytest."""
-    if version("bpy").startswith("4.2"):
-        files = sorted(RING.rglob("test_*.py"))
-        return [[str(TESTS), f"--ignore={RING}"], *([str(path)] for path in files)]
-    number = min(MOST_PROCESSES, os.cpu_count() or 1)
+def in_processes(number: int, *arguments: str) -> list[str]:
+    """Return what makes pytest share its tests among processes."""
     # Files start in the order that tests/conftest.py gives them.
-    return [[str(TESTS), f"-n{number}", "--dist=loadfile", "--no-loadscope-reorder"]]
+    sharing = [f"-n{number}", "--dist=loadfile", "--no-loadscope-reorder"]
+    return [str(TESTS), *sharing, *arguments]
+
+
+def test(arguments: list[str], **options: object) -> subprocess.CompletedProcess:
+    """Run pytest, with options of `subprocess.run`."""
+    command = [sys.executable, "-m", "pytest", *arguments, *sys.argv[1:]]
+    return subprocess.run(command, **options)
+
+
+def test_file(path: Path) -> subprocess.CompletedProcess:
+    """Test one file alone, and print all of its output at once."""
+    run = test([str(path)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    print(run.stdout, end="", flush=True)
+    return run
 
 
 def main() -> int:
     """Return 0 if all tests passed."""
-    failed = []
-    for group in groups():
-        command = [sys.executable, "-m", "pytest", *group, *sys.argv[1:]]
-        if subprocess.run(command).returncode not in {0, NOTHING_COLLECTED}:
-            failed.append(" ".join(group))
-    if failed:
-        print(f"Failed: {', '.join(failed)}", file=sys.stderr)
+    number = min(MOST_PROCESSES, os.cpu_count() or 1)
+    if version("bpy").startswith("4.2"):
+        runs = [test(in_processes(number, f"--ignore={RING}"))]
+        with ThreadPoolExecutor(number) as pool:
+            runs += pool.map(test_file, sorted(RING.rglob("test_*.py")))
+    else:
+        runs = [test(in_processes(number))]
+    failed = [run for run in runs if run.returncode not in {0, NOTHING_COLLECTED}]
+    for run in failed:
+        print(f"Failed: {' '.join(run.args[3:])}", file=sys.stderr)
     return 1 if failed else 0
 
 
