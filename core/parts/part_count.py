@@ -181,7 +181,7 @@ class PartCountSearch:
         best, by = max(psi_by_k, key=psi_by_k.__getitem__), self.partitioner
         most = psi_by_k[best]
         share = min(tolerance, _OF_ONE_PART / best) * _strictness(by.parameters.alpha)
-        enough = most - max(2 * by.negligible, share * (most - psi_by_k[1]))
+        enough = most - max(by.sampling_error, share * (most - psi_by_k[1]))
         return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
@@ -231,7 +231,7 @@ class PartCountSearch:
             for even in (yield from within_turn(steps, number, len(uneven))):
                 n_parts = count_parts(even.parts)
                 rival = found.get(n_parts, tried[n_parts])
-                slack = 0.0 if rival.even else 2 * by.negligible
+                slack = 0.0 if rival.even else by.sampling_error
                 if even.psi >= rival.psi - slack:
                     found[n_parts] = even
         return tried | found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -113,7 +114,6 @@ class PartMemo:
         self.patches: Patches | None = None
         self.tried: dict[int, Candidate] = {}
         self._transfer: Transfer | None = None
-        self._nearest: NearestSamples | None = None
         # Once it was looked for: (None,) if the shape has no mirror plane.
         self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
@@ -194,6 +194,12 @@ class PartMemo:
         """Return labels of the patches, if there are any, as those of the nodes."""
         return labels if self.patches is None else labels[self.patches.of_nodes]
 
+    @cached_property
+    def _nearest(self) -> NearestSamples:
+        """Finds the samples that are nearest to nodes of other graphs."""
+        samples = self.visibility.samples
+        return NearestSamples(samples, spacing_of(samples, self.transfer.graph))
+
     def on(
         self, graph: FaceGraph, nodes: NDArray[np.int64], numbers: NDArray[np.int64]
     ) -> Steps[PartMemo]:
@@ -214,19 +220,11 @@ class PartMemo:
         -------
         Steps of PartMemo
         """
-        samples = self.visibility.samples
-        if self._nearest is None:
-            spacing = spacing_of(samples, self.transfer.graph)
-            self._nearest = NearestSamples(samples, spacing)
-        memo = PartMemo(self.visibility)
+        memo, samples = PartMemo(self.visibility), self.visibility.samples
         memo._transfer = yield from carry(samples, nodes, graph, self._nearest, numbers)
         memo._plane = self._plane
-        memo.tallies, memo.moves, memo.clusters = (
-            self.tallies,
-            self.moves,
-            self.clusters,
-        )
-        memo._embeddings = self._embeddings
+        memo.tallies, memo.moves = self.tallies, self.moves
+        memo.clusters, memo._embeddings = self.clusters, self._embeddings
         return memo
 
     @computed_once

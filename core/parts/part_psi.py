@@ -11,9 +11,8 @@ from ..sight.pair_visibility import PairVisibility
 from ..steps.memo import digest
 from .part_memo import PartMemo
 
-# Sampling error of psi, times √N: with other N samples, the psi of a shape differs by
-# about twice this over √N.
-_NEGLIGIBLE = 0.1
+# With other N samples, the psi of a shape differs by about this over √N.
+_SAMPLING_ERROR = 0.2
 
 
 class PartPsi:
@@ -31,15 +30,15 @@ class PartPsi:
         As given.
     visibility : Visibility
     transfer : Transfer
-    negligible : float
-        Differences of psi below this are sampling error.
+    sampling_error : float
+        Differences of psi below this tell nothing.
     """
 
     def __init__(self, memo: PartMemo, parameters: Parameters) -> None:
         self.memo, self.parameters = memo, parameters
         self.visibility = memo.visibility
         self.transfer = memo.transfer
-        self.negligible = _NEGLIGIBLE / np.sqrt(len(memo.visibility.samples))
+        self.sampling_error = _SAMPLING_ERROR / np.sqrt(len(memo.visibility.samples))
 
     def tally(self, parts: NDArray[np.int64]) -> PairTally:
         """Count likely and known pairs of samples by parts (P,) of the nodes."""

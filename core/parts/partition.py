@@ -109,7 +109,7 @@ class Partitioner(PartPsi):
         Steps of (P,) int
         """
         even = yield from self.symmetric(parts, wanted)
-        least = max(enough, self.psi(parts) - 2 * self.negligible)
+        least = max(enough, self.psi(parts) - self.sampling_error)
         best = max(even, key=lambda each: each.psi, default=None)
         return parts if best is None or best.psi < least else best.parts
 

@@ -109,7 +109,7 @@ class SeamCutter:
         elif enough is None:
             enough = min(
                 partitioner.psi(partitioner.plain(n_parts)),
-                partitioner.psi(parts) - 2 * partitioner.negligible,
+                partitioner.psi(parts) - partitioner.sampling_error,
             )
         costs = yield from within(self._costs_of_nodes(parts, n_parts), 0.0, 0.0)
         yield Progress("Seams", 0.0)

@@ -82,7 +82,7 @@ def _cut(by: Partitioner, patches: Patches, seams: Seams) -> Steps[NDArray[np.ui
     start = np.zeros(graph.n_polygons, dtype=np.int64)
     start[places] = parts[patches.of_nodes]
     yield Progress("Seams", 0.3)
-    enough = by.psi(parts) - by.negligible
+    enough = by.psi(parts) - by.sampling_error / 2
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)
     finer = Partitioner(on_nodes, replace(by.parameters, smoothness=smoothness))
     cutter = SeamCutter(finer, _SWEEPS)

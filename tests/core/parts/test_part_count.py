@@ -27,7 +27,7 @@ PSI = (0.3, 0.9, 1.49, 1.492, 1.495, 1.5)
 class KnownParts:
     """Stands for the partitioner: psi is known, seams stay."""
 
-    by_psi, negligible = True, 0.003
+    by_psi, sampling_error = True, 0.006
     graph = graph_of(shapes.box())  # no loop of creases divides it
 
     def __init__(self, tried, alpha, guessed):

@@ -145,8 +145,10 @@ def test_seams_cost_no_more_than_moves_gained_or_sampling_errs(seen, make, n_par
     partitioner = Partitioner(memo, heavy)
     parts = partitioner.partition(n_parts)
     plain = Partitioner(seen(make), replace(heavy, refinement="EMBEDDING"))
-    noise = 2 * partitioner.negligible
-    enough = min(partitioner.psi(parts) - noise, plain.psi(plain.partition(n_parts)))
+    enough = min(
+        partitioner.psi(parts) - partitioner.sampling_error,
+        plain.psi(plain.partition(n_parts)),
+    )
     assert partitioner.psi(cut_seams_of(partitioner, parts)) >= enough
 
 
