@@ -15,8 +15,8 @@ from ....core.errors import DecompositionError
 from ..files.headers import n_stl_triangles, read_header
 from ..files.text import MOST_DIGITS
 from ..formats import READ_ENDINGS
-from .face_checks import mesh_without_its_points, refers_to_missing
-from .ply_names import misnamed
+from .ply_checks import misnamed, refers_to_missing
+from .usd_meshes import mesh_without_its_points
 
 # The first bytes of a file, by ending; several for formats with several forms.
 _SIGNATURES = {

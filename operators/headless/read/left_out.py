@@ -12,8 +12,8 @@ from ...bridge.refusals import CONVERTIBLE
 from ..current_file import objects_in_view_layers, some_of
 from ..files.headers import read_header
 from ..formats import READ_ENDINGS
-from .face_checks import at_start, meshes_of_usd
 from .off_files import n_faces_of_off
+from .usd_meshes import at_start, meshes_of_usd
 
 _USD_ENDINGS = tuple(each for each in READ_ENDINGS if each.startswith(".usd"))
 # A line break is found sooner than the beginning of a line.

@@ -11,7 +11,7 @@ from hand_made import add_ring, decompose_by_hand
 from headless.loading import load
 from weak_convex_decomposition.core.errors import DecompositionError
 from weak_convex_decomposition.operators.headless.files.headers import read_header
-from weak_convex_decomposition.operators.headless.read.face_checks import (
+from weak_convex_decomposition.operators.headless.read.ply_checks import (
     refers_to_missing,
 )
 

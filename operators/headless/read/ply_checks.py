@@ -1,13 +1,13 @@
-"""Finds faces of .ply and USD files that do not fit the vertices of the file.
+"""Finds names in .ply files that Blender does not read, and faces without vertices.
 
 Blender leaves such faces out without a word, reads other memory or crashes.
 """
 
 from __future__ import annotations
 
+import re
 import warnings
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,10 +15,44 @@ from numpy.typing import NDArray
 
 from ..files.headers import Element, Header
 from ..files.text import whole_number
-from ..quiet import quiet_blender
 
 # What the list of the vertices of a face is called, unless it is all that a face has.
-CORNERS = ("vertex_indices", "vertex_index")
+_CORNERS = ("vertex_indices", "vertex_index")
+# The words of a header line but the names that its author chose.
+_WORDS = re.compile(
+    rb"^(?:format[ \t]+\w+|element[ \t]+(?:vertex|face)\b|element"
+    rb"|property(?:[ \t]+list[ \t]+\w+)?[ \t]+\w+|end_header)",
+    re.IGNORECASE | re.MULTILINE,
+)
+_AXES = {*"xyz"}
+
+
+def misnamed(header: Header | None, data: bytes) -> str | None:
+    """Return what a .ply file has instead of names that Blender reads, None without.
+
+    Parameters
+    ----------
+    header : Header or None
+        As it is read; None if it is damaged.
+    data : bytes
+        The whole file.
+    """
+    for words in _WORDS.findall(data[: header.size] if header else data):
+        if words != words.lower():
+            return f'"{words.decode("latin-1")}"'
+    if header is None:
+        return None
+    vertices = [each.properties for each in header.elements if each.name == "vertex"]
+    if not any(each.keys() >= _AXES for each in vertices):
+        return "no element vertex with x, y and z"
+    faces = [each for each in header.elements if each.name == "face" and each.n_rows]
+    if any(_place_of_corners(each) is None for each in faces):
+        return "an element face without vertex_indices or vertex_index"
+    for each in header.elements:
+        lists_vertices = not each.properties.keys().isdisjoint(_CORNERS)
+        if lists_vertices and each.name not in ("face", "tristrips") and each.n_rows:
+            return f'faces as "element {each.name}" and not as "element face"'
+    return None
 
 
 def refers_to_missing(header: Header, data: bytes) -> bool:
@@ -32,12 +66,12 @@ def refers_to_missing(header: Header, data: bytes) -> bool:
     return not ((corners >= 0) & (corners < n_vertices)).all()
 
 
-def place_of_corners(element: Element) -> int | None:
+def _place_of_corners(element: Element) -> int | None:
     """Return which property of a face lists its vertices, None if there is none."""
     if element.name != "face" or not element.n_rows:
         return None
     for place, (name, codes) in enumerate(element.properties.items()):
-        is_ours = name in CORNERS or len(element.properties) == 1
+        is_ours = name in _CORNERS or len(element.properties) == 1
         if is_ours and len(codes) > 1:
             return place
     return None
@@ -48,7 +82,7 @@ def _text_corners(header: Header, data: bytes) -> NDArray[Any]:
     rows = [row for row in data[header.size :].splitlines() if row.strip()]
     found: list[bytes] = []
     for element in header.elements:
-        place = place_of_corners(element)
+        place = _place_of_corners(element)
         if place is not None:
             kinds = list(element.properties.values())
             table = _equal_rows(rows[: element.n_rows]) if len(kinds) == 1 else None
@@ -95,7 +129,7 @@ def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:
     """Return the vertices of all faces of a file in binary form, of any shape."""
     start = header.size
     for element in header.elements:
-        place = place_of_corners(element)
+        place = _place_of_corners(element)
         table = element.table(header.order, data, start)
         if table is not None:
             if place is not None:
@@ -108,45 +142,3 @@ def _binary_corners(header: Header, data: bytes) -> NDArray[Any]:
             code = list(element.properties.values())[place][1]
             return np.frombuffer(b"".join(pieces), header.order + code)
     return np.zeros(0)
-
-
-def meshes_of_usd(path: Path) -> Iterator[Any]:
-    """Yield the meshes of a USD file, those of prototypes, too.
-
-    There are none where the file or pxr cannot be opened.
-    """
-    try:
-        from pxr import Tf, Usd, UsdGeom
-    except ImportError:  # not in every Blender
-        return
-    try:
-        with quiet_blender():  # what is missing is told by us
-            stage = Usd.Stage.Open(str(path))
-    except Tf.ErrorException:
-        return  # the importer reports it
-    for root in (stage.GetPseudoRoot(), *stage.GetPrototypes()):
-        yield from filter(None, map(UsdGeom.Mesh, Usd.PrimRange(root)))
-
-
-def mesh_without_its_points(path: Path) -> str | None:
-    """Return the name of a mesh whose faces do not fit its points, None without."""
-    for mesh in meshes_of_usd(path):
-        corners = at_start(mesh.GetFaceVertexIndicesAttr())
-        counts = at_start(mesh.GetFaceVertexCountsAttr())
-        fits, _ = mesh.ValidateTopology(
-            corners, counts, len(at_start(mesh.GetPointsAttr()))
-        )
-        if not fits or min(counts, default=0) < 0:
-            return str(mesh.GetPrim().GetName())
-    return None
-
-
-def at_start(attribute: Any) -> Any:
-    """Return the array of an attribute of USD where its animation begins.
-
-    Blender does not read those of other types than meshes have.
-    """
-    from pxr import Usd, Vt
-
-    value = attribute.Get(Usd.TimeCode.EarliestTime())
-    return value if isinstance(value, (Vt.IntArray, Vt.Vec3fArray)) else ()
