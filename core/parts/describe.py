@@ -87,13 +87,13 @@ def by_size(nodes: NDArray[np.int64], shape: PreparedShape) -> NDArray[np.int64]
     return np.argsort(order)[nodes][shape.nodes]
 
 
-def notes_on(found: Decomposition, by: PartPsi) -> tuple[str, ...]:
+def notes_on(found: Decomposition, part_psi: PartPsi) -> tuple[str, ...]:
     """Say what kept the parts from being as they were asked for, or could be.
 
     Parameters
     ----------
     found : Decomposition
-    by : PartPsi
+    part_psi : PartPsi
         What found them.
 
     Returns
@@ -101,26 +101,26 @@ def notes_on(found: Decomposition, by: PartPsi) -> tuple[str, ...]:
     tuple of str
         Sentences to the user.
     """
-    on_count = notes_on_count(by.parameters, max(found.psi_by_k))
-    return _notes_on_shells(by.transfer) + (on_count or _notes_on_faces(found, by))
+    on_count = notes_on_count(part_psi.parameters, max(found.psi_by_k))
+    on_faces = on_count or _notes_on_faces(found, part_psi)
+    return _notes_on_shells(part_psi.transfer) + on_faces
 
 
-def _notes_on_faces(found: Decomposition, by: PartPsi) -> tuple[str, ...]:
+def _notes_on_faces(found: Decomposition, part_psi: PartPsi) -> tuple[str, ...]:
     """Return a note if faces of much area lie in several parts.
 
     A face does if it carries enough samples, and many of them would raise psi in
     another part than that of the face.
     """
-    visibility, nodes = by.visibility, by.visibility.nodes
-    if visibility.shape.is_cloud or by.parameters.seams == "CUT":
+    visibility, nodes = part_psi.visibility, part_psi.visibility.nodes
+    if visibility.shape.is_cloud or part_psi.parameters.seams == "CUT":
         return ()
     counts = np.bincount(nodes)
     if counts.max() < _ENOUGH_SAMPLES:  # fine meshes need no look at psi
         return ()
     labels = visibility.shape.labels_of_nodes(found.labels)[nodes]
-    gains = MoveGains(visibility.psi_pairs, labels, found.n_parts).of(
-        slice(None), by.parameters.alpha
-    )
+    moves = MoveGains(visibility.psi_pairs, labels, found.n_parts)
+    gains = moves.of(slice(None), part_psi.parameters.alpha)
     drawn = gains.max(axis=1) > gains[np.arange(len(labels)), labels]
     share_drawn = np.bincount(nodes, drawn) / np.maximum(counts, 1)
     spanning = (counts >= _ENOUGH_SAMPLES) & (share_drawn >= _MANY_DRAWN)

@@ -178,17 +178,18 @@ class PartCountSearch:
 
     def _good_enough(self, psi_by_k: dict[int, float], tolerance: float) -> list[int]:
         """Return each k whose gain lacks at most a share, or the sampling error."""
-        best, by = max(psi_by_k, key=psi_by_k.__getitem__), self.partitioner
-        most = psi_by_k[best]
-        share = min(tolerance, _OF_ONE_PART / best) * _strictness(by.parameters.alpha)
-        enough = most - max(by.sampling_error, share * (most - psi_by_k[1]))
+        best = max(psi_by_k, key=psi_by_k.__getitem__)
+        most, partitioner = psi_by_k[best], self.partitioner
+        strictness = _strictness(partitioner.parameters.alpha)
+        share = min(tolerance, _OF_ONE_PART / best) * strictness
+        enough = most - max(partitioner.sampling_error, share * (most - psi_by_k[1]))
         return sorted(k for k, psi in psi_by_k.items() if psi >= enough)
 
     def _try(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Find what `between` returns."""
-        by, top = self.partitioner, (yield from within(self.alone(high), 0.0, 0.2))
+        top = yield from within(self.alone(high), 0.0, 0.2)
         most = count_parts(top.parts)
-        tried = {1: by.candidate(1), most: top}
+        tried = {1: self.partitioner.candidate(1), most: top}
         fewer = range(most - 1, max(low, 2) - 1, -1)
         for turn, n_parts in enumerate(fewer):
             steps = self._with_fewer(tried[n_parts + 1], n_parts, most)
@@ -209,29 +210,29 @@ class PartCountSearch:
         most : int
             Largest number of parts that was made.
         """
-        by = self.partitioner
-        parts = by.merged(more.parts, n_parts)
-        merged = Candidate(parts, by.psi(parts))
-        if by.by_psi and n_parts > _ALL_OWN and (most - n_parts) % 2:
+        partitioner = self.partitioner
+        parts = partitioner.merged(more.parts, n_parts)
+        merged = Candidate(parts, partitioner.psi(parts))
+        if partitioner.by_psi and n_parts > _ALL_OWN and (most - n_parts) % 2:
             return merged
         own = yield from self.alone(n_parts)
         is_short = count_parts(own.parts) < n_parts
-        is_worse = by.by_psi and own.psi < merged.psi
+        is_worse = partitioner.by_psi and own.psi < merged.psi
         return merged if is_short or is_worse else own
 
     def _evened(self, tried: dict[int, Candidate]) -> Steps[dict[int, Candidate]]:
         """Replace candidates by symmetric ones whose psi is not clearly lower."""
-        by = self.partitioner
-        if not by.by_psi:
+        partitioner = self.partitioner
+        if not partitioner.by_psi:
             return tried
         found: dict[int, Candidate] = {}
         uneven = [candidate for candidate in tried.values() if not candidate.even]
         for number, candidate in enumerate(uneven):
-            steps = by.symmetric(candidate.parts, tried)
+            steps = partitioner.symmetric(candidate.parts, tried)
             for even in (yield from within_turn(steps, number, len(uneven))):
                 n_parts = count_parts(even.parts)
                 rival = found.get(n_parts, tried[n_parts])
-                slack = 0.0 if rival.even else by.sampling_error
+                slack = 0.0 if rival.even else partitioner.sampling_error
                 if even.psi >= rival.psi - slack:
                     found[n_parts] = even
         return tried | found

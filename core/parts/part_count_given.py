@@ -53,26 +53,26 @@ def _key(search: PartCountSearch, n_parts: int) -> tuple[int, int, int, float]:
 def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     """Return what `given` does."""
     searched = yield from within(search.best(), 0.0, 0.6)
-    chosen, by = searched.seams.parts, search.partitioner
+    chosen, partitioner = searched.seams.parts, search.partitioner
     if count_parts(chosen) == n_parts:
         return searched
     high, _ = yield from search.tried()
     own = yield from within(own_parts(search, n_parts), 0.6, 0.7)
     made, many = count_parts(own), n_parts > high
-    resized = yield from within(_resized(by, chosen, made, high), 0.7, 0.8)
+    resized = yield from within(_resized(partitioner, chosen, made, high), 0.7, 0.8)
     if many:  # to cut the seams of both takes long
         rivals = own, resized
-        own = max(rivals, key=lambda parts: (count_parts(parts), by.psi(parts)))
+        own = max(rivals, key=lambda each: (count_parts(each), partitioner.psi(each)))
     least = least_psi(n_parts, high)
     found = [(yield from within(search.seams.cut(own, least), 0.8, 0.9))]
     if not many:
         smooth = yield from within(search.seams.cut(resized), 0.9, 1.0)
         found += [Seams(resized), smooth]
-    psi_by_k = {made: by.psi_seen(own)} | searched.psi_by_k
+    psi_by_k = {made: partitioner.psi_seen(own)} | searched.psi_by_k
     own_seams, *labels = (each.parts for each in found)
     best = search.creases.better(own_seams, made, made, *labels)
     if best is not own_seams:
-        psi_by_k |= {made: by.psi_seen(best)}
+        psi_by_k |= {made: partitioner.psi_seen(best)}
     # Parts that follow creases are none of those found.
     seams = next((each for each in found if each.parts is best), Seams(best))
     return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
@@ -84,18 +84,18 @@ def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]
     More parts than the search tries are the most that it tries, split further. They
     have a larger psi than what k-means finds for so many, and take less time.
     """
-    by, (high, tried) = search.partitioner, (yield from search.tried())
+    partitioner, (high, tried) = search.partitioner, (yield from search.tried())
     if n_parts < search.low:
         tried = yield from search.between(n_parts, high)
     if n_parts <= high:
         return tried[min(n_parts, max(tried))].parts
-    if not by.by_psi:
+    if not partitioner.by_psi:
         return (yield from search.alone(n_parts)).parts
-    return (yield from _resized(by, tried[max(tried)].parts, n_parts, high))
+    return (yield from _resized(partitioner, tried[max(tried)].parts, n_parts, high))
 
 
 def _resized(
-    by: Partitioner, parts: NDArray[np.int64], n_parts: int, high: int
+    partitioner: Partitioner, parts: NDArray[np.int64], n_parts: int, high: int
 ) -> Steps[NDArray[np.int64]]:
     """Return parts (P,) split or merged so that there are `n_parts`.
 
@@ -103,9 +103,9 @@ def _resized(
     serve all such numbers, and one part more divides one part.
     """
     if n_parts <= high:
-        return by.resized_in_steps(parts, n_parts)
+        return partitioner.resized_in_steps(parts, n_parts)
     most = coordinates_for(n_parts)
-    return by.resized_in_steps(parts, n_parts, most, _FEW_TRIES)
+    return partitioner.resized_in_steps(parts, n_parts, most, _FEW_TRIES)
 
 
 def least_psi(n_parts: int, high: int) -> float | None:

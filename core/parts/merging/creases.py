@@ -80,16 +80,16 @@ class CreaseParts:
         There are many. So neighbors are merged while their seam costs more than they
         gain in psi.
         """
-        by, area = self._partitioner, graph.areas.sum()
+        partitioner, area = self._partitioner, graph.areas.sum()
         # A small piece has little of both the area and the outline.
         shares = np.maximum(graph.areas / area, graph.weights)
         pieces = connected_parts(
             replace(graph, areas=shares),
             pieces_between(graph, graph.bends > _CORNER),
-            by.parameters.smallest_part,
+            partitioner.parameters.smallest_part,
         )
-        most, price = by.parameters.max_parts, _price(graph)
-        return by.merged(pieces, most, graph.seam_costs, price, further=True)
+        most, price = partitioner.parameters.max_parts, _price(graph)
+        return partitioner.merged(pieces, most, graph.seam_costs, price, further=True)
 
     def better(
         self,
@@ -117,14 +117,14 @@ class CreaseParts:
             `parts` itself if nothing is better and all its seams gain.
         """
         found, n_pieces = list(others), count_parts(self.pieces)
-        by = self._partitioner
+        partitioner = self._partitioner
         if n_pieces > 1:
             n_parts = min(max(n_pieces, low), high)
-            found.append(run(by.resized_in_steps(self.pieces, n_parts)))
+            found.append(run(partitioner.resized_in_steps(self.pieces, n_parts)))
             found.append(self._with_loops(parts, high))
             found.append(np.zeros_like(parts))
-        if low < high and by.visibility.shows_all_of_solid:
-            shells = whole_shells(by, parts, high)
+        if low < high and partitioner.visibility.shows_all_of_solid:
+            shells = whole_shells(partitioner, parts, high)
             found += [] if shells is None else [shells]
         rivals = [each for each in found if low <= count_parts(each) <= high]
         best = max([parts, *rivals], key=self._worth) if rivals else parts
@@ -145,17 +145,18 @@ class CreaseParts:
 
     def _with_loops(self, parts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
         """Return the parts, cut along the loops too; at most so many (P,)."""
-        by, n_pieces = self._partitioner, count_parts(self.pieces)
+        partitioner, n_pieces = self._partitioner, count_parts(self.pieces)
         # What is small joins across seams rather than across loops: these are cut.
-        lengths = np.where(self._on_loops, _TINY, 1.0) * by.graph.lengths
-        graph = replace(by.graph, lengths=lengths)
+        lengths = np.where(self._on_loops, _TINY, 1.0) * partitioner.graph.lengths
+        graph = replace(partitioner.graph, lengths=lengths)
         finer = parts * n_pieces + self.pieces
-        finer = connected_parts(graph, finer, by.smallest_area)
-        small = _slivers(by.graph, finer, parts) | _fillets(by.graph, finer)
+        finer = connected_parts(graph, finer, partitioner.smallest_area)
+        small = _slivers(partitioner.graph, finer, parts)
+        small |= _fillets(partitioner.graph, finer)
         finer = _joined(graph, finer, small)
         if count_parts(finer) <= most:
             return finer
-        return by.merged(finer, most, self._costs, 1.0)
+        return partitioner.merged(finer, most, self._costs, 1.0)
 
     def _worth(self, parts: NDArray[np.int64]) -> float:
         """Return psi of parts (P,), less what their seams cost."""

@@ -18,13 +18,13 @@ from .pieces import connected_parts, merge_to
 
 
 def whole_shells(
-    by: Partitioner, parts: NDArray[np.int64], most: int
+    partitioner: Partitioner, parts: NDArray[np.int64], most: int
 ) -> NDArray[np.int64] | None:
     """Return the shells of a shape, if psi gains by none of the seams within them.
 
     Parameters
     ----------
-    by : Partitioner
+    partitioner : Partitioner
     parts : (P,) int
         Part of each node; seams are tried where these meet.
     most : int
@@ -36,15 +36,17 @@ def whole_shells(
         Shell of each node; small ones join the nearest. None if there is one shell, or
         too many, or if one is better divided by psi, counted from lines of sight alone.
     """
-    graph = replace(by.graph, links=by.graph.links[:0])
+    linked = partitioner.graph
+    graph = replace(linked, links=linked.links[:0])
     shells = components_at_once(graph.neighbors, graph.n_polygons)
     if count_parts(shells) > 1:
-        shells = connected_parts(by.graph, shells, by.smallest_area)
+        shells = connected_parts(linked, shells, partitioner.smallest_area)
     n_shells = count_parts(shells)
     if not 1 < n_shells <= most:
         return None
-    finer = connected_parts(by.graph, parts * n_shells + shells, by.smallest_area)
+    finer = parts * n_shells + shells
+    finer = connected_parts(linked, finer, partitioner.smallest_area)
     touching = graph.borders(finer, count_parts(finer)).toarray() > 0
-    tally, alpha = by.tally_seen(finer), by.parameters.alpha
+    tally, alpha = partitioner.tally_seen(finer), partitioner.parameters.alpha
     merged = merge_to(most, tally, touching, alpha, further=True)
     return shells if count_parts(merged) == n_shells else None

@@ -26,13 +26,13 @@ _SWEEPS = 2
 
 
 def parts_of_nodes(
-    by: Partitioner, seams: Seams, rough: bool = False
+    partitioner: Partitioner, seams: Seams, rough: bool = False
 ) -> Steps[NDArray[np.int64]]:
     """Return the part of each node of a shape's graph.
 
     Parameters
     ----------
-    by : Partitioner
+    partitioner : Partitioner
         What found the parts.
     seams : Seams
         Parts of the patches, or of the nodes if there are no patches.
@@ -43,17 +43,18 @@ def parts_of_nodes(
     -------
     Steps of (P,) int
     """
-    patches, parts = by.memo.patches, seams.parts
+    patches, parts = partitioner.memo.patches, seams.parts
     if patches is None or rough or count_parts(parts) == 1:
-        return by.memo.off_patches(parts)
-    steps = by.found.fine.recall_steps(_key(seams), lambda: _cut(by, patches, seams))
+        return partitioner.memo.off_patches(parts)
+    fine = partitioner.found.fine
+    steps = fine.recall_steps(_key(seams), lambda: _cut(partitioner, patches, seams))
     return (yield from steps).astype(np.int64)
 
 
-def seams_take_long(by: Partitioner, seams: Seams) -> bool:
+def seams_take_long(partitioner: Partitioner, seams: Seams) -> bool:
     """Return whether `parts_of_nodes` has seams to cut; it takes the same values."""
-    several = by.memo.patches is not None and count_parts(seams.parts) > 1
-    return several and _key(seams) not in by.found.fine
+    several = partitioner.memo.patches is not None and count_parts(seams.parts) > 1
+    return several and _key(seams) not in partitioner.found.fine
 
 
 def _key(seams: Seams) -> tuple[float, bytes]:
@@ -61,7 +62,9 @@ def _key(seams: Seams) -> tuple[float, bytes]:
     return seams.smoothness, digest(seams.parts)
 
 
-def _cut(by: Partitioner, patches: Patches, seams: Seams) -> Steps[NDArray[np.uint16]]:
+def _cut(
+    partitioner: Partitioner, patches: Patches, seams: Seams
+) -> Steps[NDArray[np.uint16]]:
     """Cut the seams where the nodes of the patches along them count on their own.
 
     The labels take little room: many are kept.
@@ -74,17 +77,18 @@ def _cut(by: Partitioner, patches: Patches, seams: Seams) -> Steps[NDArray[np.ui
     chosen[coarse.neighbors[beside]] = True
     graph, places = yield from within(patches.opened(chosen), 0.0, 0.1)
     yield Progress("Seams", 0.1)
-    nodes = places[by.visibility.nodes]
+    nodes = places[partitioner.visibility.nodes]
     opened = np.flatnonzero(chosen[patches.of_nodes])
     numbers = np.concatenate([len(places) + np.flatnonzero(~chosen), opened])
-    on_nodes = yield from within(by.memo.on(graph, nodes, numbers), 0.1, 0.3)
+    on_nodes = yield from within(partitioner.memo.on(graph, nodes, numbers), 0.1, 0.3)
     yield Progress("Seams", 0.3)
     start = np.zeros(graph.n_polygons, dtype=np.int64)
     start[places] = parts[patches.of_nodes]
     yield Progress("Seams", 0.3)
-    enough = by.psi(parts) - by.sampling_error / 2
+    enough = partitioner.psi(parts) - partitioner.sampling_error / 2
     smoothness = max(seams.smoothness, _LEAST_SMOOTHNESS)
-    finer = Partitioner(on_nodes, replace(by.parameters, smoothness=smoothness))
+    parameters = replace(partitioner.parameters, smoothness=smoothness)
+    finer = Partitioner(on_nodes, parameters)
     cutter = SeamCutter(finer, _SWEEPS)
     cut = yield from within(cutter.cut(start, enough), 0.3, 0.9)
     smooth = yield from within(cutter.smoothed(cut), 0.9, 1.0)
