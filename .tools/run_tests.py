@@ -3,8 +3,8 @@
 Several processes share the tests, file by file: see `pytest_xdist_make_scheduler` in
 tests/conftest.py. Each has a Blender of its own.
 
-Blender 4.2 crashes now and then in a process that has loaded hundreds of files, so that
-each file of its tests has a process of its own there, several at a time.
+Blender 4.2 crashes now and then in a process that has loaded hundreds of files. So a
+process tests a few files there, and several processes run at a time.
 """
 
 import os
@@ -17,6 +17,8 @@ from pathlib import Path
 TESTS = Path(__file__).parents[1] / "tests"
 RING = TESTS / "blender"
 NOTHING_COLLECTED = 5
+# Files that a process of Blender 4.2 tests: it loads some 80 files then.
+FILES_AT_ONCE = 4
 # More hardly help: the tests of the zips stay in one process, and take longest.
 MOST_PROCESSES = 4
 
@@ -34,9 +36,9 @@ def test(arguments: list[str], **options: object) -> subprocess.CompletedProcess
     return subprocess.run(command, **options)
 
 
-def test_file(path: Path) -> subprocess.CompletedProcess:
-    """Test one file alone, and print all of its output at once."""
-    run = test([str(path)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+def test_files(paths: list[str]) -> subprocess.CompletedProcess:
+    """Test a few files, and print all that pytest says at once."""
+    run = test(paths, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     print(run.stdout, end="", flush=True)
     return run
 
@@ -46,8 +48,12 @@ def main() -> int:
     number = min(MOST_PROCESSES, os.cpu_count() or 1)
     if version("bpy").startswith("4.2"):
         runs = [test(in_processes(number, f"--ignore={RING}"))]
+        files = sorted(map(str, RING.rglob("test_*.py")))
+        starts = range(0, len(files), FILES_AT_ONCE)
         with ThreadPoolExecutor(number) as pool:
-            runs += pool.map(test_file, sorted(RING.rglob("test_*.py")))
+            runs += pool.map(
+                test_files, (files[start : start + FILES_AT_ONCE] for start in starts)
+            )
     else:
         runs = [test(in_processes(number))]
     failed = [run for run in runs if run.returncode not in {0, NOTHING_COLLECTED}]

@@ -87,20 +87,27 @@ def register() -> None:
     atexit.register(_let_go)  # Blender counts its memory when Python ends
 
 
+def stop() -> None:
+    """End what runs, and forget all but what is in Blender's data."""
+    from .bridge.work import libraries
+    from .running import modal
+
+    modal.stop()
+    libraries.stop()
+    for module in reversed(_watchers()):
+        module.stop()
+
+
 def unregister() -> None:
     """Undo `register`; a computation that is running ends."""
     import bpy
 
     from .bridge.watching import unwatch
-    from .bridge.work import libraries
-    from .running import modal
 
-    modal.stop()
-    libraries.unregister()
     atexit.unregister(_let_go)
     for module in reversed(_watchers()):
         unwatch(module.HANDLERS)
-        module.stop()
+    stop()
     for module in reversed(_modules()):
         module.unregister()
     for cls in reversed(_classes()):

@@ -1,24 +1,27 @@
-"""Factory settings for each file; an empty scene and the add-on for each test."""
+"""Factory settings and the add-on for each file; an empty scene for each test."""
 
 import bpy
 import pytest
 import weak_convex_decomposition as package
 from edited import FAST
 from hand_made import decompose_by_hand
+from weak_convex_decomposition import operators
 
 
 @pytest.fixture(scope="module", autouse=True)
-def factory_settings():
-    """Reset the preferences, which takes five times as long as an empty scene."""
+def registered():
+    """Reset the preferences and register: each takes longer than an empty scene."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-
-
-@pytest.fixture(autouse=True)
-def blender():
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     package.register()
     yield
     package.unregister()
+
+
+@pytest.fixture(autouse=True)
+def blender(registered):
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    yield
+    operators.stop()
 
 
 @pytest.fixture

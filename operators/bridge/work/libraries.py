@@ -66,7 +66,7 @@ def load_while_idle() -> None:
         start_timer(_load_next, _PAUSE)
 
 
-def unregister() -> None:
+def stop() -> None:
     """Load no more."""
     stop_timer(_load_next)
 

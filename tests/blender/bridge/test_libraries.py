@@ -33,7 +33,7 @@ def two_libraries(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setattr(libraries, "_LIBRARIES", NAMES)
     yield tmp_path
-    libraries.unregister()
+    libraries.stop()
     for name in NAMES:
         sys.modules.pop(name, None)
 
@@ -65,16 +65,16 @@ def test_a_run_loads_the_rest_and_nothing_waits_after_it(two_libraries):
     assert len(list(libraries.load_libraries())) >= 1
     assert loaded() == [*NAMES]
     assert libraries._load_next() is None
-    libraries.unregister()
+    libraries.stop()
     libraries.load_while_idle()
     assert not waits()
 
 
 def test_unregistering_stops_it(two_libraries):
     libraries.load_while_idle()
-    libraries.unregister()
+    libraries.stop()
     assert not waits()
-    libraries.unregister()
+    libraries.stop()
 
 
 def test_a_missing_library_is_said_by_the_run_alone(two_libraries):

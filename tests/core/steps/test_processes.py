@@ -16,11 +16,16 @@ from weak_convex_decomposition.core.steps.processes import Processes, available
 from weak_convex_decomposition.core.steps.progress import run
 
 
-@pytest.fixture
-def processes():
+def two_processes():
     made = Processes(2)
     yield made
     made.close()
+
+
+# They start when they are needed, which takes seconds: tests that leave them as they
+# are, and ask for hulls that no other test asks for, share them.
+shared = pytest.fixture(two_processes, scope="module")
+processes = pytest.fixture(two_processes)
 
 
 def task(shape):
@@ -46,32 +51,31 @@ def pid_of_first(processes):
     return processes._started[0].pid
 
 
-def test_the_hulls_are_the_same(processes):
+def test_the_hulls_are_the_same(shared):
     meshes = [shapes.l_prism(arm) for arm in (2.0, 3.0, 4.0)]
-    steps = [processes.steps("Cutting", *task(mesh)) for mesh in meshes]
+    steps = [shared.steps("Cutting", *task(mesh)) for mesh in meshes]
     for mesh, found in zip(meshes, [run(each) for each in steps], strict=True):
         assert_same(found, here(mesh))
-    assert len(processes._started) == 2
+    assert len(shared._started) == 2
 
 
-def test_equal_calls_get_one_answer(processes):
+def test_equal_calls_get_one_answer(shared):
     steps = [
-        processes.steps("Cutting", *task(shapes.l_prism(arm)))
-        for arm in (2.0, 2.0, 3.0)
+        shared.steps("Cutting", *task(shapes.l_prism(arm))) for arm in (2.5, 2.5, 3.5)
     ]
     one, two, other = [run(each) for each in steps]
     assert one is two
-    assert one.volume_ratio == here(shapes.l_prism(2.0)).volume_ratio
+    assert one.volume_ratio == here(shapes.l_prism(2.5)).volume_ratio
     assert other.shapes[0].volume != one.shapes[0].volume
 
 
-def test_errors_come_back(processes):
+def test_errors_come_back(shared):
     cloud = PointCloud(np.random.default_rng(0).random((50, 3)))
     with pytest.raises(DecompositionError, match="A cloud has no faces"):
-        run(processes.steps("Cutting", *task(cloud)))
-    mesh = shapes.l_prism()
-    assert_same(run(processes.steps("Cutting", *task(mesh))), here(mesh))
-    assert all(process.poll() is None for process in processes._started)
+        run(shared.steps("Cutting", *task(cloud)))
+    mesh = shapes.l_prism(4.5)
+    assert_same(run(shared.steps("Cutting", *task(mesh))), here(mesh))
+    assert all(process.poll() is None for process in shared._started)
 
 
 def test_without_processes_this_one_computes(processes, monkeypatch):

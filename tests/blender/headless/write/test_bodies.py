@@ -8,7 +8,6 @@ import mujoco
 import numpy as np
 import pytest
 import trimesh
-import weak_convex_decomposition as package
 from hand_made import add_ring, build_hulls
 from headless import simulation
 from headless.command import run_wcd
@@ -33,20 +32,15 @@ def add_block():
 
 
 @pytest.fixture(scope="module")
-def scene(tmp_path_factory):
+def scene(registered, tmp_path_factory):
     """Return a folder with `FILES` and the solids of trimesh, in the world."""
     folder = tmp_path_factory.mktemp("bodies")
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    package.register()
-    try:
-        objects = [add_ring('A "b"/é'), add_block()]
-        hulls = build_hulls(objects, max_error=0.1)
-        for name in FILES:
-            parameters = BodyParameters(DENSITY, Path(name).stem.upper())
-            assert save_hulls(folder / name, hulls, "Z", parameters) == ()
-        return folder, [solid_of(obj) for obj in objects]
-    finally:  # tests of other files register it, too
-        package.unregister()
+    objects = [add_ring('A "b"/é'), add_block()]
+    hulls = build_hulls(objects, max_error=0.1)
+    for name in FILES:
+        parameters = BodyParameters(DENSITY, Path(name).stem.upper())
+        assert save_hulls(folder / name, hulls, "Z", parameters) == ()
+    return folder, [solid_of(obj) for obj in objects]
 
 
 def solid_of(obj):
