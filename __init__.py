@@ -8,47 +8,25 @@ enabling the extension is quick and scripts run without Blender.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from .core import (
-        ShapeCache,
-        build_hulls_in_steps,
-        decompose_in_steps,
-        measure_in_steps,
-    )
-    from .core.errors import DecompositionError
-    from .core.geometry.mesh import TriangleMesh
-    from .core.geometry.point_cloud import PointCloud
-    from .core.parameters.hulls import HullParameters
-    from .core.parameters.parts import Parameters
-    from .core.results.hulls import HullDecomposition
-    from .core.results.parts import Decomposition, Measurement
-    from .core.steps.progress import run
-    from .operators.bridge.rays.choice import choose_ray_caster
-    from .operators.bridge.read.arrays import stretch
-    from .operators.scripting import build_hulls, decompose, measure
-
-__all__ = [
-    "Decomposition",
-    "DecompositionError",
-    "HullDecomposition",
-    "HullParameters",
-    "Measurement",
-    "Parameters",
-    "PointCloud",
-    "ShapeCache",
-    "TriangleMesh",
-    "build_hulls",
-    "build_hulls_in_steps",
-    "choose_ray_caster",
-    "decompose",
-    "decompose_in_steps",
-    "measure",
-    "measure_in_steps",
-    "register",
-    "run",
-    "stretch",
-    "unregister",
-]
+if TYPE_CHECKING:  # "as" makes a name public to type checkers
+    from .core import ShapeCache as ShapeCache
+    from .core import build_hulls_in_steps as build_hulls_in_steps
+    from .core import decompose_in_steps as decompose_in_steps
+    from .core import measure_in_steps as measure_in_steps
+    from .core.errors import DecompositionError as DecompositionError
+    from .core.geometry.mesh import TriangleMesh as TriangleMesh
+    from .core.geometry.point_cloud import PointCloud as PointCloud
+    from .core.parameters.hulls import HullParameters as HullParameters
+    from .core.parameters.parts import Parameters as Parameters
+    from .core.results.hulls import HullDecomposition as HullDecomposition
+    from .core.results.parts import Decomposition as Decomposition
+    from .core.results.parts import Measurement as Measurement
+    from .core.steps.progress import run as run
+    from .operators.bridge.rays.choice import choose_ray_caster as choose_ray_caster
+    from .operators.bridge.read.arrays import stretch as stretch
+    from .operators.scripting import build_hulls as build_hulls
+    from .operators.scripting import decompose as decompose
+    from .operators.scripting import measure as measure
 
 # Module that each public name comes from. `core` has its own table of where.
 _HOMES = {
@@ -71,6 +49,7 @@ _HOMES = {
     "run": "core.steps.progress",
     "stretch": "operators.bridge.read.arrays",
 }
+__all__ = ["register", "unregister", *_HOMES]
 
 
 def __getattr__(name: str) -> Any:
