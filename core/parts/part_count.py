@@ -63,8 +63,8 @@ class PartCountSearch:
     ----------
     partitioner : Partitioner
         As given.
-    memo : CutMemo
-        Keeps what is found.
+    found : FoundMemo
+        What is found with its parameters.
     seams : SeamCutter
     creases : CreaseParts
         Parts along creases, which compete with others.
@@ -75,7 +75,7 @@ class PartCountSearch:
     """
 
     def __init__(self, partitioner: Partitioner) -> None:
-        self.partitioner, self.memo = partitioner, partitioner.found
+        self.partitioner, self.found = partitioner, partitioner.found
         self.seams = SeamCutter(partitioner)
         self.creases = CreaseParts(partitioner)
         self.low = partitioner.parameters.min_parts
@@ -116,9 +116,9 @@ class PartCountSearch:
     def searched(self) -> bool:
         """Whether all numbers to try were tried before: `tried` takes no time."""
         high, more = 0, self.first_high
-        while high < more and (self.low, more) in self.memo.searches:
+        while high < more and (self.low, more) in self.found.searches:
             high = more
-            more = self._next(high, self.memo.searches[self.low, high])
+            more = self._next(high, self.found.searches[self.low, high])
         return high == more
 
     def tried(self) -> Steps[tuple[int, dict[int, Candidate]]]:
@@ -148,7 +148,7 @@ class PartCountSearch:
     def between(self, low: int, high: int) -> Steps[dict[int, Candidate]]:
         """Return candidates for 1 and `low`…`high` parts, of each that can be made."""
         steps = partial(self._try, low, high)
-        return self.memo.searches.recall_steps((low, high), steps)
+        return self.found.searches.recall_steps((low, high), steps)
 
     def alone(self, n_parts: int) -> Steps[Candidate]:
         """Return the candidate for a number of parts, found without the others."""

@@ -34,14 +34,14 @@ def given(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     Steps of Search
         `best_k` is the k that the search chooses.
     """
-    return search.memo.given.recall_steps(
+    return search.found.given.recall_steps(
         _key(search, n_parts), lambda: _find(search, n_parts)
     )
 
 
 def knows(search: PartCountSearch, n_parts: int) -> bool:
     """Return whether the result of `given` is known already."""
-    return _key(search, n_parts) in search.memo.given
+    return _key(search, n_parts) in search.found.given
 
 
 def _key(search: PartCountSearch, n_parts: int) -> tuple[int, int, int, float]:

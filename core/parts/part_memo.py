@@ -46,7 +46,7 @@ class Candidate(NamedTuple):
     even: bool = False
 
 
-class CutMemo:
+class FoundMemo:
     """Results for one set of clusters, refinement, alpha and smallest part.
 
     Attributes
@@ -123,10 +123,10 @@ class PartMemo:
         self.clusters: Memo[tuple[str, int, int, int], Labels] = Memo(1024)
         self.surfaces: Memo[bytes, PartSurface] = Memo(16)
         self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
-        self._cuts: Memo[tuple[str, int, str, float, float], CutMemo] = Memo(3)
+        self._found: Memo[tuple[str, int, str, float, float], FoundMemo] = Memo(3)
 
-    def cut(self, parameters: Parameters) -> CutMemo:
-        """Return the memo of the parts that are found with these parameters.
+    def found_with(self, parameters: Parameters) -> FoundMemo:
+        """Return the memo of what is found with these parameters.
 
         Parameters
         ----------
@@ -135,7 +135,7 @@ class PartMemo:
 
         Returns
         -------
-        CutMemo
+        FoundMemo
         """
         key = (
             parameters.normalization,
@@ -144,7 +144,7 @@ class PartMemo:
             parameters.alpha,
             parameters.smallest_part,
         )
-        return self._cuts.recall(key, CutMemo)
+        return self._found.recall(key, FoundMemo)
 
     def embedding(self, n_parts: int, parameters: Parameters) -> NDArray[np.float64]:
         """Return the embedding of the samples, with enough coordinates for the parts.

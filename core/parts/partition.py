@@ -42,7 +42,7 @@ class Partitioner(PartPsi):
         Whether parts and seams are refined by psi.
     smallest_area : float
         Connected pieces below this area, in squared diagonals, join a neighbor.
-    found : CutMemo
+    found : FoundMemo
         What is found with these parameters.
     """
 
@@ -51,7 +51,7 @@ class Partitioner(PartPsi):
         self.graph = self.transfer.graph
         self.by_psi = parameters.refinement == "PSI"
         self.smallest_area = parameters.smallest_part * self.graph.areas.sum()
-        self.found = memo.cut(parameters)
+        self.found = memo.found_with(parameters)
 
     def candidate(self, n_parts: int) -> Candidate:
         """Return `n_parts` parts and their psi; fewer parts if no more are possible."""

@@ -16,7 +16,7 @@ from weak_convex_decomposition.core.parts.part_count_given import (
     knows,
     own_parts,
 )
-from weak_convex_decomposition.core.parts.part_memo import Candidate, CutMemo
+from weak_convex_decomposition.core.parts.part_memo import Candidate, FoundMemo
 from weak_convex_decomposition.core.parts.part_psi import count_parts
 from weak_convex_decomposition.core.steps.progress import run
 
@@ -31,7 +31,7 @@ class KnownParts:
     graph = graph_of(shapes.box())  # no loop of creases divides it
 
     def __init__(self, tried, alpha, guessed):
-        self.found = CutMemo()
+        self.found = FoundMemo()
         self.found.searches.recall((2, 6), lambda: tried)
         self.visibility = SimpleNamespace(
             is_guessed=guessed, shows_all_of_solid=guessed
@@ -124,7 +124,7 @@ def comb():
 def test_above_five_every_second_number_has_parts_of_its_own(comb):
     search = part_count_search(comb, Parameters(samples=500), 2, 10)
     _, tried = run(search.tried())
-    known = [k for k in range(1, 12) if k in search.memo.candidates]
+    known = [k for k in range(1, 12) if k in search.found.candidates]
     assert known == [1, 2, 3, 4, 5, 6, 8, 10]
     assert sorted(tried) == list(range(1, 11))
     assert all(count_parts(tried[k].parts) == k for k in tried)
@@ -134,7 +134,7 @@ def test_the_papers_way_looks_for_every_number_itself(comb):
     paper = Parameters(samples=500, refinement="EMBEDDING")
     search = part_count_search(comb, paper, 2, 10)
     run(search.tried())
-    assert [k for k in range(1, 12) if k in search.memo.candidates] == [*range(1, 11)]
+    assert [k for k in range(1, 12) if k in search.found.candidates] == [*range(1, 11)]
 
 
 def test_more_parts_than_are_tried_have_a_larger_psi_than_clusters(comb):
