@@ -50,10 +50,9 @@ def main() -> int:
         runs = [test(in_processes(number, f"--ignore={RING}"))]
         files = sorted(map(str, RING.rglob("test_*.py")))
         starts = range(0, len(files), FILES_AT_ONCE)
+        groups = [files[start : start + FILES_AT_ONCE] for start in starts]
         with ThreadPoolExecutor(number) as pool:
-            runs += pool.map(
-                test_files, (files[start : start + FILES_AT_ONCE] for start in starts)
-            )
+            runs += pool.map(test_files, groups)
     else:
         runs = [test(in_processes(number))]
     failed = [run for run in runs if run.returncode not in {0, NOTHING_COLLECTED}]
