@@ -15,6 +15,9 @@ from ..piece import Piece
 from ..solid import Solid
 from .cross_section import cross_section, lines_of, meeting_points
 
+# Planes and places this close to a face of a hull count as on it.
+_AT_FACE = 1e-5
+
 
 @dataclass(frozen=True, eq=False)
 class Cell(Piece):
@@ -38,6 +41,22 @@ class Cell(Piece):
     def cut_share(self) -> float:
         """About the area of the faces that cuts made, over that of the solid."""
         return float(np.count_nonzero(~self.on_surface)) / len(self.solid.samples)
+
+    @cached_property
+    def uncut_depth(self) -> float:
+        """About how deep its surface is below its hull, not below faces of cuts alone.
+
+        In a thin slice of stairs, all of the surface is near such a face. But for hulls
+        of the stairs, nothing is gained.
+        """
+        planes, places = self.hull.planes, self.boundary[self.on_surface]
+        heights = heights_above(planes, places)
+        bare = heights.max(axis=0, initial=-np.inf) < -_AT_FACE
+        gaps = np.abs(planes[:, None] - self.planes).max(axis=2, initial=0.0)
+        kept = ~(bare & (gaps.min(axis=1, initial=np.inf) < _AT_FACE))
+        if not (len(places) and kept.any()):
+            return 0.0
+        return float(-heights[:, kept].max(axis=1).min())
 
     @cached_property
     def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -150,8 +150,8 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
     kind = cell.fit.parameters.shape
     if _is_convex(cell) and (kind in _ROUND or cell.left_out):
         return (yield from _cheapest(cell, _middle(cell)))
-    planes = yield from ranked_planes(cell)
-    best = yield from _cheapest(cell, planes)
+    planes, is_block = yield from ranked_planes(cell)
+    best = yield from _cheapest(cell, planes, is_block)
     in_vain = best and min(side.error for side in best) > _LOWER * cell.error
     if in_vain and kind not in ("HULL", "SPHERE"):
         best = (yield from _cheapest(cell, _middle(cell))) or best
@@ -159,7 +159,7 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
 
 
 def _cheapest(
-    cell: Cell, planes: NDArray[np.float64]
+    cell: Cell, planes: NDArray[np.float64], is_block: bool = False
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
     made: list[tuple[Cell, Cell]] = []
@@ -171,21 +171,28 @@ def _cheapest(
     # A film along a cut has no sample of the surface. But a small piece may have so few
     # that one side of every cut has none.
     firm = [sides for sides in made if all(side.on_surface.any() for side in sides)]
-    solid_volume = cell.solid.volume
     cuts: list[tuple[float, int, tuple[Cell, Cell]]] = []
     for turn, sides in enumerate(firm or made):
         yield Progress("Cutting", 1.0)
         least_errors = [side.least_error for side in sides]
-        cuts.append((cost_of_sides(sides, least_errors, solid_volume), turn, sides))
+        cuts.append((_cost(sides, least_errors, is_block), turn, sides))
     best, least = None, (np.inf, 0)
     for bound, turn, sides in sorted(cuts):
         if bound > least[0]:
             break
         yield Progress("Cutting", 1.0)
-        cost = cost_of_sides(sides, [side.error for side in sides], solid_volume)
+        cost = _cost(sides, [side.error for side in sides], is_block)
         if (cost, turn) < least:
             best, least = sides, (cost, turn)
     return best
+
+
+def _cost(sides: tuple[Cell, Cell], errors: list[float], is_block: bool) -> float:
+    """Return the cost of a cut; slices of a block are as deep as before the cut."""
+    if is_block:
+        depths = [side.uncut_depth for side in sides]
+        errors = np.maximum(errors, depths).tolist()
+    return cost_of_sides(sides, errors, sides[0].solid.volume)
 
 
 def _is_convex(cell: Cell) -> bool:

@@ -44,12 +44,11 @@ _FEWEST_POINTS = 4
 _FLAT = 1e-6
 
 
-def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
+def ranked_planes(cell: Cell) -> Steps[tuple[NDArray[np.float64], bool]]:
     """Return planes through a piece, ranked by the volume that both hulls add.
 
-    First, evenly spaced planes are tried along each direction. Then further planes are
-    tried around the best one of each direction, among them planes next to flat faces:
-    of a block next to all large ones.
+    First, evenly spaced planes are tried along each direction. Then others around the
+    best of each direction, and next to flat faces: of a block next to all large ones.
 
     Parameters
     ----------
@@ -57,9 +56,10 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
 
     Returns
     -------
-    Steps of (P, 4) float
-        Unit normal n and offset d of each plane, n · x + d = 0. Planes whose hulls add
-        least volume come first.
+    planes : (P, 4) float
+        Unit normal n and offset d of each plane, n · x + d = 0, by the added volume.
+    is_block : bool
+        See `directions_of`.
     """
     sketch, planes, added, gains = _sketch_of(cell), [], [], []
     directions, is_block = directions_of(cell)
@@ -70,8 +70,7 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
         low, high = heights[[0, -1]]
         offsets = _off_faces(np.linspace(low, high, _PLANES + 2)[1:-1], heights)
         first = ordered.added_volumes(heights, chords, offsets)
-        # Rounded, so that noise does not decide between equal planes. Flat faces may
-        # lie between the evenly spaced planes, so their levels are tried too.
+        # Noise does not decide between equal planes. Flat faces may lie between them.
         best = offsets[np.round(first, _DIGITS).argmin()]
         yield Progress("Cutting", turn / len(directions))
         step = (high - low) / (_PLANES + 1)
@@ -93,7 +92,8 @@ def ranked_planes(cell: Cell) -> Steps[NDArray[np.float64]]:
     volumes = np.concatenate(added)
     shortened = np.round(np.concatenate(gains), _DIGITS)
     order = np.lexsort((-shortened, np.round(volumes, _DIGITS)))
-    return settled(np.concatenate(planes)[order[np.isfinite(volumes)[order]]])
+    ranked = np.concatenate(planes)[order[np.isfinite(volumes)[order]]]
+    return settled(ranked), is_block
 
 
 @dataclass(frozen=True, eq=False)
