@@ -104,9 +104,10 @@ def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
     section = cross_section(cell.solid, plane)
     face = section.spread(cell.points)
     face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
-    tips = meeting_points(cell.lines, cell.planes, plane)
     rim = segments_below(cell.planes, section.rim).reshape(-1, 3)
-    rim = np.concatenate([rim, tips[section.holds(tips)]])
+    if not cell.is_sheet:  # it has no inside, even where it is a wall of a solid
+        tips = meeting_points(cell.lines, cell.planes, plane)
+        rim = np.concatenate([rim, tips[section.holds(tips)]])
     heights = [
         heights_above(plane[None], places)[:, 0]
         for places in (cell.points, cell.boundary, cell.chords)

@@ -38,15 +38,15 @@ _MOST_ROUNDS = 16
 _LOWER = 0.9
 
 
-def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
-    """Cut a piece until all are close, and join neighbors.
+def close_pieces(cells: Sequence[Cell], most: int) -> Steps[list[Piece]]:
+    """Cut pieces until all are close, and join neighbors.
 
     If joining leaves room for more pieces, those that are not close yet are cut again,
     a few times, or come apart again.
 
     Parameters
     ----------
-    cell : Cell
+    cells : sequence of Cell
     most : int
         Largest number of pieces to return.
 
@@ -54,10 +54,10 @@ def close_pieces(cell: Cell, most: int) -> Steps[list[Piece]]:
     -------
     Steps of list of Piece
     """
-    fit, pieces, joints = cell.fit, list[Piece](), JoinedPairs()
+    fit, pieces, joints = cells[0].fit, list[Piece](), JoinedPairs()
     most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
     # The whole is not tried yet: it may seem close, and its bound say otherwise.
-    far, tried, share, n_rounds = [cell], set[Cell](), 0.0, 0
+    far, tried, share, n_rounds = list(cells), set[Cell](), 0.0, 0
     while far:
         n_rounds += 1
         room, rest = most_cells - len(pieces), 1 - share

@@ -41,9 +41,10 @@ def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
     if len(flat) >= _SIDES and share >= _BLOCK:
         return flat, True
     own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
+    across = [own[0]] if cell.is_sheet else []  # there is nothing to part
     found: list[NDArray[np.float64]] = []
     for direction in (*np.eye(3), *own):
-        if all(abs(direction @ other) < _SAME for other in found):
+        if all(abs(direction @ other) < _SAME for other in (*across, *found)):
             found.append(direction)
     return np.array(found), False
 
