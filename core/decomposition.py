@@ -5,9 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .cache import ShapeCache
 from .geometry.array_checks import check_types
 from .geometry.shape import Shape, check_members
@@ -17,6 +14,7 @@ from .parts.details.levels import finds_details, split_further
 from .parts.find import find_parts
 from .parts.pairs import mirror_pairs
 from .results.parts import Decomposition
+from .steps.arrays import BoolArray
 from .steps.memo import digest
 from .steps.progress import Steps, within
 
@@ -31,7 +29,7 @@ def decompose_in_steps(
     shape: Shape,
     parameters: Parameters,
     cache: ShapeCache,
-    members: NDArray[np.bool_] | None = None,
+    members: BoolArray | None = None,
     rough: bool = False,
 ) -> Steps[Decomposition]:
     """Split a shape, or some of its faces, into weakly convex parts.
@@ -83,7 +81,7 @@ def _decompose(
     shape: Shape,
     parameters: Parameters,
     cache: ShapeCache,
-    members: NDArray[np.bool_] | None,
+    members: BoolArray | None,
     rough: bool,
 ) -> Steps[Decomposition]:
     """Split a shape that is not known yet."""

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .cache import ShapeCache
 from .errors import DecompositionError
 from .geometry.array_checks import check_types
@@ -16,6 +13,7 @@ from .parameters.parts import Parameters
 from .results.parts import Measurement
 from .sight.prepared import PreparedShape
 from .sight.visibility import find_lines_of_sight
+from .steps.arrays import BoolArray
 from .steps.progress import Steps, within
 
 # Largest number of samples on chosen faces: rays are cast between all pairs of them.
@@ -29,7 +27,7 @@ def measure_in_steps(
     shape: Shape,
     parameters: Parameters,
     cache: ShapeCache,
-    members: NDArray[np.bool_] | None = None,
+    members: BoolArray | None = None,
 ) -> Steps[Measurement]:
     """Estimate the convexity rank of a shape, or of some of its faces (eq. 1).
 
@@ -88,7 +86,7 @@ def _without_blocks(parameters: Parameters, of_members: bool) -> Parameters:
     return parameters
 
 
-def _part_of(shape: PreparedShape, members: NDArray[np.bool_]) -> Steps[PreparedShape]:
+def _part_of(shape: PreparedShape, members: BoolArray) -> Steps[PreparedShape]:
     """Return the chosen faces as a shape; raise if no sample can lie on them."""
     graph = yield from shape.graph_in_steps()
     area = graph.areas[shape.nodes[members]].sum()

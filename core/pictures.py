@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
 from .geometry.labels import sums_by_label
@@ -13,10 +10,9 @@ from .parameters.parts import Parameters
 from .parts.part_memo import PartMemo
 from .results.views import Picture
 from .sight.pair_visibility import Matrix
+from .steps.arrays import FloatArray, IntArray
 from .steps.one_thread import on_one_thread
 from .steps.progress import Progress, Steps, run
-
-Pixels: TypeAlias = NDArray[np.float64]
 
 # Largest number of rows and columns of a matrix that are drawn.
 _MOST_ROWS = 1500
@@ -34,9 +30,9 @@ _INNER = (3.0, 97.0)
 def draw_picture(
     kind: str,
     memo: PartMemo,
-    labels: NDArray[np.int64],
+    labels: IntArray,
     parameters: Parameters,
-    colors: NDArray[np.float64],
+    colors: FloatArray,
 ) -> Picture:
     """Draw one of the pictures that `parameters.choices.PICTURES` lists.
 
@@ -68,9 +64,9 @@ def _pixels(
     kind: str,
     memo: PartMemo,
     parameters: Parameters,
-    labels: NDArray[np.int64],
-    colors: NDArray[np.float64],
-) -> Steps[Pixels]:
+    labels: IntArray,
+    colors: FloatArray,
+) -> Steps[FloatArray]:
     """Return the pixels of a picture.
 
     If no parts were found before, `memo` keeps the embedding that the picture makes.
@@ -86,20 +82,14 @@ def _pixels(
     return draw(places, labels, colors)
 
 
-def _sight(
-    affinity: Matrix, labels: NDArray[np.int64], colors: NDArray[np.float64]
-) -> Pixels:
+def _sight(affinity: Matrix, labels: IntArray, colors: FloatArray) -> FloatArray:
     """Return the LoS matrix sorted by part: visible pairs are black."""
     rows = _by_part(labels)
     visible = sparse.csr_array(affinity)[rows][:, rows].toarray() > 0
     return _matrix(np.where(visible, 0.0, 1.0), colors[labels[rows]])
 
 
-def _distances(
-    places: NDArray[np.float64],
-    labels: NDArray[np.int64],
-    colors: NDArray[np.float64],
-) -> Pixels:
+def _distances(places: FloatArray, labels: IntArray, colors: FloatArray) -> FloatArray:
     """Return distances of samples in the embedding, sorted by part: 0 is black."""
     rows = _by_part(labels)
     places = places[rows]
@@ -113,11 +103,7 @@ def _distances(
     return _matrix(grays, colors[labels[rows]])
 
 
-def _scatter(
-    places: NDArray[np.float64],
-    labels: NDArray[np.int64],
-    colors: NDArray[np.float64],
-) -> Pixels:
+def _scatter(places: FloatArray, labels: IntArray, colors: FloatArray) -> FloatArray:
     """Return a plot of the samples in the plane of the embedding that spreads parts.
 
     The plane is spanned by the principal axes of the parts' centers.
@@ -141,14 +127,14 @@ def _scatter(
     return pixels
 
 
-def _by_part(labels: NDArray[np.int64]) -> NDArray[np.int64]:
+def _by_part(labels: IntArray) -> IntArray:
     """Return samples sorted by part, evenly thinned to at most `_MOST_ROWS`."""
     order = np.argsort(labels, kind="stable")
     n_rows = min(len(order), _MOST_ROWS)
     return order[np.arange(n_rows) * len(order) // n_rows]
 
 
-def _matrix(grays: NDArray[np.float64], colors: NDArray[np.float64]) -> Pixels:
+def _matrix(grays: FloatArray, colors: FloatArray) -> FloatArray:
     """Return the pixels of a matrix, with part colors on the left and top margins."""
     n_rows = len(grays)
     pixels = np.ones((n_rows + _MARGIN, n_rows + _MARGIN, 3))

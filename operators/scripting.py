@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import core
 from ..core.errors import DecompositionError
@@ -17,6 +16,7 @@ from ..core.parameters.hulls import HullParameters
 from ..core.parameters.parts import Parameters
 from ..core.results.hulls import HullDecomposition
 from ..core.results.parts import Decomposition, Measurement
+from ..core.steps.arrays import IntArray
 from ..core.steps.progress import Steps, T, run
 from .bridge.rays.choice import choose_ray_caster
 from .bridge.read.arrays import mesh_of, scene_unit_of, shape_of
@@ -193,7 +193,7 @@ def _keeping(settings: Parameters) -> Parameters:
 
 def _kinds(
     part_shapes: Mapping[int, str] | None,
-    labels: NDArray[np.int64] | None,
+    labels: IntArray | None,
     settings: HullParameters,
 ) -> dict[int, str]:
     """Return the shapes of single parts, after checking them."""

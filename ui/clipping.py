@@ -12,13 +12,14 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..core.geometry.cutting.segments import segments_below
+from ..core.steps.arrays import FloatArray
 from ..operators.viewport.viewports import clip_planes
 
 # Blender's shader takes so many planes.
 _PLANES = 6
 
 
-def planes_in(matrix: Matrix) -> NDArray[np.float64]:
+def planes_in(matrix: Matrix) -> FloatArray:
     """Return the planes around the viewport's region, (N, 4); none without a region.
 
     They are in the space that a matrix brings to the world. What is behind one of them,
@@ -58,7 +59,7 @@ def forget() -> None:
 
 
 def lines_within(
-    ends: NDArray[np.floating], planes: NDArray[np.float64]
+    ends: NDArray[np.floating], planes: FloatArray
 ) -> NDArray[np.floating]:
     """Return the ends of what is in front of all planes of lines, (2 N, 3) both.
 

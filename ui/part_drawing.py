@@ -9,10 +9,9 @@ from typing import Any
 import blf
 import bpy
 import gpu
-import numpy as np
 from gpu_extras.batch import batch_for_shader
-from numpy.typing import NDArray
 
+from ..core.steps.arrays import Float32Array
 from ..operators.bridge.parts.palette import srgb_of
 from ..operators.bridge.parts.part_materials import is_overlaid
 from ..operators.bridge.parts.rows import chosen_numbers, look_left
@@ -182,7 +181,7 @@ def _outline(
         _draw_nearer(obj, partial(batch.draw, shader), 4)
 
 
-def _batch(shader: Any, kind: str, places: NDArray[np.float32]) -> tuple[Any, Any]:
+def _batch(shader: Any, kind: str, places: Float32Array) -> tuple[Any, Any]:
     """Return a shader of Blender's, and a batch for it; None if there is no place."""
     if not len(places):  # which `batch_for_shader` does not take
         return shader, None

@@ -10,10 +10,10 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
-from numpy.typing import NDArray
 
 from ..core.geometry.frames import frames
 from ..core.results.views import View
+from ..core.steps.arrays import FloatArray
 from ..operators.bridge.read.target import object_with
 from ..operators.viewport import sight_overlay
 from .clipping import clipped_shader, draw_clipped
@@ -99,11 +99,8 @@ def _radius(view: View) -> float:
 
 
 def _discs(
-    places: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    radius: float,
-    lifted: bool = True,
-) -> NDArray[np.float64]:
+    places: FloatArray, normals: FloatArray, radius: float, lifted: bool = True
+) -> FloatArray:
     """Return the triangles of discs on a surface, (N, corners, 3, 3)."""
     first, second = frames(normals)
     turns = 2 * np.pi * np.arange(_CORNERS + 1) / _CORNERS

@@ -16,8 +16,8 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
-from numpy.typing import NDArray
 
+from ..core.steps.arrays import Float32Array
 from ..operators.bridge.mesh.known import triangles_of
 from ..operators.bridge.stored.names import HULL_TAG
 from .clipping import planes_in
@@ -76,9 +76,7 @@ def forget() -> None:
     _shader.cache_clear()
 
 
-def _on_screen(
-    hull: bpy.types.Object, view: bpy.types.RegionView3D
-) -> NDArray[np.float32]:
+def _on_screen(hull: bpy.types.Object, view: bpy.types.RegionView3D) -> Float32Array:
     """Return the corners of a hull's triangles, (N, 3): from -1 to 1 on the screen."""
     vertices, triangles, _ = triangles_of(hull.data)
     matrix = np.array(view.perspective_matrix @ hull.matrix_world)
@@ -89,9 +87,7 @@ def _on_screen(
     return places.astype(np.float32)
 
 
-def _show(
-    colors: Any, places: NDArray[np.float32], view: bpy.types.RegionView3D
-) -> None:
+def _show(colors: Any, places: Float32Array, view: bpy.types.RegionView3D) -> None:
     """Draw colors that fill the screen, on some places of it within its region."""
     shader, planes = _shader(), np.zeros((4, 4))
     within = planes_in(view.perspective_matrix.inverted())

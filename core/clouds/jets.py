@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.frames import frames, unit, with_normals
+from ..steps.arrays import FloatArray
 from ..steps.progress import Progress, Steps
 
 # Least factor of the weight of points that face elsewhere. Most of them are beyond an
@@ -22,11 +22,8 @@ _FITS_PER_STEP = 2**12
 
 
 def jet_normals(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    weight: float,
-    n_neighbors: int,
-) -> Steps[NDArray[np.float64]]:
+    points: FloatArray, normals: FloatArray, weight: float, n_neighbors: int
+) -> Steps[FloatArray]:
     """Return the normals of jets fitted to the nearest points of each point.
 
     A jet is a height above the plane at right angles to the rough normal, quadratic in
@@ -65,11 +62,7 @@ def jet_normals(
     return np.concatenate(found)
 
 
-def _jets(
-    offsets: NDArray[np.float64],
-    cosines: NDArray[np.float64],
-    normals: NDArray[np.float64],
-) -> NDArray[np.float64]:
+def _jets(offsets: FloatArray, cosines: FloatArray, normals: FloatArray) -> FloatArray:
     """Return normals (N, 3) of jets through neighbors at `offsets` (N, k, 3).
 
     `cosines` (N, k) are those between the normals of neighbors and `normals` (N, 3).

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.graphs.face_graph import FaceGraph
+from ..steps.arrays import FloatArray
 from ..steps.progress import Progress, Steps
 from .splats import nearest_points
 
@@ -17,9 +17,7 @@ _REACH = 3.0
 
 
 def neighbor_graph(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    areas: NDArray[np.float64],
+    points: FloatArray, normals: FloatArray, areas: FloatArray
 ) -> Steps[FaceGraph]:
     """Return the graph of nearest neighbors on an oriented point cloud.
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..steps.arrays import FloatArray
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Steps, within
 from .jets import jet_normals
@@ -45,9 +45,7 @@ _MOST_OPPOSITE, _OPPOSITE, _ABOVE = 0.15, -0.5, 1e-6
 
 
 @on_one_thread
-def estimate_normals(
-    points: NDArray[np.float64],
-) -> Steps[tuple[NDArray[np.float64], float]]:
+def estimate_normals(points: FloatArray) -> Steps[tuple[FloatArray, float]]:
     """Estimate the outward normals of a point cloud, and their error.
 
     Winding numbers of the whole shape first tell the two sides of walls and thin limbs
@@ -86,7 +84,7 @@ def estimate_normals(
     return normals[nearest], _TILT_OF_NOISE * noise
 
 
-def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
+def face_inwards(points: FloatArray, normals: FloatArray) -> bool:
     """Return whether normals point into the volume that the points enclose.
 
     The more of an open surface is missing, the less certain is the volume it encloses.
@@ -111,7 +109,7 @@ def face_inwards(points: NDArray[np.float64], normals: NDArray[np.float64]) -> b
     return bool(areas @ fluxes < -(_CLEARLY_INWARDS + _FOR_MISSING * missing) * size)
 
 
-def seem_wrong(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
+def seem_wrong(points: FloatArray, normals: FloatArray) -> bool:
     """Return whether normals clearly disagree with the points, or with each other.
 
     Where neighbors do not show a surface, as in much noise, nothing is clear.

@@ -14,11 +14,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
 from ..geometry.frames import unit
+from ..steps.arrays import Float32Array, FloatArray
 from ..steps.progress import Progress, Steps, within
 
 # Most points whose vectors are solved for. Memory grows with the square.
@@ -36,8 +36,6 @@ _COARSE = 2.0
 # Places in one block of the kernel.
 _ROWS_PER_STEP = 500
 
-Single = NDArray[np.float32]
-
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
@@ -53,18 +51,18 @@ class _Rows:
         3 / d⁵.
     """
 
-    places: Single
-    points: Single
-    cubes: Single
-    fifths: Single
+    places: Float32Array
+    points: Float32Array
+    cubes: Float32Array
+    fifths: Float32Array
 
-    def numbers(self, vectors: Single) -> Single:
+    def numbers(self, vectors: Float32Array) -> Float32Array:
         """Return the winding number of each place, (Q,), times a constant."""
         heights = (vectors * self.points).sum(axis=1)
         sums = self.cubes @ np.column_stack([vectors, heights])
         return sums[:, 3] - (self.places * sums[:, :3]).sum(axis=1)
 
-    def slopes(self, missing: Single) -> Single:
+    def slopes(self, missing: Float32Array) -> Float32Array:
         """Return the steepest change (Q, 3) of vectors to reduce `missing` (N,).
 
         The transpose of `numbers`, for places that are some of the points.
@@ -73,7 +71,7 @@ class _Rows:
         sums = self.cubes @ np.column_stack([moments, missing])
         return self.places * sums[:, 3:] - sums[:, :3]
 
-    def falls(self, vectors: Single) -> Single:
+    def falls(self, vectors: Float32Array) -> Float32Array:
         """Return the negative gradient of the winding number at the places, (Q, 3)."""
         heights = (vectors * self.points).sum(axis=1) - self.places @ vectors.T
         heights *= self.fifths
@@ -81,9 +79,7 @@ class _Rows:
         return self.cubes @ vectors - heights @ self.points + there
 
 
-def outward_directions(
-    points: NDArray[np.float64], blur: float
-) -> Steps[NDArray[np.float64]]:
+def outward_directions(points: FloatArray, blur: float) -> Steps[FloatArray]:
     """Return unit vectors out of the shape at points spread over its surface.
 
     Parameters
@@ -120,14 +116,16 @@ def outward_directions(
     return unit(np.concatenate(found).astype(np.float64))
 
 
-def _spacing(points: Single) -> float:
+def _spacing(points: Float32Array) -> float:
     """Return the usual distance of points (N, 3) from their neighbors."""
     n_nearest = min(_NEIGHBORS, len(points) - 1) + 1
     distances, _ = cKDTree(points).query(points, n_nearest)
     return float(np.median(distances[:, 1:].mean(axis=1)))
 
 
-def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
+def _nearer(
+    points: Float32Array, width: float, vectors: Float32Array
+) -> Steps[Float32Array]:
     """Return vectors (N, 3) improved for both conditions, blurred by `width`."""
     rows = []
     for some, done in _rows(points, points, width):
@@ -139,7 +137,7 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
         # Lengths do not matter, so 1 stands for 1/2.
         numbers = np.concatenate([some.numbers(vectors) for some in rows])
         missing = np.float32(1.0) - numbers
-        change: Single = np.concatenate([some.slopes(missing) for some in rows])
+        change: Float32Array = np.concatenate([some.slopes(missing) for some in rows])
         yield progress
         effect = np.concatenate([some.numbers(change) for some in rows])
         # The step length that minimizes the sum of squares of `missing`.
@@ -154,7 +152,7 @@ def _nearer(points: Single, width: float, vectors: Single) -> Steps[Single]:
 
 
 def _rows(
-    places: Single, points: Single, width: float
+    places: Float32Array, points: Float32Array, width: float
 ) -> Iterator[tuple[_Rows, float]]:
     """Yield the kernel for blocks of places, with the share of places done before."""
     for start in range(0, len(places), _ROWS_PER_STEP):

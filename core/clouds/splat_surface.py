@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
 from ..geometry.point_cloud import PointCloud
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps, within
 from .normals import estimate_normals, face_inwards, seem_wrong
 from .splats import nearest_points, smoothed, thinned_splats
@@ -41,14 +41,14 @@ class SplatSurface:
         Normals of all points of the cloud if it had none, or if they faced inwards.
     """
 
-    points: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    areas: NDArray[np.float64]
+    points: FloatArray
+    normals: FloatArray
+    areas: FloatArray
     mesh: TriangleMesh
-    nodes: NDArray[np.int64]
+    nodes: IntArray
     tilt: float
     notes: tuple[str, ...]
-    found_normals: NDArray[np.float64] | None
+    found_normals: FloatArray | None
 
     @property
     def size(self) -> float:

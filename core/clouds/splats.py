@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.frames import frames, with_normals
 from ..geometry.mesh import TriangleMesh
 from ..geometry.sampling import sample_surface
+from ..steps.arrays import FloatArray, IntArray
 
 # Neighbors that the density around a point is measured with.
 _NEIGHBORS = 8
@@ -32,7 +32,7 @@ _AVERAGED = 12
 _MOST_SPLATS = 20_000
 
 
-def normal_weight(points: NDArray[np.float64]) -> float:
+def normal_weight(points: FloatArray) -> float:
     """Return the distance that normals one unit apart add when points are compared.
 
     Parameters
@@ -52,11 +52,11 @@ def normal_weight(points: NDArray[np.float64]) -> float:
 
 
 def nearest_points(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
+    points: FloatArray,
+    normals: FloatArray,
     n_nearest: int,
-    queries: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
-) -> NDArray[np.int64]:
+    queries: tuple[FloatArray, FloatArray] | None = None,
+) -> IntArray:
     """Return the points nearest to each one, or to others, by position and normal.
 
     Points on the far side of a thin wall do not count as near.
@@ -81,7 +81,7 @@ def nearest_points(
     return nearest.reshape(len(asked), n_nearest).astype(np.int64)
 
 
-def noise_of(points: NDArray[np.float64]) -> float:
+def noise_of(points: FloatArray) -> float:
     """Return the noise of a cloud: thickness of small neighborhoods over their width.
 
     It is 0 where points lie exactly in planes, and somewhat above 0.5 where they fill a
@@ -106,9 +106,7 @@ def noise_of(points: NDArray[np.float64]) -> float:
     return float(np.quantile(thickness, _FLATTEST))
 
 
-def areas_of_points(
-    points: NDArray[np.float64], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def areas_of_points(points: FloatArray, normals: FloatArray) -> FloatArray:
     """Return the surface area that each point stands for, by the density around it.
 
     Parameters
@@ -126,9 +124,7 @@ def areas_of_points(
     return np.clip(areas, _LEAST_AREA * median, _MOST_AREA * median)
 
 
-def smoothed(
-    points: NDArray[np.float64], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def smoothed(points: FloatArray, normals: FloatArray) -> FloatArray:
     """Return points moved along their normals to average out noise.
 
     The height of each neighbor is measured with the mean of the two normals. A chord of
@@ -148,11 +144,7 @@ def smoothed(
     return points + heights.mean(axis=1)[:, None] * normals
 
 
-def splats(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    areas: NDArray[np.float64],
-) -> TriangleMesh:
+def splats(points: FloatArray, normals: FloatArray, areas: FloatArray) -> TriangleMesh:
     """Return a triangle around each point that faces along its normal.
 
     Parameters
@@ -182,8 +174,8 @@ def splats(
 
 
 def thinned_splats(
-    points: NDArray[np.float64], normals: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.float64], TriangleMesh]:
+    points: FloatArray, normals: FloatArray
+) -> tuple[IntArray, FloatArray, TriangleMesh]:
     """Thin out a cloud of many points, and return the kept points' areas and splats.
 
     Kept points are spread evenly over the surface, even if the density of the cloud

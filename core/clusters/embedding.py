@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import get_blas_funcs
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from ..sight.pair_visibility import Matrix
+from ..steps.arrays import FloatArray
 
 # Most samples whose matrix is in double precision; more would take too much memory.
 # Libraries round sums differently. In double precision this changes the eigenvectors
@@ -23,9 +23,7 @@ _COORDINATES = 13
 _SAME = 1e-3
 
 
-def embed(
-    affinity: Matrix, n_coordinates: int, stochastic: bool
-) -> NDArray[np.float64]:
+def embed(affinity: Matrix, n_coordinates: int, stochastic: bool) -> FloatArray:
     """Return coordinates in which samples of one weakly convex part are close.
 
     The coordinates are the leading eigenvectors of D^-1/2 M D^-1/2, where the diagonal
@@ -74,9 +72,7 @@ def embed(
 
 
 def _shifted_walk(
-    affinity: Matrix,
-    scales: NDArray[np.float64],
-    noise: NDArray[np.float64],
+    affinity: Matrix, scales: FloatArray, noise: FloatArray
 ) -> LinearOperator:
     """Return I + S M S + noise; S is diagonal with `scales`, the noise is diagonal too.
 
@@ -89,7 +85,7 @@ def _shifted_walk(
         # symv reads one half of a symmetric matrix: half as much memory to read.
         times = partial(get_blas_funcs("symv", (affinity,)), 1.0, affinity.T)
 
-    def multiply(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    def multiply(vector: FloatArray) -> FloatArray:
         vector = vector.ravel()
         product = times((scales * vector).astype(affinity.dtype))
         return scales * product + (1 + _NOISE * noise) * vector

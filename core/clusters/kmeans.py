@@ -8,8 +8,9 @@ from contextlib import contextmanager
 from threading import Lock
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.cluster import KMeans
+
+from ..steps.arrays import FloatArray, IntArray
 
 # Random starts of k-means; the best result is kept.
 _STARTS = 3
@@ -21,9 +22,7 @@ _SETTING = Lock()
 _DECIMALS = 6
 
 
-def cluster(
-    embedding: NDArray[np.float64], n_clusters: int, seed: int
-) -> NDArray[np.int64]:
+def cluster(embedding: FloatArray, n_clusters: int, seed: int) -> IntArray:
     """Return the k-means cluster of each sample.
 
     Parameters
@@ -47,7 +46,7 @@ def cluster(
         n_clusters = min(n_clusters, len(np.unique(embedding, axis=0)))
     model = KMeans(n_clusters, n_init=_STARTS, random_state=seed)
     with _no_count_of_cores():
-        labels: NDArray[np.int64] = model.fit_predict(embedding).astype(np.int64)
+        labels: IntArray = model.fit_predict(embedding).astype(np.int64)
     return labels
 
 

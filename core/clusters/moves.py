@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..sight.pair_visibility import PairVisibility
+from ..steps.arrays import FloatArray, IntArray
 
 # Most sweeps over all samples. For most shapes, no sample moves after five.
 _SWEEPS = 10
@@ -27,9 +27,7 @@ class MoveGains:
         Number of labels K.
     """
 
-    def __init__(
-        self, pairs: PairVisibility, labels: NDArray[np.int64], n_labels: int
-    ) -> None:
+    def __init__(self, pairs: PairVisibility, labels: IntArray, n_labels: int) -> None:
         self._pairs = pairs
         self._members = np.eye(n_labels, dtype=np.float32)[labels]
         self._visible, self._known = (
@@ -41,7 +39,7 @@ class MoveGains:
             np.ones_like(self._own) if pairs.known is None else pairs.known.diagonal()
         )
 
-    def of(self, rows: slice, alpha: float) -> NDArray[np.float64]:
+    def of(self, rows: slice, alpha: float) -> FloatArray:
         """Return the gain in psi of every label for R samples.
 
         Parameters
@@ -64,7 +62,7 @@ class MoveGains:
         gains = (1 + alpha) * visible.astype(float) - alpha * known.astype(float)
         return 2 * len(self._members) * gains / self._total
 
-    def give(self, samples: NDArray[np.int64], labels: NDArray[np.int64]) -> None:
+    def give(self, samples: IntArray, labels: IntArray) -> None:
         """Change the labels of some samples and update the gains.
 
         Parameters
@@ -85,8 +83,8 @@ class MoveGains:
 
 
 def raise_psi(
-    pairs: PairVisibility, labels: NDArray[np.int64], n_labels: int, alpha: float
-) -> NDArray[np.int64]:
+    pairs: PairVisibility, labels: IntArray, n_labels: int, alpha: float
+) -> IntArray:
     """Move samples to the label that raises psi most.
 
     k-means does not optimize psi. Psi is the Constant Potts Model of community

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from ..steps.arrays import FloatArray, IntArray
 
 # Least and largest diagonal of a shape. Single precision lies between them, and their
 # cubes are far from the ends of double precision.
@@ -193,7 +194,7 @@ def check_surface(vertices: NDArray[Any], n_triangles: int) -> None:
         )
 
 
-def check_indices(indices: NDArray[np.int64], n_vertices: int) -> None:
+def check_indices(indices: IntArray, n_vertices: int) -> None:
     """Raise DecompositionError if numbers of vertices are not all in 0…n - 1."""
     if indices.size and (indices.min() < 0 or indices.max() >= n_vertices):
         raise DecompositionError(
@@ -201,7 +202,7 @@ def check_indices(indices: NDArray[np.int64], n_vertices: int) -> None:
         )
 
 
-def check_size(low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
+def check_size(low: FloatArray, high: FloatArray) -> None:
     """Raise an error if areas and volumes of a shape would leave double precision.
 
     Parameters

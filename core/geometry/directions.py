@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..steps.arrays import FloatArray
 from .frames import cross, frames
 
 
-def sphere_directions(count: int) -> NDArray[np.float64]:
+def sphere_directions(count: int) -> FloatArray:
     """Return unit vectors spread evenly over the sphere.
 
     Parameters
@@ -26,9 +26,7 @@ def sphere_directions(count: int) -> NDArray[np.float64]:
     return np.stack([radii * np.cos(turns), radii * np.sin(turns), heights], axis=1)
 
 
-def cone_directions(
-    normals: NDArray[np.float64], n_rays: int, opening: float
-) -> NDArray[np.float64]:
+def cone_directions(normals: FloatArray, n_rays: int, opening: float) -> FloatArray:
     """Return directions spread evenly in a cone around each inward normal.
 
     Parameters
@@ -58,11 +56,8 @@ def cone_directions(
 
 
 def fan_directions(
-    normals: NDArray[np.float64],
-    n_rays: int,
-    opening: float,
-    plane: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    normals: FloatArray, n_rays: int, opening: float, plane: FloatArray
+) -> FloatArray:
     """Return directions in a plane, spread evenly around each inward normal.
 
     Parameters

@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from ..steps.progress import Steps, within
 from .frames import frames, unit
 from .graphs.edges import ends_of_sides, shared_edges
@@ -53,7 +53,7 @@ class FlatMesh:
 
     faces: TriangleMesh
     walls: TriangleMesh
-    normal: NDArray[np.float64]
+    normal: FloatArray
 
     def graph(self) -> Steps[FaceGraph]:
         """Return the graph of the faces, with the outline length of each polygon.
@@ -71,7 +71,7 @@ class FlatMesh:
         bends = self._concave_angles()[np.stack(ends)].min(axis=0)
         return replace(graph, outline=outline.astype(np.float64), bends=bends)
 
-    def _concave_angles(self) -> NDArray[np.float64]:
+    def _concave_angles(self) -> FloatArray:
         """Return by how much the outline turns inwards at each vertex, in radians."""
         corners = self.faces.welded_triangles
         places = self.faces.vertices[self.faces.triangles]
@@ -143,9 +143,7 @@ def _surely_thick(mesh: TriangleMesh) -> bool:
     return bool(np.linalg.eigvalsh(np.cov(mesh.vertices[few].T))[0] > _FLAT**2)
 
 
-def _lifts(
-    mesh: TriangleMesh, normal: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _lifts(mesh: TriangleMesh, normal: FloatArray) -> tuple[FloatArray, BoolArray]:
     """Return which triangles to turn, (T,), and which lie in the plane, (T,).
 
     Those whose value is negative are to be turned. The triangles of a polygon have one
@@ -161,8 +159,8 @@ def _lifts(
 
 
 def _outline(
-    faces: TriangleMesh, lying: NDArray[np.bool_]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    faces: TriangleMesh, lying: BoolArray
+) -> tuple[IntArray, IntArray, IntArray]:
     """Return the edges that have faces on only one side.
 
     This also finds holes, and the outline of folded or layered faces.

@@ -7,6 +7,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..steps.arrays import FloatArray, IntArray
+
 # Heights of points above planes computed at once: more fit into no processor's cache.
 HEIGHTS_AT_ONCE = 100_000
 
@@ -16,7 +18,7 @@ _SURE_DIGITS = 10
 Real = TypeVar("Real", np.float32, np.float64)
 
 
-def settled(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+def settled(numbers: FloatArray) -> FloatArray:
     """Return numbers rounded so far that they are the same on any processor.
 
     Later steps tell equal ones apart, or take sides of a plane: a last digit would
@@ -49,9 +51,7 @@ def unit(vectors: NDArray[Real]) -> NDArray[Real]:
     return np.divide(vectors, lengths, out=vectors.copy(), where=lengths > 0)
 
 
-def frames(
-    normals: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def frames(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return two unit vectors at right angles to each normal and to each other.
 
     Parameters
@@ -69,7 +69,7 @@ def frames(
     return tangents, cross(normals, tangents)
 
 
-def frame_of(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+def frame_of(axis: FloatArray) -> FloatArray:
     """Return right-handed axes whose last row is a given one.
 
     Parameters
@@ -84,7 +84,7 @@ def frame_of(axis: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([*frames(axis[None]), axis[None]])
 
 
-def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return cross products; for few vectors in a third of NumPy's time.
 
     Parameters
@@ -102,7 +102,7 @@ def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]
     return product
 
 
-def area_vectors(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def area_vectors(corners: FloatArray) -> FloatArray:
     """Return normals of triangles, each twice as long as the triangle's area.
 
     Parameters
@@ -118,7 +118,7 @@ def area_vectors(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return cross(corners[..., 1, :] - a, corners[..., 2, :] - a)
 
 
-def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def cross_2d(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return cross products in the plane: above 0 where `b` is to the left of `a`.
 
     Parameters
@@ -133,8 +133,8 @@ def cross_2d(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float
 
 
 def distinct_directions(
-    normals: NDArray[np.float64], digits: int
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    normals: FloatArray, digits: int
+) -> tuple[FloatArray, IntArray]:
     """Return the directions of normals, and how many normals have each.
 
     Parameters
@@ -160,7 +160,7 @@ def distinct_directions(
     return (signs * normals)[rows[order]], counts[order]
 
 
-def principal_axes(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def principal_axes(points: FloatArray) -> FloatArray:
     """Return the principal axes of points, the one of least variance first.
 
     Parameters
@@ -203,9 +203,7 @@ def moved(points: NDArray[Real], matrix: NDArray[Real]) -> NDArray[Real]:
     return coordinates_along(matrix[:3, :3], points) + matrix[:3, 3]
 
 
-def heights_above(
-    planes: NDArray[np.float64], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def heights_above(planes: FloatArray, points: FloatArray) -> FloatArray:
     """Return the signed heights of points above planes n · x + d = 0.
 
     Parameters
@@ -221,9 +219,7 @@ def heights_above(
     return coordinates_along(planes[:, :3], points) + planes[:, 3]
 
 
-def with_normals(
-    points: NDArray[np.float64], normals: NDArray[np.float64], weight: float
-) -> NDArray[np.float64]:
+def with_normals(points: FloatArray, normals: FloatArray, weight: float) -> FloatArray:
     """Return coordinates whose distances combine positions and normals.
 
     The two sides of a thin wall are close, but their normals point away from each

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from ..steps.arrays import IntArray
+
 
 def sums_by_label(
     matrix: NDArray[np.floating[Any]] | sparse.csr_array,
-    labels: NDArray[np.int64],
+    labels: IntArray,
     n_labels: int,
 ) -> NDArray[Any]:
     """Return the sum of the rows of each of K labels. Every row is read only once.

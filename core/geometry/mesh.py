@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ..errors import DecompositionError
+from ..steps.arrays import FloatArray, Int32Array, IntArray
 from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, run, within
 from ..steps.rows import blocks, used_rows
@@ -65,9 +66,9 @@ class TriangleMesh:
     1
     """
 
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.int64]
-    polygons: NDArray[np.int64]
+    vertices: FloatArray
+    triangles: IntArray
+    polygons: IntArray
 
     def __post_init__(self) -> None:
         """Check the arrays and keep read-only copies of the right types."""
@@ -95,7 +96,7 @@ class TriangleMesh:
         """Number of polygons."""
         return int(self.polygons.max()) + 1
 
-    def with_polygons(self, polygons: NDArray[np.int64]) -> TriangleMesh:
+    def with_polygons(self, polygons: IntArray) -> TriangleMesh:
         """Return the mesh with other numbers of polygons, (T,) int."""
         mesh = replace(self, polygons=polygons)
         # What is known does not depend on them.
@@ -103,12 +104,12 @@ class TriangleMesh:
         return mesh
 
     @property
-    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest corner, (3,) each, of the used vertices' bounding box."""
         return run(self.bounds_in_steps())
 
     @computed_once
-    def bounds_in_steps(self) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    def bounds_in_steps(self) -> Steps[tuple[FloatArray, FloatArray]]:
         """Return `bounds`, found in short steps."""
         steps = used_rows(self.triangles, len(self.vertices))
         used = yield from within(steps, 0.0, 0.5)
@@ -119,7 +120,7 @@ class TriangleMesh:
         return low, high
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> FloatArray:
         """Center of the bounding box, (3,)."""
         low, high = self.bounds
         return (high + low) / 2
@@ -168,7 +169,7 @@ class TriangleMesh:
         )
 
     @property
-    def welded_triangles(self) -> NDArray[np.int32]:
+    def welded_triangles(self) -> Int32Array:
         """(T, 3) int32, position numbers of the corners, equal for coinciding vertices.
 
         Many file formats split vertices, and tools close a surface with vertices that
@@ -177,7 +178,7 @@ class TriangleMesh:
         return run(self.welded_in_steps())
 
     @computed_once
-    def welded_in_steps(self) -> Steps[NDArray[np.int32]]:
+    def welded_in_steps(self) -> Steps[Int32Array]:
         """Return `welded_triangles`, found in short steps.
 
         Returns
@@ -190,19 +191,17 @@ class TriangleMesh:
         return (yield from within(steps, 0.2, 1.0))
 
     @property
-    def areas(self) -> NDArray[np.float64]:
+    def areas(self) -> FloatArray:
         """(T,) areas of the triangles."""
         return run(self.normals_in_steps())[0]
 
     @property
-    def normals(self) -> NDArray[np.float64]:
+    def normals(self) -> FloatArray:
         """(T, 3) outward unit normals of the triangles, 0 for degenerate ones."""
         return run(self.normals_in_steps())[1]
 
     @computed_once
-    def normals_in_steps(
-        self,
-    ) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    def normals_in_steps(self) -> Steps[tuple[FloatArray, FloatArray]]:
         """Return `areas` and `normals`, computed in short steps."""
         areas = np.empty(len(self.triangles))
         normals = np.empty_like(self.triangles, float)

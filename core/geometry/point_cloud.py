@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from ..steps.arrays import FloatArray, IntArray
 from .array_checks import check_size, rows_of_three
 from .mesh import SAME_PLACE
 
@@ -53,8 +53,8 @@ class PointCloud:
     (100, 3)
     """
 
-    points: NDArray[np.float64]
-    normals: NDArray[np.float64] | None = None
+    points: FloatArray
+    normals: FloatArray | None = None
 
     def __post_init__(self) -> None:
         """Check the arrays and keep read-only copies, normals at length 1."""
@@ -73,13 +73,13 @@ class PointCloud:
         return len(self.points)
 
     @property
-    def center(self) -> NDArray[np.float64]:
+    def center(self) -> FloatArray:
         """Center of the bounding box, (3,)."""
         low, high = self.bounds
         return (low + high) / 2
 
     @property
-    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest corner of the bounding box, (3,) each."""
         return self.points.min(axis=0), self.points.max(axis=0)
 
@@ -89,7 +89,7 @@ class PointCloud:
         return math.dist(*self.bounds)
 
     @property
-    def plane(self) -> NDArray[np.float64] | None:
+    def plane(self) -> FloatArray | None:
         """Unit normal of the plane that all points lie in, (3,), None without."""
         widths, axes = _spread(self.points)
         return axes[2] if widths[2] < _LEAST_WIDTH else None
@@ -103,7 +103,7 @@ class PointCloud:
         """
         return replace(self, points=(self.points - self.center) / self.diagonal)
 
-    def distinct(self) -> tuple[PointCloud, NDArray[np.int64]]:
+    def distinct(self) -> tuple[PointCloud, IntArray]:
         """Return the cloud without copies of points, and the row of each point there.
 
         Distances of neighbors tell how dense a cloud is; copies would make them 0.
@@ -139,7 +139,7 @@ class PointCloud:
         return PointCloud(self.points[kept], *(each[kept] for each in normals)), rows
 
 
-def _check_points(points: NDArray[np.float64]) -> None:
+def _check_points(points: FloatArray) -> None:
     """Raise DecompositionError if the points cannot be points of a surface."""
     if len(points) < _FEWEST:
         raise DecompositionError(
@@ -171,7 +171,7 @@ def _check_points(points: NDArray[np.float64]) -> None:
         )
 
 
-def _middle_half(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _middle_half(points: FloatArray) -> FloatArray:
     """Return the half of the points that is nearest to one in their middle."""
     center = np.median(points, axis=0)
     for _ in range(2):  # a median may lie between pieces, so start at a point
@@ -180,14 +180,12 @@ def _middle_half(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return points[np.argpartition(squares, len(points) // 2)[: len(points) // 2]]
 
 
-def _is_line(points: NDArray[np.float64]) -> bool:
+def _is_line(points: FloatArray) -> bool:
     """Return whether points spread next to nothing across their longest direction."""
     return bool(_spread(points)[0][1] < _LEAST_WIDTH)
 
 
-def _spread(
-    points: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _spread(points: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how far points spread, in diagonals, and along which rows: most first."""
     spread = points - points.mean(axis=0)
     diagonal = np.linalg.norm(np.ptp(points, axis=0))
@@ -196,7 +194,7 @@ def _spread(
     return np.sqrt(squares), axes
 
 
-def _unit_normals(normals: NDArray[np.float64], n_points: int) -> NDArray[np.float64]:
+def _unit_normals(normals: FloatArray, n_points: int) -> FloatArray:
     """Return normals (N, 3) at length 1, or raise if they are unusable."""
     if len(normals) != n_points:
         raise DecompositionError(

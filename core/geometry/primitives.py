@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..steps.arrays import FloatArray, IntArray
 from .frames import HEIGHTS_AT_ONCE, area_vectors, coordinates_along
 
 
@@ -35,9 +36,9 @@ class Hull:
         Whether it is around flat points, which were given a thickness.
     """
 
-    vertices: NDArray[np.float64]
-    facets: NDArray[np.int64]
-    planes: NDArray[np.float64]
+    vertices: FloatArray
+    facets: IntArray
+    planes: FloatArray
     volume: float
     is_thickened: bool = False
 
@@ -46,7 +47,7 @@ class Hull:
         _protect(self.vertices, self.facets, self.planes)
 
     @cached_property
-    def triangles(self) -> NDArray[np.int64]:
+    def triangles(self) -> IntArray:
         """(F, 3) corners of each triangle, counter-clockwise seen from outside."""
         normals = area_vectors(self.vertices[self.facets])
         inwards = np.einsum("fd,fd->f", normals, self.planes[:, :3]) < 0
@@ -55,7 +56,7 @@ class Hull:
         _protect(triangles)
         return triangles
 
-    def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def heights(self, points: FloatArray) -> FloatArray:
         """Return the height of points above their highest face plane, negative inside.
 
         Outside, it is a lower bound of the distance to the hull.
@@ -70,7 +71,7 @@ class Hull:
         """
         return self.heights_of_patches(points[:, None])
 
-    def heights_of_patches(self, corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    def heights_of_patches(self, corners: FloatArray) -> FloatArray:
         """Return the height above one plane that patches reach with all corners.
 
         Parameters
@@ -94,16 +95,16 @@ class Hull:
         return highest
 
     @cached_property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> FloatArray:
         """(2, 3) lowest and highest coordinates."""
         bounds = np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
         _protect(bounds)
         return bounds
 
     @cached_property
-    def corners(self) -> NDArray[np.float64]:
+    def corners(self) -> FloatArray:
         """(F, 3, 3) corners of the triangles."""
-        corners: NDArray[np.float64] = self.vertices[self.triangles]
+        corners: FloatArray = self.vertices[self.triangles]
         _protect(corners)
         return corners
 
@@ -136,9 +137,9 @@ class CollisionShape:
 
     kind: str
     hull: Hull
-    center: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    sizes: NDArray[np.float64]
+    center: FloatArray
+    axes: FloatArray
+    sizes: FloatArray
 
     def __post_init__(self) -> None:
         """Protect the arrays."""
@@ -157,7 +158,7 @@ class CollisionShape:
             "CAPSULE": float(2 * np.pi * a**2 * half + ball),
         }[self.kind]
 
-    def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def heights(self, points: FloatArray) -> FloatArray:
         """Return the signed distance of points from the surface, negative inside.
 
         Outside a hull it is only a lower bound of the distance, see `Hull.heights`.
@@ -186,7 +187,7 @@ class CollisionShape:
         return away + np.minimum(beyond.max(axis=1), 0.0)
 
     @property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> FloatArray:
         """(2, 3) lowest and highest coordinates."""
         if self.kind == "HULL":
             return self.hull.bounds
@@ -201,7 +202,7 @@ class CollisionShape:
             reach = reach + self.sizes[0]
         return np.stack([self.center - reach, self.center + reach])
 
-    def moved(self, scale: float, center: NDArray[np.float64]) -> CollisionShape:
+    def moved(self, scale: float, center: FloatArray) -> CollisionShape:
         """Return the shape scaled about the origin, then moved by `center`.
 
         Parameters

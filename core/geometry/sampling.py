@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from ..steps.arrays import FloatArray, IntArray
 from .cutting.halving import halved
 from .frames import area_vectors
 from .mesh import TriangleMesh
@@ -34,22 +34,22 @@ class Samples:
         Triangle that each sample lies on.
     """
 
-    positions: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    triangles: NDArray[np.int64]
+    positions: FloatArray
+    normals: FloatArray
+    triangles: IntArray
 
     def __len__(self) -> int:
         """Return the number of samples."""
         return len(self.positions)
 
-    def at(self, rows: slice | NDArray[np.int64]) -> Samples:
+    def at(self, rows: slice | IntArray) -> Samples:
         """Return some of the samples."""
         return Samples(self.positions[rows], self.normals[rows], self.triangles[rows])
 
 
 def take_samples(
     mesh: TriangleMesh,
-    rows: NDArray[np.int64],
+    rows: IntArray,
     sampling: str,
     n_samples: int,
     rng: np.random.Generator,
@@ -124,8 +124,8 @@ def sample_surface(
 
 
 def points_on(
-    corners: NDArray[np.float64], n_points: int, rng: np.random.Generator
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    corners: FloatArray, n_points: int, rng: np.random.Generator
+) -> tuple[IntArray, FloatArray]:
     """Draw points on triangles, uniformly by area.
 
     Parameters
@@ -144,13 +144,13 @@ def points_on(
     """
     areas = np.linalg.norm(area_vectors(corners), axis=1) / 2
     triangles, weights = _drawn(areas, n_points, rng)
-    points: NDArray[np.float64] = np.einsum("nc,ncd->nd", weights, corners[triangles])
+    points: FloatArray = np.einsum("nc,ncd->nd", weights, corners[triangles])
     return triangles, points
 
 
 def _drawn(
-    areas: NDArray[np.float64], n_points: int, rng: np.random.Generator
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    areas: FloatArray, n_points: int, rng: np.random.Generator
+) -> tuple[IntArray, FloatArray]:
     """Draw triangles (N,) by area, and weights (N, 3) of their corners."""
     cumulative = np.cumsum(areas)
     # Systematic sampling: one draw from each equal slice of the cumulative area.
@@ -194,7 +194,7 @@ def sample_faces(mesh: TriangleMesh) -> Samples:
     return Samples(corners.mean(axis=1), mesh.normals[triangles], triangles)
 
 
-def _spread() -> NDArray[np.int64]:
+def _spread() -> IntArray:
     """Return each number of a cell with two zeros after each of its bits, (2^bits,)."""
     cells, spread = np.arange(2**_CURVE_BITS), np.zeros(2**_CURVE_BITS, dtype=np.int64)
     for bit in range(_CURVE_BITS):
@@ -205,7 +205,7 @@ def _spread() -> NDArray[np.int64]:
 _SPREAD = _spread()
 
 
-def _morton_codes(points: NDArray[np.float64]) -> NDArray[np.int64]:
+def _morton_codes(points: FloatArray) -> IntArray:
     """Return each point's place along a Z-order curve through the bounding cube."""
     low = points.min(axis=0)
     extent = float((points.max(axis=0) - low).max()) or 1.0

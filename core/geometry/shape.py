@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DecompositionError
+from ..steps.arrays import IntArray
 from .array_checks import checked_numbers, described
 from .mesh import TriangleMesh
 from .point_cloud import PointCloud
@@ -97,9 +98,7 @@ def check_members(members: object, shape: Shape) -> None:
         )
 
 
-def checked_labels(
-    labels: object, mesh: TriangleMesh, needed: bool
-) -> NDArray[np.int64] | None:
+def checked_labels(labels: object, mesh: TriangleMesh, needed: bool) -> IntArray | None:
     """Return the labels of the faces of a mesh, after checking them.
 
     Parameters

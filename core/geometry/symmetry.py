@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps
 from .frames import with_normals
 from .graphs.face_graph import FaceGraph
@@ -37,10 +37,10 @@ _BLOCK = 10_000
 class Plane:
     """The points x with normal · x = offset; `normal` is a unit vector, (3,) float."""
 
-    normal: NDArray[np.float64]
+    normal: FloatArray
     offset: float
 
-    def heights(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def heights(self, points: FloatArray) -> FloatArray:
         """Return the signed distances of points from the plane, (N,) float.
 
         Parameters
@@ -49,7 +49,7 @@ class Plane:
         """
         return points @ self.normal - self.offset
 
-    def mirrored(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    def mirrored(self, points: FloatArray) -> FloatArray:
         """Return the mirror images of points, (N, 3) float.
 
         Parameters
@@ -71,10 +71,10 @@ class Side:
         Polygon on this side that matches each image.
     """
 
-    images: NDArray[np.int64]
-    sources: NDArray[np.int64]
+    images: IntArray
+    sources: IntArray
 
-    def copied(self, labels: NDArray[np.int64], graph: FaceGraph) -> NDArray[np.int64]:
+    def copied(self, labels: IntArray, graph: FaceGraph) -> IntArray:
         """Return labels with those of this side copied to the other side, (P,) int.
 
         A part that crosses the plane is one part with its image. The image of any other
@@ -183,7 +183,7 @@ def find_plane(graph: FaceGraph) -> Steps[Plane | None]:
     return best
 
 
-def likely_normals(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def likely_normals(points: FloatArray) -> FloatArray:
     """Return the axes of space and the principal axes of points, (6, 3) float.
 
     Parameters
@@ -194,11 +194,7 @@ def likely_normals(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([np.eye(3), principal.T])
 
 
-def plane_between(
-    starts: NDArray[np.float64],
-    ends: NDArray[np.float64],
-    distances: NDArray[np.float64],
-) -> Plane:
+def plane_between(starts: FloatArray, ends: FloatArray, distances: FloatArray) -> Plane:
     """Return the plane halfway between points and their mirror images.
 
     Only the matches with the smallest distances are used.
@@ -222,11 +218,8 @@ def plane_between(
 
 
 def nearest_images(
-    tree: cKDTree,
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    plane: Plane,
-) -> NDArray[np.int64]:
+    tree: cKDTree, points: FloatArray, normals: FloatArray, plane: Plane
+) -> IntArray:
     """Return the row of a tree nearest to the mirror image of each point, (N,) int.
 
     Parameters

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
+from ..steps.arrays import FloatArray, Int32Array, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import RowsByNumber, blocks
 from .frames import with_normals
@@ -52,8 +52,8 @@ class NearestSamples:
         self._nearest = np.empty((0, self._n_nearest), dtype=np.int32)
 
     def of(
-        self, graph: FaceGraph, numbers: NDArray[np.int64]
-    ) -> Steps[tuple[NDArray[np.float64], NDArray[np.int32]]]:
+        self, graph: FaceGraph, numbers: IntArray
+    ) -> Steps[tuple[FloatArray, Int32Array]]:
         """Return how far the n nearest samples of polygons are away, and which.
 
         Parameters
@@ -90,10 +90,10 @@ class NearestSamples:
 
 def carry(
     samples: Samples,
-    polygon_of: NDArray[np.int64],
+    polygon_of: IntArray,
     graph: FaceGraph,
     known: NearestSamples | None = None,
-    numbers: NDArray[np.int64] | None = None,
+    numbers: IntArray | None = None,
 ) -> Steps[Transfer]:
     """Find the samples nearest to each polygon, and with them make a `Transfer`.
 
@@ -136,10 +136,10 @@ def spacing_of(samples: Samples, graph: FaceGraph) -> float:
 
 
 def _shares(
-    distances: NDArray[np.float64],
-    nearest: NDArray[np.int32],
-    own: NDArray[np.int64],
-    polygon_of: NDArray[np.int64],
+    distances: FloatArray,
+    nearest: Int32Array,
+    own: IntArray,
+    polygon_of: IntArray,
     n_samples: int,
 ) -> sparse.csr_array:
     """Return weights of samples (P, N): by distance, plus 1 on a polygon's own ones.
@@ -159,9 +159,9 @@ def _shares(
 
 def _linked(
     samples: Samples,
-    polygon_of: NDArray[np.int64],
+    polygon_of: IntArray,
     graph: FaceGraph,
-    nearest: NDArray[np.int32],
+    nearest: Int32Array,
     shares: sparse.csr_array,
 ) -> Transfer:
     """Return the transfer to a graph, after its shells are linked.
@@ -200,15 +200,13 @@ class Transfer:
         Number of shells without a sample, and of all shells.
     """
 
-    polygon_of: NDArray[np.int64]
+    polygon_of: IntArray
     shares: sparse.csr_array
     graph: FaceGraph
     n_unsampled: int
     n_shells: int
 
-    def to_polygons(
-        self, labels: NDArray[np.int64], n_labels: int
-    ) -> NDArray[np.int64]:
+    def to_polygons(self, labels: IntArray, n_labels: int) -> IntArray:
         """Return the label with the largest weight of samples on each polygon.
 
         Parameters
@@ -225,7 +223,7 @@ class Transfer:
         votes = self.shares @ np.eye(n_labels)[labels]
         return np.asarray(votes).argmax(axis=1)
 
-    def to_samples(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+    def to_samples(self, labels: IntArray) -> IntArray:
         """Return the label of the polygon that each sample lies on.
 
         Parameters

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..cache import ShapeCache
 from ..errors import DecompositionError
@@ -20,6 +19,7 @@ from ..parameters.parameter import check, field_of
 from ..parameters.parts import Parameters
 from ..results.hulls import HullDecomposition
 from ..sight.prepared import PreparedShape
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.memo import digest
 from ..steps.progress import Progress, Steps, within
 from .convex_solid import exact_error, hull_of_convex
@@ -36,7 +36,7 @@ def build_hulls_in_steps(
     shape: Shape,
     parameters: HullParameters,
     cache: ShapeCache,
-    labels: NDArray[np.int64] | None = None,
+    labels: IntArray | None = None,
     seed: int = 0,
     scene_unit: float = 1.0,
     kinds: Mapping[int, str] | None = None,
@@ -88,7 +88,7 @@ def _build(
     shape: TriangleMesh,
     parameters: HullParameters,
     cache: ShapeCache,
-    labels: NDArray[np.int64] | None,
+    labels: IntArray | None,
     seed: int,
     scene_unit: float,
     kinds: Mapping[int, str] | None,
@@ -128,9 +128,9 @@ class _Found:
     """
 
     shapes: Sequence[CollisionShape]
-    errors: NDArray[np.float64]
+    errors: FloatArray
     hulls: Sequence[Hull]
-    rows: NDArray[np.int64]
+    rows: IntArray
     volume: float
 
     @property
@@ -141,11 +141,7 @@ class _Found:
 
 
 def _find(
-    prepared: PreparedShape,
-    fit: Fit,
-    scale: float,
-    parts: NDArray[np.int64],
-    seed: int,
+    prepared: PreparedShape, fit: Fit, scale: float, parts: IntArray, seed: int
 ) -> Steps[_Found]:
     """Return the shapes around a mesh; `scale` makes its longest side 2."""
     found = None
@@ -170,7 +166,7 @@ def _around_convex(prepared: PreparedShape, fit: Fit, scale: float) -> _Found | 
     return _Found([shape], errors, [hull], row, hull.volume)
 
 
-def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_Found]:
+def _around_pieces(solid: Solid, parts: IntArray, fit: Fit) -> Steps[_Found]:
     """Cut a solid, or take its parts, and return a shape around each piece."""
     pieces = yield from within(_pieces_of(solid, parts, fit), 0.0, 0.95)
     errors, rows, shapes = [], [], []
@@ -192,7 +188,7 @@ def _around_pieces(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[_F
     )
 
 
-def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[Piece]]:
+def _pieces_of(solid: Solid, parts: IntArray, fit: Fit) -> Steps[list[Piece]]:
     """Return the pieces that get a shape each."""
     most = fit.parameters.max_hulls
     if fit.parameters.pieces == "PARTS":
@@ -209,8 +205,8 @@ def _pieces_of(solid: Solid, parts: NDArray[np.int64], fit: Fit) -> Steps[list[P
 
 
 def _parts_of_triangles(
-    mesh: TriangleMesh, labels: NDArray[np.int64] | None
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    mesh: TriangleMesh, labels: IntArray | None
+) -> tuple[IntArray, IntArray]:
     """Return the numbers of the parts, (K,), and the row of each triangle's, (T,).
 
     Without labels, all triangles are in one part of number −1.

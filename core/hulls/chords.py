@@ -6,8 +6,8 @@ Each chord stands for the volume of the prism around it.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.rows import ranges
 from .measure.line_crossings import TURNS, LineCrossings, in_order
 
@@ -20,8 +20,8 @@ _GOLDEN, _SILVER = (5**0.5 - 1) / 2, 2**0.5 - 1
 
 
 def chords_along(
-    crossings: LineCrossings, corners: NDArray[np.float64], axis: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
+    crossings: LineCrossings, corners: FloatArray, axis: int
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """Return the chords along an axis, split into short ones.
 
     Lines form a Fibonacci lattice. A line is inside where it has entered more triangles
@@ -65,8 +65,8 @@ def chords_along(
 
 
 def _lattice(
-    low: NDArray[np.float64], high: NDArray[np.float64], step: float
-) -> tuple[NDArray[np.float64], float]:
+    low: FloatArray, high: FloatArray, step: float
+) -> tuple[FloatArray, float]:
     """Return points of a rectangle, (L, 2) by their first coordinate, and their area.
 
     About as many as in a square grid with a distance of `step`.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
@@ -16,6 +15,7 @@ from ..geometry.frames import (
     principal_axes,
 )
 from ..geometry.primitives import Hull
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.rows import blocks
 
 # Thickness of the hulls of flat pieces; the longest side of the shape is 2.
@@ -31,7 +31,7 @@ _ROUNDING = 2e-3
 _VERTICES_A_ROUND = 6
 
 
-def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
+def convex_hull(points: FloatArray, thin: float) -> Hull:
     """Return the convex hull of points.
 
     Parameters
@@ -55,7 +55,7 @@ def convex_hull(points: NDArray[np.float64], thin: float) -> Hull:
     return hull
 
 
-def hull_volume(points: NDArray[np.float64]) -> float:
+def hull_volume(points: FloatArray) -> float:
     """Return the volume of the convex hull of points.
 
     Parameters
@@ -73,7 +73,7 @@ def hull_volume(points: NDArray[np.float64]) -> float:
         return 0.0
 
 
-def thickened(points: NDArray[np.float64], thin: float) -> NDArray[np.float64]:
+def thickened(points: FloatArray, thin: float) -> FloatArray:
     """Return points made at least `thin` thick along each of their principal axes.
 
     Parameters
@@ -159,7 +159,7 @@ def offset(hull: Hull, margin: float) -> Hull:
         return hull
 
 
-def _hull(points: NDArray[np.float64]) -> Hull:
+def _hull(points: FloatArray) -> Hull:
     """Return the hull of points; raise QhullError or ValueError if they are flat."""
     found = ConvexHull(points)
     used = np.zeros(len(points), dtype=bool)
@@ -185,7 +185,7 @@ def _thickness(hull: Hull) -> float:
     return float(np.ptp(hull.vertices @ principal_axes(hull.vertices)[0]))
 
 
-def _deepest(hull: Hull) -> NDArray[np.float64]:
+def _deepest(hull: Hull) -> FloatArray:
     """Return the center (3,) of a largest ball within a hull."""
     normals, offsets = hull.planes[:, :3], hull.planes[:, 3]
     found = linprog(
@@ -198,8 +198,8 @@ def _deepest(hull: Hull) -> NDArray[np.float64]:
 
 
 def _farthest_out(
-    planes: NDArray[np.float64], points: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    planes: FloatArray, points: FloatArray
+) -> tuple[IntArray, FloatArray]:
     """Return the row of the point highest above each plane, (P,), and its height."""
     rows, heights = np.empty(len(planes), dtype=np.int64), np.empty(len(planes))
     for some in blocks(len(planes), HEIGHTS_AT_ONCE // len(points)):
@@ -208,7 +208,7 @@ def _farthest_out(
     return rows, heights
 
 
-def _tetrahedron(points: NDArray[np.float64]) -> list[int]:
+def _tetrahedron(points: FloatArray) -> list[int]:
     """Return the rows of four points far apart, the corners of a tetrahedron."""
     rows = [int(np.linalg.norm(points - points.mean(axis=0), axis=1).argmax())]
     offsets = points - points[rows[0]]

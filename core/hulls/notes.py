@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..geometry.primitives import CollisionShape, Hull
+from ..steps.arrays import FloatArray
 from .convex_hull import offset
 from .fitting import Fit
 
@@ -26,7 +24,7 @@ def notes_on_parts(n_parts: int, n_shapes: int, fit: Fit) -> tuple[str, ...]:
 def notes_on(
     shapes: Sequence[CollisionShape],
     hulls: Sequence[Hull],
-    errors: NDArray[np.float64],
+    errors: FloatArray,
     fit: Fit,
 ) -> tuple[str, ...]:
     """Return notes on errors above the largest, and on hulls that did not shrink.

@@ -5,11 +5,11 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.directions import sphere_directions
 from ..geometry.frames import area_vectors, coordinates_along
 from ..geometry.primitives import CollisionShape, Hull
+from ..steps.arrays import FloatArray, IntArray
 from .convex_hull import convex_hull
 
 # Corners of a side of a box, counter-clockwise.
@@ -53,7 +53,7 @@ def outline_of(shape: CollisionShape) -> Hull:
     return convex_hull(points, float(shape.sizes.max()) / 1e3)
 
 
-def faces_of(shape: CollisionShape) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def faces_of(shape: CollisionShape) -> tuple[FloatArray, IntArray]:
     """Return the vertices and faces of a shape to be shown: six quads for a box.
 
     Parameters
@@ -79,7 +79,7 @@ def faces_of(shape: CollisionShape) -> tuple[NDArray[np.float64], NDArray[np.int
     return outline.vertices, np.array(faces)
 
 
-def fine_outline(shape: CollisionShape) -> tuple[NDArray[np.float64], float]:
+def fine_outline(shape: CollisionShape) -> tuple[FloatArray, float]:
     """Return triangles near the surface of a collision shape, and how near.
 
     Parameters

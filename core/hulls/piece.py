@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.primitives import CollisionShape, Hull
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from .convex_hull import THIN, convex_hull
 from .fitting import Fit
 from .measure.error_bound import ErrorBound
@@ -42,17 +42,17 @@ class Piece:
         Row of the part that it is, or most of it; −1 for what cuts made.
     """
 
-    points: NDArray[np.float64]
-    boundary: NDArray[np.float64]
-    triangles: NDArray[np.int64]
+    points: FloatArray
+    boundary: FloatArray
+    triangles: IntArray
     volume: float
     solid: Solid
     fit: Fit
-    witnesses: NDArray[np.float64]
+    witnesses: FloatArray
     part: int
 
     @property
-    def on_surface(self) -> NDArray[np.bool_]:
+    def on_surface(self) -> BoolArray:
         """Which samples of the boundary are on the surface, (N,)."""
         return self.triangles >= 0
 
@@ -94,7 +94,7 @@ class Piece:
         return self.hull.is_thickened and self.solid.closed and not self.is_sheet
 
     @property
-    def extremes(self) -> NDArray[np.float64]:
+    def extremes(self) -> FloatArray:
         """Few points with the same convex hull, not thickened, (M, 3)."""
         return self.points if self.is_sheet else self.hull.vertices
 
@@ -151,13 +151,13 @@ class Piece:
         return max(self.error, bound.known) if bound else self.error
 
     @property
-    def all_witnesses(self) -> NDArray[np.float64]:
+    def all_witnesses(self) -> FloatArray:
         """Witnesses, with the far point that was found when the piece was measured."""
         bound = self.__dict__.get("bound")
         return np.concatenate([self.witnesses, *([bound.place] if bound else [])])
 
 
-def piece_of_part(solid: Solid, fit: Fit, parts: NDArray[np.int64], row: int) -> Piece:
+def piece_of_part(solid: Solid, fit: Fit, parts: IntArray, row: int) -> Piece:
     """Return a part of the surface as a piece, with the inside that is nearest to it.
 
     Parameters
@@ -208,7 +208,7 @@ def join(one: Piece, other: Piece) -> Piece:
     )
 
 
-def _rows_that_occur_once(points: NDArray[np.float64]) -> NDArray[np.int64]:
+def _rows_that_occur_once(points: FloatArray) -> IntArray:
     """Return the rows (M,) of points (N, 3) that equal no other; in some order."""
     # The same points have the same key; to sort by all coordinates takes longer.
     x, y, z = points.T

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..cache import ShapeCache
 from ..geometry.mesh import TriangleMesh
 from ..parameters.hulls import HullParameters
 from ..results.hulls import HullDecomposition
+from ..steps.arrays import FloatArray
 from ..steps.progress import Progress, Steps, within
 from .convex_hull import THIN, convex_hull
 from .convex_solid import exact_error, has_volume_of, hull_of_convex
@@ -19,7 +19,7 @@ from .solid import solid_of
 
 def refit_in_steps(
     mesh: TriangleMesh,
-    points: NDArray[np.float64],
+    points: FloatArray,
     parameters: HullParameters,
     cache: ShapeCache,
     scene_unit: float = 1.0,

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.frames import settled
@@ -16,6 +15,7 @@ from ..geometry.sampling import sample_surface
 from ..geometry.welding import distinct_points
 from ..solids.mass import mass_of_surface
 from ..solids.shells import find_shells
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import used_rows
 from .chords import chords_along
@@ -64,11 +64,11 @@ class Solid:
 
     mesh: TriangleMesh
     surface: TriangleMesh
-    vertices: NDArray[np.float64]
-    samples: NDArray[np.float64]
-    triangles: NDArray[np.int64]
-    chords: NDArray[np.float64]
-    volumes: NDArray[np.float64]
+    vertices: FloatArray
+    samples: FloatArray
+    triangles: IntArray
+    chords: FloatArray
+    volumes: FloatArray
     spacing: float
     closed: bool
     overlap: float
@@ -90,12 +90,12 @@ class Solid:
         return mass.mass * self.overlap if mass else self.volume
 
     @cached_property
-    def corners(self) -> NDArray[np.float64]:
+    def corners(self) -> FloatArray:
         """Corners of the triangles, (T, 3, 3)."""
         return self.mesh.vertices[self.mesh.triangles]
 
     @cached_property
-    def triangle_bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def triangle_bounds(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest coordinates of each triangle of the surface, (N, 3)."""
         corners = self.surface.vertices[self.surface.triangles]
         return corners.min(axis=1), corners.max(axis=1)
@@ -106,7 +106,7 @@ class Solid:
         return InsideTest(self.corners, 1 if self.closed else 3)
 
     @cached_property
-    def _some_chords(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _some_chords(self) -> tuple[FloatArray, FloatArray]:
         """Points of chords chosen by chance, and volumes around them."""
         if len(self.chords) <= _SOME_CHORDS:
             return self.chords, self.volumes
@@ -116,7 +116,7 @@ class Solid:
         return self.chords[rows], volumes * (self.volume / volumes.sum())
 
     @cached_property
-    def samples_of_chords(self) -> NDArray[np.int64]:
+    def samples_of_chords(self) -> IntArray:
         """Row of the sample that is nearest to each chord, (C,)."""
         return cKDTree(self.samples).query(self.chords)[1]
 
@@ -133,7 +133,7 @@ class Solid:
         within = shape.heights(chords[near]) <= 0
         return float(volumes[near][within].sum())
 
-    def main_part(self, parts: NDArray[np.int64], hull: Hull) -> int:
+    def main_part(self, parts: IntArray, hull: Hull) -> int:
         """Return the part of most of the surface samples in a hull.
 
         Parameters
@@ -202,8 +202,8 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
 
 
 def _chords_in(
-    corners: NDArray[np.float64], vertices: NDArray[np.float64]
-) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64], float]]:
+    corners: FloatArray, vertices: FloatArray
+) -> Steps[tuple[FloatArray, FloatArray, float]]:
     """Return chords, volumes and the overlap, as in `Solid`."""
     crossings, along = LineCrossings(corners), []
     for axis in range(3):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..clusters.moves import MoveGains
 from ..geometry.transfer import Transfer
@@ -11,6 +10,7 @@ from ..parameters.parts import Parameters
 from ..results.parts import Decomposition
 from ..sight.prepared import PreparedShape
 from ..sight.visibility import Visibility
+from ..steps.arrays import IntArray
 from .part_psi import PartPsi, count_parts
 
 # A face with fewer samples is small: its samples say little.
@@ -23,7 +23,7 @@ _MUCH_AREA = 0.1
 
 def describe(
     visibility: Visibility,
-    labels: NDArray[np.int64],
+    labels: IntArray,
     parameters: Parameters,
     psi_by_k: dict[int, float],
     best_k: int,
@@ -69,7 +69,7 @@ def describe(
     )
 
 
-def by_size(nodes: NDArray[np.int64], shape: PreparedShape) -> NDArray[np.int64]:
+def by_size(nodes: IntArray, shape: PreparedShape) -> IntArray:
     """Renumber parts by area, the largest first.
 
     Parameters

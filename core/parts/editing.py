@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import DecompositionError
 from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.symmetry import Plane, side_of
+from ..steps.arrays import BoolArray, IntArray
 from ..steps.progress import Steps
 from .part_psi import count_parts
 
@@ -40,15 +40,15 @@ class Change:
         Sentences to the user.
     """
 
-    labels: NDArray[np.int64]
+    labels: IntArray
     ranks: dict[int, float] = field(default_factory=dict)
     mirrored: dict[int, int] = field(default_factory=dict)
     side: str = "L"
-    by_hand: NDArray[np.bool_] | None = None
+    by_hand: BoolArray | None = None
     notes: tuple[str, ...] = ()
 
 
-def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Change:
+def give(labels: IntArray, faces: BoolArray, part: int) -> Change:
     """Assign polygons to a part.
 
     Parameters
@@ -67,7 +67,7 @@ def give(labels: NDArray[np.int64], faces: NDArray[np.bool_], part: int) -> Chan
 
 
 def mirror(
-    labels: NDArray[np.int64], graph: FaceGraph, middle: float, to_negative: bool
+    labels: IntArray, graph: FaceGraph, middle: float, to_negative: bool
 ) -> Steps[Change]:
     """Copy the parts on one side of a plane of constant X to the other side.
 
@@ -110,9 +110,7 @@ def mirror(
     )
 
 
-def compacted(
-    labels: NDArray[np.int64],
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def compacted(labels: IntArray) -> tuple[IntArray, IntArray]:
     """Renumber labels without gaps, in their former order.
 
     Parameters

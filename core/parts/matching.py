@@ -7,14 +7,13 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 from scipy.sparse import coo_array
 
+from ..steps.arrays import BoolArray, IntArray
 from .editing import compacted
 
 
 def match_parts(
-    before: NDArray[np.integer],
-    after: NDArray[np.integer],
-    areas: NDArray[np.floating],
-) -> NDArray[np.int64]:
+    before: NDArray[np.integer], after: NDArray[np.integer], areas: NDArray[np.floating]
+) -> IntArray:
     """Find the former part that each new part continues.
 
     Each former part is continued by one new part at most, such that the area that
@@ -44,8 +43,8 @@ def given_back(
     before: NDArray[np.integer],
     after: NDArray[np.integer],
     areas: NDArray[np.floating],
-    by_hand: NDArray[np.bool_],
-) -> NDArray[np.int64]:
+    by_hand: BoolArray,
+) -> IntArray:
     """Give polygons that the user settled back to their parts, after a new run.
 
     Such a polygon goes to the new part that continues its former one, or stays a part

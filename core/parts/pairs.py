@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.symmetry import Side
+from ..steps.arrays import IntArray
 from ..steps.progress import Steps
 from .part_memo import PartMemo
 from .part_psi import count_parts
@@ -21,7 +21,7 @@ _ENOUGH = 0.7
 _ALONG = 0.95
 
 
-def mirror_pairs(memo: PartMemo, labels: NDArray[np.int64]) -> Steps[Pairs]:
+def mirror_pairs(memo: PartMemo, labels: IntArray) -> Steps[Pairs]:
     """Find the pairs of parts that are mirror images of each other across X.
 
     Parts that cross the mirror plane have no partner. Shapes whose mirror plane does
@@ -55,9 +55,7 @@ def _along_x(side: Side, graph: FaceGraph) -> bool:
     return total > 0 and float(ways[:, 0].sum()) >= _ALONG * total
 
 
-def _pairs_of(
-    side: Side, graph: FaceGraph, parts: NDArray[np.int64]
-) -> list[tuple[int, int]]:
+def _pairs_of(side: Side, graph: FaceGraph, parts: IntArray) -> list[tuple[int, int]]:
     """Return the pairs among parts, by the polygons that one side's are matched to."""
     n_parts, areas = count_parts(parts), graph.areas
     shared = np.zeros((n_parts, n_parts))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..clusters.embedding import coordinates_for
+from ..steps.arrays import IntArray
 from ..steps.progress import Steps, within
 from .part_count import PartCountSearch, Search
 from .part_psi import count_parts
@@ -78,7 +78,7 @@ def _find(search: PartCountSearch, n_parts: int) -> Steps[Search]:
     return Search(seams, dict(sorted(psi_by_k.items())), searched.best_k)
 
 
-def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]:
+def own_parts(search: PartCountSearch, n_parts: int) -> Steps[IntArray]:
     """Return parts (P,) that are found for a number, before their seams are cut.
 
     More parts than the search tries are the most that it tries, split further. They
@@ -95,8 +95,8 @@ def own_parts(search: PartCountSearch, n_parts: int) -> Steps[NDArray[np.int64]]
 
 
 def _resized(
-    partitioner: Partitioner, parts: NDArray[np.int64], n_parts: int, high: int
-) -> Steps[NDArray[np.int64]]:
+    partitioner: Partitioner, parts: IntArray, n_parts: int, high: int
+) -> Steps[IntArray]:
     """Return parts (P,) split or merged so that there are `n_parts`.
 
     More than `high` are as many as the embedding serves, merged. So the same clusters

@@ -16,11 +16,11 @@ from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters
 from ..sight.pair_tally import PairTally
 from ..sight.visibility import Visibility
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.memo import Memo, computed_once
 from ..steps.progress import Steps, run, within
 from .details.surface import PartSurface
 
-Labels: TypeAlias = NDArray[np.int64]
 # Most polygons that are their own patches. More are grouped into a fifth as many. With
 # half as many, parts are no better, and take twice the time when parameters change.
 _MOST_NODES = 40_000
@@ -41,7 +41,7 @@ class Candidate(NamedTuple):
         Whether the parts were made symmetric to the shape's mirror plane.
     """
 
-    parts: Labels
+    parts: IntArray
     psi: float
     even: bool = False
 
@@ -69,8 +69,8 @@ class FoundMemo:
 
     def __init__(self) -> None:
         self.candidates: Memo[int, Candidate] = Memo()
-        self.plain: Memo[int, Labels] = Memo()
-        self.even: Memo[tuple[int, bytes], Labels] = Memo(64)
+        self.plain: Memo[int, IntArray] = Memo()
+        self.even: Memo[tuple[int, bytes], IntArray] = Memo(64)
         self.given: Memo[tuple[int, int, int, float], Any] = Memo(32)
         self.searches: Memo[tuple[int, int], dict[int, Candidate]] = Memo()
         self.seams: Memo[SeamsKey, Any] = Memo(32)
@@ -117,12 +117,12 @@ class PartMemo:
         # Once it was looked for: (None,) if the shape has no mirror plane.
         self._plane: tuple[Plane | None] | None = None
         self.tallies: Memo[tuple[bytes, int, bool], PairTally] = Memo(256)
-        self.on_nodes: Memo[tuple[bytes, int], Labels] = Memo(64)
-        self.pieces: Memo[tuple[float, bytes], Labels] = Memo(24)
-        self.moves: Memo[tuple[bytes, int, float], Labels] = Memo(32)
-        self.clusters: Memo[tuple[str, int, int, int], Labels] = Memo(1024)
+        self.on_nodes: Memo[tuple[bytes, int], IntArray] = Memo(64)
+        self.pieces: Memo[tuple[float, bytes], IntArray] = Memo(24)
+        self.moves: Memo[tuple[bytes, int, float], IntArray] = Memo(32)
+        self.clusters: Memo[tuple[str, int, int, int], IntArray] = Memo(1024)
         self.surfaces: Memo[bytes, PartSurface] = Memo(16)
-        self._embeddings: Memo[tuple[int, bool], NDArray[np.float64]] = Memo(2)
+        self._embeddings: Memo[tuple[int, bool], FloatArray] = Memo(2)
         self._found: Memo[tuple[str, int, str, float, float], FoundMemo] = Memo(3)
 
     def found_with(self, parameters: Parameters) -> FoundMemo:
@@ -146,7 +146,7 @@ class PartMemo:
         )
         return self._found.recall(key, FoundMemo)
 
-    def embedding(self, n_parts: int, parameters: Parameters) -> NDArray[np.float64]:
+    def embedding(self, n_parts: int, parameters: Parameters) -> FloatArray:
         """Return the embedding of the samples, with enough coordinates for the parts.
 
         Parameters
@@ -186,11 +186,11 @@ class PartMemo:
             self._transfer = yield from within(steps, 0.9, 1.0)
         return self._transfer
 
-    def on_patches(self, labels: Labels) -> Labels:
+    def on_patches(self, labels: IntArray) -> IntArray:
         """Return labels (P,) of the nodes as those of the patches, if there are any."""
         return labels if self.patches is None else self.patches.labels_of(labels)
 
-    def off_patches(self, labels: Labels) -> Labels:
+    def off_patches(self, labels: IntArray) -> IntArray:
         """Return labels of the patches, if there are any, as those of the nodes."""
         return labels if self.patches is None else labels[self.patches.of_nodes]
 
@@ -201,7 +201,7 @@ class PartMemo:
         return NearestSamples(samples, spacing_of(samples, self.transfer.graph))
 
     def on(
-        self, graph: FaceGraph, nodes: NDArray[np.int64], numbers: NDArray[np.int64]
+        self, graph: FaceGraph, nodes: IntArray, numbers: IntArray
     ) -> Steps[PartMemo]:
         """Return a memo of the same visibility, for parts of another graph.
 

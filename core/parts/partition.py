@@ -7,12 +7,12 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..clusters.kmeans import cluster
 from ..clusters.moves import raise_psi
 from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.memo import digest
 from ..steps.progress import Progress, Steps, run
 from .merging.pieces import connected_parts, merge_to
@@ -63,7 +63,7 @@ class Partitioner(PartPsi):
         return self.found.candidates.recall(n_parts, make)
 
     def symmetric(
-        self, parts: NDArray[np.int64], wanted: Container[int]
+        self, parts: IntArray, wanted: Container[int]
     ) -> Steps[list[Candidate]]:
         """Return the parts made symmetric, by copying either side to the other.
 
@@ -89,11 +89,8 @@ class Partitioner(PartPsi):
         return found
 
     def evened(
-        self,
-        parts: NDArray[np.int64],
-        wanted: Container[int],
-        enough: float = -np.inf,
-    ) -> Steps[NDArray[np.int64]]:
+        self, parts: IntArray, wanted: Container[int], enough: float = -np.inf
+    ) -> Steps[IntArray]:
         """Return symmetric parts, or the same ones if psi is clearly lower then.
 
         Parameters
@@ -113,11 +110,11 @@ class Partitioner(PartPsi):
         best = max(even, key=lambda each: each.psi, default=None)
         return parts if best is None or best.psi < least else best.parts
 
-    def _mirrored(self, parts: NDArray[np.int64], side: Side) -> NDArray[np.int64]:
+    def _mirrored(self, parts: IntArray, side: Side) -> IntArray:
         """Return the parts after those on one side are copied to the other side."""
         return self._pieces(side.copied(parts, self.graph))
 
-    def partition(self, n_parts: int) -> NDArray[np.int64]:
+    def partition(self, n_parts: int) -> IntArray:
         """Return `n_parts` connected parts (P,); fewer if no more are possible."""
         plain = self.plain(n_parts)
         if n_parts == 1 or not self.by_psi:
@@ -135,11 +132,11 @@ class Partitioner(PartPsi):
             moved, plain, key=lambda parts: (count_parts(parts), self.psi(parts))
         )
 
-    def plain(self, n_parts: int) -> NDArray[np.int64]:
+    def plain(self, n_parts: int) -> IntArray:
         """Return `n_parts` connected parts (P,) from k-means, not refined by psi."""
         return run(self.plain_in_steps(n_parts))
 
-    def plain_in_steps(self, n_parts: int) -> Steps[NDArray[np.int64]]:
+    def plain_in_steps(self, n_parts: int) -> Steps[IntArray]:
         """Return the steps that end in `plain`."""
         whole = np.zeros(self.graph.n_polygons, dtype=np.int64)
         return self.found.plain.recall_steps(
@@ -147,8 +144,8 @@ class Partitioner(PartPsi):
         )
 
     def _split_in_steps(
-        self, parts: NDArray[np.int64], n_parts: int, tries: Sequence[int] = _TRIES
-    ) -> Steps[NDArray[np.int64]]:
+        self, parts: IntArray, n_parts: int, tries: Sequence[int] = _TRIES
+    ) -> Steps[IntArray]:
         """Split parts along the borders of k-means' clusters, up to `n_parts` parts."""
         most = parts
         for more in tries:
@@ -168,19 +165,19 @@ class Partitioner(PartPsi):
                 most = split
         return most
 
-    def _on_nodes(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.int64]:
+    def _on_nodes(self, labels: IntArray, n_labels: int) -> IntArray:
         """Return labels (N,) of the samples carried to the nodes, (P,)."""
         return self.memo.on_nodes.recall(
             (digest(labels), n_labels),
             lambda: self.transfer.to_polygons(labels, n_labels),
         )
 
-    def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, NDArray[np.int64]]:
+    def _clusters(self, n_clusters: int, n_parts: int) -> tuple[int, IntArray]:
         """Return the number of clusters and the labels (N,) of samples by k-means."""
         n_clusters = min(n_clusters, len(self.visibility.samples))
         embedding = self.embedding(n_parts)[:, :n_clusters]
 
-        def make() -> NDArray[np.int64]:
+        def make() -> IntArray:
             # Positions separate samples that see the same, as in a convex shape.
             places = _PLACE_WEIGHT * self.visibility.samples.positions
             coordinates = np.hstack([embedding, places])
@@ -190,29 +187,29 @@ class Partitioner(PartPsi):
         key = kind, seed, n_clusters, embedding.shape[1]
         return n_clusters, self.memo.clusters.recall(key, make)
 
-    def embedding(self, n_parts: int) -> NDArray[np.float64]:
+    def embedding(self, n_parts: int) -> FloatArray:
         """Return the embedding of the samples for `n_parts` parts, (N, n) float."""
         return self.memo.embedding(n_parts, self.parameters)
 
-    def tidied(self, labels: NDArray[np.int64], n_parts: int) -> NDArray[np.int64]:
+    def tidied(self, labels: IntArray, n_parts: int) -> IntArray:
         """Return connected parts (P,), merged down to `n_parts` if there are more."""
         return self._at_most(n_parts, self._pieces(labels))
 
-    def _pieces(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _pieces(self, labels: IntArray) -> IntArray:
         """Return the connected pieces of labels, without pieces that are too small."""
         return connected_parts(self.graph, labels, self.smallest_area)
 
-    def _at_most(self, n_parts: int, parts: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _at_most(self, n_parts: int, parts: IntArray) -> IntArray:
         """Return the parts, merged down to `n_parts` if there are more."""
         return parts if count_parts(parts) <= n_parts else self.merged(parts, n_parts)
 
     def resized_in_steps(
         self,
-        parts: NDArray[np.int64],
+        parts: IntArray,
         n_parts: int,
         most: int = 0,
         tries: Sequence[int] = _TRIES,
-    ) -> Steps[NDArray[np.int64]]:
+    ) -> Steps[IntArray]:
         """Return parts (P,) split or merged so that there are `n_parts`.
 
         Parameters
@@ -233,13 +230,13 @@ class Partitioner(PartPsi):
 
     def merged(
         self,
-        parts: NDArray[np.int64],
+        parts: IntArray,
         n_parts: int,
-        lengths: NDArray[np.float64] | None = None,
+        lengths: FloatArray | None = None,
         price: float = 0.0,
         *,
         further: bool = False,
-    ) -> NDArray[np.int64]:
+    ) -> IntArray:
         """Merge parts (P,) where psi loses least, until `n_parts` are left.
 
         Borders may have a price, and other `lengths` (E,) along edges; see `merge_to`.

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..geometry.primitives import CollisionShape
 from ..parameters.hulls import HullParameters
 from ..parameters.parameter import check, field_of
+from ..steps.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,8 +57,8 @@ class HullDecomposition:
     """
 
     shapes: tuple[CollisionShape, ...]
-    errors: NDArray[np.float64]
-    parts: NDArray[np.int64]
+    errors: FloatArray
+    parts: IntArray
     volume_ratio: float
     notes: tuple[str, ...]
     error_unit: str = "RELATIVE"
@@ -70,7 +68,7 @@ class HullDecomposition:
         """Protect what the next result of the same shape may share."""
         self.errors.flags.writeable = self.parts.flags.writeable = False
 
-    def errors_in(self, unit: str) -> NDArray[np.float64]:
+    def errors_in(self, unit: str) -> FloatArray:
         """Return the errors in a unit, (K,) float.
 
         Parameters

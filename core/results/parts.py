@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..steps.arrays import FloatArray, IntArray
 from .psi import good_numbers
 
 
@@ -55,15 +55,15 @@ class Decomposition:
     [0, 0, 0, 0]
     """
 
-    labels: NDArray[np.int64]
-    areas: NDArray[np.float64]
-    ranks: NDArray[np.float64]
+    labels: IntArray
+    areas: FloatArray
+    ranks: FloatArray
     psi_before: float
     psi: float
     psi_by_k: dict[int, float]
     best_k: int
     notes: tuple[str, ...]
-    normals: NDArray[np.float64] | None = None
+    normals: FloatArray | None = None
     pairs_cast: int = 0
     pairs_inferred: int = 0
     pairs: tuple[tuple[int, int], ...] = ()
@@ -83,7 +83,7 @@ class Decomposition:
         return len(self.areas)
 
     @property
-    def face_counts(self) -> NDArray[np.int64]:
+    def face_counts(self) -> IntArray:
         """Number of polygons, or of points, of each part, (K,)."""
         return np.bincount(self.labels, minlength=self.n_parts)
 
@@ -92,7 +92,7 @@ class Decomposition:
         """Up to three good numbers of parts: a coarse one, `best_k` and a fine one."""
         return good_numbers(self.psi_by_k, self.best_k)
 
-    def pairs_at(self, places: NDArray[np.int64]) -> tuple[tuple[int, int], ...]:
+    def pairs_at(self, places: IntArray) -> tuple[tuple[int, int], ...]:
         """Return `pairs` of parts that get other numbers.
 
         Parameters

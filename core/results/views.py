@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from ..steps.arrays import BoolArray, FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -24,10 +23,10 @@ class View:
         Whether each sample is in line of sight of the point.
     """
 
-    point: NDArray[np.float64]
-    places: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    visible: NDArray[np.bool_]
+    point: FloatArray
+    places: FloatArray
+    normals: FloatArray
+    visible: BoolArray
 
     def __repr__(self) -> str:
         """Return the share of visible samples in one line."""
@@ -46,7 +45,7 @@ class Picture:
         Sentences to the user.
     """
 
-    pixels: NDArray[np.float64]
+    pixels: FloatArray
     notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
+from ..steps.arrays import BoolArray
 from ..steps.progress import Steps, within
 from .lines import RayBudget, cast_lines, faces_inside, see_pairs
 from .pair_visibility import PairVisibility, pair_counts
@@ -77,7 +77,7 @@ def see_uniform_pairs(
     visible = yield from see_pairs(views, first, second, budget)
     first, second = first[: len(visible)], second[: len(visible)]
 
-    def counted(chosen: NDArray[np.bool_]) -> sparse.csr_array:
+    def counted(chosen: BoolArray) -> sparse.csr_array:
         return pair_counts(first[chosen], second[chosen], n_samples)
 
     known = counted(np.ones_like(visible))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import cKDTree
 
@@ -13,6 +12,7 @@ from ..geometry.directions import cone_directions, fan_directions
 from ..geometry.frames import with_normals
 from ..geometry.sampling import Samples
 from ..parameters.parts import Parameters
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps
 from .pair_visibility import PairVisibility, pair_counts
 from .prepared import PreparedShape
@@ -24,7 +24,7 @@ _USUAL_RAYS = 30
 # standard error is about 0.002.
 _UNIFORM_PAIRS = 60_000
 # Pairs of samples, (2, M) each.
-Pairs: TypeAlias = list[NDArray[np.int64]]
+Pairs: TypeAlias = list[IntArray]
 
 
 def shared_rays(parameters: Parameters, n_samples: int) -> tuple[int, int]:
@@ -98,7 +98,7 @@ def see_cones(
 
 def _directions(
     shape: PreparedShape, samples: Samples, n_rays: int, opening: float
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Return the directions of the rays, (N r, 3): in a fan for a flat shape."""
     if shape.plane is None:
         directions = cone_directions(samples.normals, n_rays, opening)

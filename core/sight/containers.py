@@ -8,9 +8,9 @@ segment between them stays inside the shape or in enclosed cells.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.sampling import Samples
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .enclosed import ENCLOSED_OUTSIDE, OPEN, Grid, find_enclosed
@@ -58,11 +58,8 @@ def see_through_containers(
 
 
 def see_through(
-    grid: Grid,
-    places: NDArray[np.float64],
-    first: NDArray[np.int64],
-    second: NDArray[np.int64],
-) -> Steps[NDArray[np.bool_]]:
+    grid: Grid, places: FloatArray, first: IntArray, second: IntArray
+) -> Steps[BoolArray]:
     """Find the segments that run through enclosed cells but not through open ones.
 
     Parameters
@@ -85,9 +82,7 @@ def see_through(
     return through
 
 
-def _run_through(
-    grid: Grid, starts: NDArray[np.float64], ends: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _run_through(grid: Grid, starts: FloatArray, ends: FloatArray) -> BoolArray:
     """Return the result of `see_through` for the segments of one step."""
     through = np.zeros(len(starts), dtype=bool)
     # Units are cells. Columns and single precision for speed: the loop below takes most

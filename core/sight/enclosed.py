@@ -14,6 +14,7 @@ from scipy import ndimage
 
 from ..geometry.directions import cone_directions
 from ..solids.shells import GAP
+from ..steps.arrays import BoolArray, FloatArray
 from ..steps.progress import Progress, Steps, within
 from .ray_march import PASS, RAYS_PER_STEP, RayMarcher
 
@@ -53,7 +54,7 @@ class Grid:
         Kind of each cell: inside, enclosed outside or open. All border cells are open.
     """
 
-    low: NDArray[np.float64]
+    low: FloatArray
     size: float
     kinds: NDArray[np.uint8]
 
@@ -101,7 +102,7 @@ def find_enclosed(marcher: RayMarcher) -> Steps[Grid | None]:
     return Grid(low - size, size, np.pad(kinds, 1, constant_values=OPEN))
 
 
-def _grown(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _grown(cells: BoolArray) -> BoolArray:
     """Return cells (X, Y, Z), and all that are at most two cells away from them."""
     return ndimage.binary_dilation(cells, np.ones((5, 5, 5)))
 
@@ -115,7 +116,7 @@ class _Hits:
         Those near are within the width of a gap between shells.
     """
 
-    def __init__(self, marcher: RayMarcher, centers: NDArray[np.float64]) -> None:
+    def __init__(self, marcher: RayMarcher, centers: FloatArray) -> None:
         self._marcher, self._points = marcher, centers.reshape(-1, 3)
         upwards = np.array([[0.0, 0.0, 1.0]])
         self._directions = cone_directions(upwards, _DIRECTIONS, 2 * np.pi)[0]
@@ -124,12 +125,12 @@ class _Hits:
         self._counts = counts.reshape(4, -1)
 
     @property
-    def shares(self) -> NDArray[np.float64]:
+    def shares(self) -> FloatArray:
         """The share of each cell's rays that hit the shape, 0 without rays."""
         return (self.front + self.back) / np.maximum(self.n_cast, 1)
 
     @property
-    def outside(self) -> NDArray[np.bool_]:
+    def outside(self) -> BoolArray:
         """Which cells lie outside. Those without rays count as such.
 
         The gap between two shells that were set apart is none of the outside. Beside a
@@ -138,13 +139,11 @@ class _Hits:
         in_gap = 2 * self.near > self.n_cast
         return (self.front >= self.back) & ~in_gap
 
-    def hidden(self, share: float) -> NDArray[np.bool_]:
+    def hidden(self, share: float) -> BoolArray:
         """Return the cells outside from which at least this share hits the shape."""
         return self.outside & (self.shares >= share)
 
-    def cast_around(
-        self, cells: NDArray[np.bool_], around: NDArray[np.bool_]
-    ) -> Steps[None]:
+    def cast_around(self, cells: BoolArray, around: BoolArray) -> Steps[None]:
         """Cast few rays around some cells, more from them, and all that may matter.
 
         Cells that rays were cast from have had their first ones.
@@ -157,7 +156,7 @@ class _Hits:
         doubtful = cells & self.hidden(_CLEARLY_OPEN) & (self.n_cast < _DIRECTIONS)
         yield from within(self.cast(doubtful, ~first), 0.5, 1.0)
 
-    def cast(self, chosen: NDArray[np.bool_], turns: NDArray[np.bool_]) -> Steps[None]:
+    def cast(self, chosen: BoolArray, turns: BoolArray) -> Steps[None]:
         """Cast rays from the chosen cells, one in each chosen direction."""
         directions, (front, back, close, n_cast) = self._directions[turns], self._counts
         chosen_rows = np.flatnonzero(chosen)
@@ -173,8 +172,8 @@ class _Hits:
 
 
 def _meet(
-    marcher: RayMarcher, points: NDArray[np.float64], direction: NDArray[np.float64]
-) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.bool_]]:
+    marcher: RayMarcher, points: FloatArray, direction: FloatArray
+) -> tuple[BoolArray, FloatArray, BoolArray]:
     """Return which rays hit the shape, normal · direction at each hit, which are near.
 
     Those are within the width of a gap between shells.
@@ -190,9 +189,7 @@ def _meet(
     return met, marcher.normals[triangles[met]] @ direction, near
 
 
-def _enclosed(
-    outside: NDArray[np.bool_], shares: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _enclosed(outside: BoolArray, shares: FloatArray) -> BoolArray:
     """Return the enclosed cells, from each cell's share of rays that hit the shape."""
     # Shares of so few rays are noisy: average them over neighboring outside cells,
     # whose shares are nearly the same.

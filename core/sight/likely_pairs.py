@@ -8,10 +8,10 @@ same, and are near each other. This module goes beyond the paper.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 from scipy.special import expit
 
+from ..steps.arrays import FloatArray
 from ..steps.one_thread import on_one_thread
 from ..steps.progress import Progress, Steps
 from ..steps.rows import blocks
@@ -40,9 +40,7 @@ _ENTRIES_PER_STEP = 2**17
 
 
 @on_one_thread
-def likely_pairs(
-    pairs: PairVisibility, positions: NDArray[np.float64]
-) -> Steps[PairVisibility]:
+def likely_pairs(pairs: PairVisibility, positions: FloatArray) -> Steps[PairVisibility]:
     """Replace lines of sight by the probability that two samples lie in one part.
 
     Parameters

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..steps.arrays import BoolArray, IntArray
 from ..steps.progress import Progress, Steps
 from .ray_march import MOST_CASTS, RAYS_PER_STEP
 from .viewpoints import Viewpoints
@@ -53,9 +53,7 @@ class RayBudget:
         self.left -= n_rays
 
 
-def faces_inside(
-    views: Viewpoints, first: NDArray[np.int64], second: NDArray[np.int64]
-) -> NDArray[np.bool_]:
+def faces_inside(views: Viewpoints, first: IntArray, second: IntArray) -> BoolArray:
     """Test which pairs of samples face each other through the inside.
 
     Lines of sight need this, and it costs no ray: each end of a segment lies below the
@@ -77,7 +75,7 @@ def faces_inside(
     axes = list(zip(views.positions.T.copy(), samples.normals.T.copy(), strict=True))
     planes = np.einsum("nd,nd->n", samples.normals, samples.positions)
 
-    def below(ends: NDArray[np.int64], others: NDArray[np.int64]) -> NDArray[np.bool_]:
+    def below(ends: IntArray, others: IntArray) -> BoolArray:
         heights = sum(place[others] * normal[ends] for place, normal in axes)
         allowed = planes[ends]
         if tilt:
@@ -90,10 +88,10 @@ def faces_inside(
 
 def see_pairs(
     views: Viewpoints,
-    first: NDArray[np.int64],
-    second: NDArray[np.int64],
+    first: IntArray,
+    second: IntArray,
     budget: RayBudget | None = None,
-) -> Steps[NDArray[np.bool_]]:
+) -> Steps[BoolArray]:
     """Find out which of the given pairs of samples are in line of sight.
 
     Parameters
@@ -119,11 +117,8 @@ def see_pairs(
 
 
 def cast_lines(
-    views: Viewpoints,
-    first: NDArray[np.int64],
-    second: NDArray[np.int64],
-    budget: RayBudget,
-) -> Steps[NDArray[np.bool_]]:
+    views: Viewpoints, first: IntArray, second: IntArray, budget: RayBudget
+) -> Steps[BoolArray]:
     """Find out by rays which pairs, of those that face each other, see each other.
 
     Parameters
@@ -151,9 +146,7 @@ def cast_lines(
     return visible[:done]
 
 
-def _sees(
-    views: Viewpoints, first: NDArray[np.int64], second: NDArray[np.int64]
-) -> NDArray[np.bool_]:
+def _sees(views: Viewpoints, first: IntArray, second: IntArray) -> BoolArray:
     """Return whether the segment between each pair stays inside, (M,) bool."""
     segments = views.positions[second] - views.positions[first]
     lengths = np.linalg.norm(segments, axis=1)

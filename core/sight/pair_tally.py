@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ..steps.arrays import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,10 +19,10 @@ class PairTally:
         Number of pairs in line of sight, and of all pairs that were tested.
     """
 
-    visible: NDArray[np.float64]
-    known: NDArray[np.float64]
+    visible: FloatArray
+    known: FloatArray
 
-    def ranks(self) -> NDArray[np.float64]:
+    def ranks(self) -> FloatArray:
         """Return the convexity rank of each part (eq. 1), 1 if no pair is known.
 
         Returns
@@ -49,7 +50,7 @@ class PairTally:
         across = hidden.sum() - np.trace(hidden)
         return float((np.trace(self.visible) + alpha * across) / self.known.sum())
 
-    def merge_gains(self, alpha: float) -> NDArray[np.float64]:
+    def merge_gains(self, alpha: float) -> FloatArray:
         """Return how much psi gains when two parts become one, −inf on the diagonal.
 
         Each visible ordered pair between the two then adds 1; hidden ones no longer add

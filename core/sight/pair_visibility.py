@@ -6,18 +6,16 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
 from ..geometry.labels import sums_by_label
+from ..steps.arrays import Float32Array, IntArray
 from .pair_tally import PairTally
 
-Matrix: TypeAlias = NDArray[np.float32] | sparse.csr_array
+Matrix: TypeAlias = Float32Array | sparse.csr_array
 
 
-def pair_counts(
-    first: NDArray[np.int64], second: NDArray[np.int64], n_samples: int
-) -> sparse.csr_array:
+def pair_counts(first: IntArray, second: IntArray, n_samples: int) -> sparse.csr_array:
     """Return how often each pair of N samples occurs in a list, in either order.
 
     Parameters
@@ -84,8 +82,8 @@ class PairVisibility:
         return rank, 2 * float(np.sqrt(variance / self.n_samples))
 
     def sums(
-        self, labels: NDArray[np.int64], n_labels: int
-    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        self, labels: IntArray, n_labels: int
+    ) -> tuple[Float32Array, Float32Array]:
         """Count visible and known pairs of each sample with those of each of K labels.
 
         Parameters
@@ -104,7 +102,7 @@ class PairVisibility:
         sizes = np.bincount(labels, minlength=n_labels).astype(np.float32)
         return visible, np.broadcast_to(sizes[:, None], visible.shape)
 
-    def tally(self, labels: NDArray[np.int64], n_labels: int) -> PairTally:
+    def tally(self, labels: IntArray, n_labels: int) -> PairTally:
         """Count visible and known pairs of samples between every two of K labels.
 
         Parameters
@@ -122,7 +120,7 @@ class PairVisibility:
         )
         return PairTally(visible, known)
 
-    def hidden(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def hidden(self) -> tuple[IntArray, IntArray]:
         """Return the pairs that are known to be hidden, each once.
 
         Returns
@@ -135,9 +133,7 @@ class PairVisibility:
             first, second = sparse.triu(self.known - self.visible, 1).nonzero()
         return first, second
 
-    def revealed(
-        self, first: NDArray[np.int64], second: NDArray[np.int64]
-    ) -> PairVisibility:
+    def revealed(self, first: IntArray, second: IntArray) -> PairVisibility:
         """Return a copy in which some hidden pairs are visible.
 
         Parameters

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.sampling import Samples, sample_surface
 from ..parameters.parts import Parameters
 from ..results.views import View
+from ..steps.arrays import FloatArray
 from ..steps.progress import Progress, Steps, run, within
 from .lines import see_pairs
 from .prepared import PreparedShape
@@ -34,9 +34,7 @@ class PointViewer:
     views: Viewpoints
     notes: tuple[str, ...]
 
-    def look(
-        self, origin: NDArray[np.float64], direction: NDArray[np.float64]
-    ) -> View | None:
+    def look(self, origin: FloatArray, direction: FloatArray) -> View | None:
         """Return the samples that the first surface point along a ray sees.
 
         Parameters
@@ -69,9 +67,7 @@ class PointViewer:
             visible,
         )
 
-    def _first_point(
-        self, origin: NDArray[np.float64], direction: NDArray[np.float64]
-    ) -> Samples | None:
+    def _first_point(self, origin: FloatArray, direction: FloatArray) -> Samples | None:
         """Return the first surface point along a ray, as one sample, or None."""
         marcher = self.views.marcher
         # Ray casters work in single precision: start shortly before the shape.
@@ -92,7 +88,7 @@ class PointViewer:
         nearest = np.linalg.norm(across, axis=1).argmin(keepdims=True)
         return self.views.samples.at(nearest)
 
-    def _in_units(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _in_units(self, positions: FloatArray) -> FloatArray:
         return positions * self.shape.diagonal + self.shape.center
 
 

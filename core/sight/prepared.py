@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..clouds.neighbor_graph import neighbor_graph
 from ..clouds.splat_surface import splat_surface
@@ -19,6 +18,7 @@ from ..solids.bare import bare_mesh
 from ..solids.convexity import is_convex
 from ..solids.orientation import oriented
 from ..solids.shells import find_shells, set_apart
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, run, within
 from .ray_caster import MakeCaster
@@ -60,17 +60,17 @@ class PreparedShape:
         Whether it is the whole surface of a convex solid.
     """
 
-    center: NDArray[np.float64]
+    center: FloatArray
     diagonal: float
     targets: TriangleMesh
     marcher: RayMarcher
     n_nodes: int
-    nodes: NDArray[np.int64]
+    nodes: IntArray
     make_graph: Callable[[], Steps[FaceGraph]]
     solid: TriangleMesh
     notes: tuple[str, ...] = ()
-    normals: NDArray[np.float64] | None = None
-    plane: NDArray[np.float64] | None = None
+    normals: FloatArray | None = None
+    plane: FloatArray | None = None
     convex: bool = False
 
     @property
@@ -89,11 +89,11 @@ class PreparedShape:
         return self.marcher.splat_size > 0
 
     @property
-    def sampled(self) -> NDArray[np.int64]:
+    def sampled(self) -> IntArray:
         """Rows of the triangles of `targets` that carry samples, (R,) int."""
         return np.flatnonzero(self.targets.polygons < self.n_nodes)
 
-    def labels_of_nodes(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+    def labels_of_nodes(self, labels: IntArray) -> IntArray:
         """Return the label of each node.
 
         Parameters
@@ -109,7 +109,7 @@ class PreparedShape:
         found[self.nodes] = labels
         return found
 
-    def part(self, members: NDArray[np.bool_]) -> PreparedShape:
+    def part(self, members: BoolArray) -> PreparedShape:
         """Return some polygons, or points, as a shape of their own.
 
         Rays still run through the whole shape and use the same ray tree. Samples,
@@ -138,7 +138,7 @@ class PreparedShape:
             convex=False,
         )
 
-    def _part_of_graph(self, kept: NDArray[np.int64]) -> Steps[FaceGraph]:
+    def _part_of_graph(self, kept: IntArray) -> Steps[FaceGraph]:
         """Return the graph of some nodes."""
         return (yield from self.graph_in_steps()).part(kept)
 

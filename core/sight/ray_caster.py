@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..errors import DecompositionError
 from ..geometry.array_checks import real_numbers
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps
 
 # Triangles in a tree: Blender takes 0.06 s for it. Smaller trees take less, but rays
@@ -25,11 +26,8 @@ class RayCaster(Protocol):
     """An object that finds the first triangle along rays."""
 
     def first_hit(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        self, origins: FloatArray, directions: FloatArray, reach: FloatArray
+    ) -> tuple[IntArray, FloatArray]:
         """Return the nearest triangle along each ray and its distance.
 
         Parameters
@@ -90,7 +88,7 @@ def caster_in_steps(mesh: TriangleMesh, make_caster: MakeCaster) -> Steps[RayCas
     return _Trees(trees)
 
 
-def _slice(mesh: TriangleMesh, rows: NDArray[np.int64]) -> TriangleMesh:
+def _slice(mesh: TriangleMesh, rows: IntArray) -> TriangleMesh:
     """Return some triangles of a mesh, and the vertices that they use."""
     triangles = mesh.triangles[rows]
     used = np.zeros(len(mesh.vertices), dtype=bool)
@@ -102,15 +100,12 @@ def _slice(mesh: TriangleMesh, rows: NDArray[np.int64]) -> TriangleMesh:
 class _Trees:
     """Casts each ray at one or several trees, and takes the nearest hit."""
 
-    def __init__(self, trees: Sequence[tuple[NDArray[np.int64], RayCaster]]) -> None:
+    def __init__(self, trees: Sequence[tuple[IntArray, RayCaster]]) -> None:
         self._trees = trees
 
     def first_hit(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        self, origins: FloatArray, directions: FloatArray, reach: FloatArray
+    ) -> tuple[IntArray, FloatArray]:
         """Return what the protocol says; triangles are those of the whole mesh."""
         triangles = np.full(len(origins), -1)
         distances = np.full(len(origins), np.inf)
@@ -125,8 +120,8 @@ class _Trees:
 
 
 def _checked_hits(
-    caster: RayCaster, n_triangles: int, *rays: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    caster: RayCaster, n_triangles: int, *rays: FloatArray
+) -> tuple[IntArray, FloatArray]:
     """Ask a ray caster, and check what it answers: scripts may bring their own."""
     found = caster.first_hit(*rays)
     if isinstance(found, Sequence) and len(found) == 2:

@@ -12,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from ..steps.memo import computed_once
 from ..steps.progress import Steps, run
 from .ray_caster import MakeCaster, RayCaster, caster_in_steps
@@ -66,7 +66,7 @@ class RayMarcher:
         self,
         mesh: TriangleMesh,
         make_caster: MakeCaster,
-        closed: NDArray[np.bool_] | None = None,
+        closed: BoolArray | None = None,
         splat_size: float = 0.0,
         tilt: float = 0.0,
     ) -> None:
@@ -91,11 +91,11 @@ class RayMarcher:
 
     def march(
         self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-        depths: NDArray[np.int64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+        origins: FloatArray,
+        directions: FloatArray,
+        reach: FloatArray,
+        depths: IntArray,
+    ) -> tuple[IntArray, FloatArray, IntArray]:
         """Find the points where rays leave the inside for the first time.
 
         Parameters
@@ -140,9 +140,7 @@ class RayMarcher:
                 break
         return exits, distances, depths
 
-    def first_hit(
-        self, *rays: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    def first_hit(self, *rays: FloatArray) -> tuple[IntArray, FloatArray]:
         """Cast rays, as `RayCaster.first_hit` does, and count them."""
         self.n_cast += len(rays[0])
         return self.caster.first_hit(*rays)
@@ -164,11 +162,8 @@ class RayMarcher:
             start = stop
 
     def surfaces_along(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        depths: NDArray[np.int64],
-    ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]]:
+        self, origins: FloatArray, directions: FloatArray, depths: IntArray
+    ) -> Iterator[tuple[IntArray, FloatArray, IntArray]]:
         """Find all points where rays leave the inside, the nearest ones first.
 
         Parameters
@@ -205,8 +200,8 @@ class RayMarcher:
             depths = np.zeros(len(rays), dtype=np.int64)
 
     def shells_around(
-        self, points: NDArray[np.float64], directions: Sequence[NDArray[np.float64]]
-    ) -> NDArray[np.int64]:
+        self, points: FloatArray, directions: Sequence[FloatArray]
+    ) -> IntArray:
         """Count the closed shells around points, by two or three rays from each.
 
         Parameters
@@ -228,7 +223,7 @@ class RayMarcher:
         bottom = np.full(len(points), _MOST_CROSSINGS + 1)
         far = np.full(len(points), 2 * self.diagonal)
 
-        def count(rows: NDArray[np.int64], turn: int) -> NDArray[np.int64]:
+        def count(rows: IntArray, turn: int) -> IntArray:
             rays = points[rows], directions[turn][rows], far[rows], bottom[rows]
             return bottom[rows] - self.march(*rays)[2]
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.frames import frames
 from ..geometry.sampling import Samples
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from ..steps.progress import Progress, Steps
 from .ray_march import PASS, RayMarcher
 
@@ -41,9 +41,9 @@ class Viewpoints:
 
     marcher: RayMarcher
     samples: Samples
-    positions: NDArray[np.float64]
-    depths: NDArray[np.int64]
-    enclosed: NDArray[np.bool_]
+    positions: FloatArray
+    depths: IntArray
+    enclosed: BoolArray
 
     def with_others(self, other: Viewpoints) -> Viewpoints:
         """Return these viewpoints, followed by others of the same shape."""
@@ -85,7 +85,7 @@ def viewpoints(marcher: RayMarcher, samples: Samples) -> Steps[Viewpoints]:
 
 def _of_some(
     marcher: RayMarcher, samples: Samples
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
+) -> tuple[FloatArray, IntArray, BoolArray]:
     """Return the positions, depths and enclosed ones of some viewpoints at once."""
     outwards = _tripod_directions(samples.normals)
     nudge = PASS * marcher.diagonal
@@ -104,7 +104,7 @@ def _of_some(
     )
 
 
-def thickness_at(marcher: RayMarcher, samples: Samples) -> NDArray[np.float64]:
+def thickness_at(marcher: RayMarcher, samples: Samples) -> FloatArray:
     """Return the length inside the shape of a ray straight inwards from each sample.
 
     Parameters
@@ -125,7 +125,7 @@ def thickness_at(marcher: RayMarcher, samples: Samples) -> NDArray[np.float64]:
     return marcher.march(starts, inwards, far, around)[1]
 
 
-def _tripod_directions(normals: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+def _tripod_directions(normals: FloatArray) -> list[FloatArray]:
     """Return three directions around each normal (N, 3), 30° off it and well apart."""
     axes = frames(normals)
     turns = 2 * np.pi * np.arange(3) / 3

@@ -21,12 +21,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 
 from ..errors import DecompositionError
 from ..geometry.sampling import Samples, take_samples
 from ..parameters.parts import Parameters
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps, within
 from .all_pairs import see_all_pairs, see_uniform_pairs
 from .blocks import see_blocks
@@ -95,7 +95,7 @@ class Visibility:
     rank_pairs: PairVisibility
 
     @cached_property
-    def nodes(self) -> NDArray[np.int64]:
+    def nodes(self) -> IntArray:
         """Node of the shape's graph that each sample lies on, (N,) int."""
         return self.shape.targets.polygons[self.samples.triangles]
 
@@ -113,7 +113,7 @@ class Visibility:
         return solid and self.psi_pairs.known is None
 
     @cached_property
-    def thickness(self) -> NDArray[np.float64]:
+    def thickness(self) -> FloatArray:
         """Length inside the shape of a ray straight inwards from each sample, (N,)."""
         return thickness_at(self.shape.marcher, self.samples)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import BoolArray, IntArray
 from ..steps.beside import beside
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
@@ -32,7 +32,7 @@ class BareMesh:
 
     whole: TriangleMesh
     mesh: TriangleMesh
-    rows: NDArray[np.int64]
+    rows: IntArray
 
     def wound_as(self, turned: TriangleMesh) -> TriangleMesh:
         """Return `whole` with the windings of `mesh` after it was turned."""
@@ -95,12 +95,12 @@ def bare_mesh(whole: TriangleMesh) -> Steps[BareMesh]:
     return BareMesh(whole, mesh, rows)
 
 
-def _some(mesh: TriangleMesh, kept: NDArray[np.bool_]) -> TriangleMesh:
+def _some(mesh: TriangleMesh, kept: BoolArray) -> TriangleMesh:
     """Return some triangles of a mesh, with its vertices and numbers of polygons."""
     return replace(mesh, triangles=mesh.triangles[kept], polygons=mesh.polygons[kept])
 
 
-def _same_triangles(mesh: TriangleMesh) -> Steps[NDArray[np.int64]]:
+def _same_triangles(mesh: TriangleMesh) -> Steps[IntArray]:
     """Return the first triangle with the corners and the winding of each, (T,)."""
     places = mesh.welded_triangles
     n_places = int(places.max()) + 1

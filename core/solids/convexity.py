@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from ..geometry.frames import HEIGHTS_AT_ONCE, heights_above
 from ..geometry.graphs.edges import Edges, corner_of_sides
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import FloatArray
 from ..steps.beside import beside
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks, used_rows
@@ -87,9 +87,7 @@ def _has_concave_edge(mesh: TriangleMesh, edges: Edges) -> Steps[bool]:
     return False
 
 
-def _on_planes(
-    points: NDArray[np.float64], planes: NDArray[np.float64], rounding: float
-) -> Steps[bool]:
+def _on_planes(points: FloatArray, planes: FloatArray, rounding: float) -> Steps[bool]:
     """Return whether each point within planes lies on one of them."""
     for rows in blocks(len(points), HEIGHTS_AT_ONCE // len(planes)):
         yield Progress("Surface", 1.0)

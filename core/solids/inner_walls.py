@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.frames import cross, unit
 from ..geometry.graphs.components import components
 from ..geometry.graphs.edges import Edges, places_of_sides, sides_forward
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import BoolArray, Int32Array, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .slivers import solid_edges
@@ -22,7 +22,7 @@ _SAME_ANGLE = 1e-5
 _MOST_SIDES = 2**16
 
 
-def inner_walls(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
+def inner_walls(mesh: TriangleMesh) -> Steps[BoolArray]:
     """Return the triangles that have the inside of a solid on both of their sides.
 
     A surface divides space into cells. Those with a volume are inside, whichever way
@@ -51,7 +51,7 @@ def inner_walls(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
     return in_front & behind
 
 
-def _cells(mesh: TriangleMesh, edges: Edges) -> Steps[NDArray[np.int64]]:
+def _cells(mesh: TriangleMesh, edges: Edges) -> Steps[IntArray]:
     """Return the cells in front of each triangle, and behind it, (2, T)."""
     forward = yield from within(sides_forward(mesh), 0.0, 0.2)
     n_triangles, pairs = len(mesh.triangles), []
@@ -73,9 +73,7 @@ def _cells(mesh: TriangleMesh, edges: Edges) -> Steps[NDArray[np.int64]]:
     return cells.reshape(2, n_triangles)
 
 
-def _in_turn(
-    mesh: TriangleMesh, sides: NDArray[np.int32], ahead: NDArray[np.bool_]
-) -> NDArray[np.int32]:
+def _in_turn(mesh: TriangleMesh, sides: Int32Array, ahead: BoolArray) -> Int32Array:
     """Return the sides (E, U) of each edge in their order around it.
 
     `ahead` (E, U) are those that run from the lower place to the higher one. One turns

@@ -8,10 +8,10 @@ Terms of its Vertex Coordinates", J. of Mathematics and Statistics 1(1), 2005.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.frames import area_vectors, cross
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import run
 from .mass_properties import MassProperties
 from .orientation import oriented
@@ -22,7 +22,7 @@ _ROUNDING = 1e-12
 
 
 def mass_of_surface(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int64], density: float
+    vertices: FloatArray, triangles: IntArray, density: float
 ) -> MassProperties | None:
     """Return the mass properties of what a closed surface encloses.
 

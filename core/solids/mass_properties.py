@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ..steps.arrays import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +26,8 @@ class MassProperties:
     """
 
     mass: float
-    center: NDArray[np.float64]
-    inertia: NDArray[np.float64]
+    center: FloatArray
+    inertia: FloatArray
 
 
 def combined_mass(bodies: Sequence[MassProperties]) -> MassProperties:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.frames import cross, unit
 from ..geometry.graphs.edges import (
@@ -13,6 +12,7 @@ from ..geometry.graphs.edges import (
     sides_forward,
 )
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import BoolArray, FloatArray, Int32Array
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .slivers import solid_edges
@@ -25,12 +25,8 @@ _MOST_USES = 32
 # About the most pairs of sides whose angles are found in one step.
 _MOST_PAIRS = 2**16
 
-_Sides = NDArray[np.int32]
 
-
-def find_neighbors(
-    mesh: TriangleMesh,
-) -> Steps[tuple[NDArray[np.int32], NDArray[np.bool_]]]:
+def find_neighbors(mesh: TriangleMesh) -> Steps[tuple[Int32Array, BoolArray]]:
     """Return pairs of triangles that are neighbors across an edge.
 
     Those are the two triangles of an edge. Where solids touch, edges have more. If as
@@ -70,8 +66,8 @@ def find_neighbors(
 
 
 def _pairs_at_crowded(
-    mesh: TriangleMesh, edges: Edges, forward: NDArray[np.bool_]
-) -> Steps[_Sides]:
+    mesh: TriangleMesh, edges: Edges, forward: BoolArray
+) -> Steps[Int32Array]:
     """Return pairs (2, N) of sides at edges of more than two triangles."""
     inside_out = (yield from within(signed_volume(mesh), 0.6, 0.7)) < 0
     uses = edges.uses
@@ -93,7 +89,7 @@ def _pairs_at_crowded(
     return np.concatenate(pairs, axis=1)
 
 
-def _least_apart(mesh: TriangleMesh, sides: _Sides, inside_out: bool) -> _Sides:
+def _least_apart(mesh: TriangleMesh, sides: Int32Array, inside_out: bool) -> Int32Array:
     """Return pairs (2, N) of sides at E edges that have the least inside between them.
 
     `sides` (E, 2H) are those that run along each edge one way, then the other way.
@@ -111,8 +107,8 @@ def _least_apart(mesh: TriangleMesh, sides: _Sides, inside_out: bool) -> _Sides:
 
 
 def _angles(
-    mesh: TriangleMesh, one: _Sides, other: _Sides, inside_out: bool
-) -> NDArray[np.float64]:
+    mesh: TriangleMesh, one: Int32Array, other: Int32Array, inside_out: bool
+) -> FloatArray:
     """Return the angles between triangles at E edges, through the inside, (E, H, H).
 
     `one` (E, H) are sides that run along an edge, `other` (E, H) those against it.
@@ -121,7 +117,7 @@ def _angles(
     starts, ends, _ = places_of_sides(mesh, one[:, :1])
     along = unit((ends - starts).reshape(-1, 3))[:, None]
 
-    def away(some: _Sides) -> NDArray[np.float64]:
+    def away(some: Int32Array) -> FloatArray:
         """Directions (E, H, 3) of triangles, at right angles to the edge."""
         offsets = places_of_sides(mesh, some)[2] - starts
         offsets -= (offsets * along).sum(axis=2, keepdims=True) * along
@@ -138,7 +134,7 @@ def _angles(
     return np.where(angles < _SAME_ANGLE, angles + 2 * np.pi, angles)
 
 
-def _with_own_vertices(mesh: TriangleMesh, sides: _Sides) -> _Sides:
+def _with_own_vertices(mesh: TriangleMesh, sides: Int32Array) -> Int32Array:
     """Return pairs (2, N) of sides (E, U) with vertices that no other side there has.
 
     Objects that were joined keep their vertices.

@@ -6,11 +6,11 @@ from collections import defaultdict
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..geometry.frames import cross
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import BoolArray, FloatArray, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 from .shells import Shells
@@ -79,7 +79,7 @@ def oriented(
 
 def _measured(
     mesh: TriangleMesh, shells: Shells
-) -> Steps[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
+) -> Steps[tuple[FloatArray, FloatArray, FloatArray]]:
     """Return the area of each shell (S,), its missing area, and its volume.
 
     Triangles are taken as wound consistently.
@@ -103,11 +103,8 @@ def _measured(
 
 
 def _inverted(
-    mesh: TriangleMesh,
-    shells: Shells,
-    solid: NDArray[np.bool_],
-    inward: NDArray[np.int64],
-) -> Steps[NDArray[np.int64]]:
+    mesh: TriangleMesh, shells: Shells, solid: BoolArray, inward: IntArray
+) -> Steps[IntArray]:
     """Return the outermost inward-facing solid shells and all solid shells inside."""
     members = shells.members
 
@@ -132,7 +129,7 @@ def _inverted(
 
 
 def _nested_boxes(
-    lows: NDArray[np.float64], highs: NDArray[np.float64], chosen: NDArray[np.int64]
+    lows: FloatArray, highs: FloatArray, chosen: IntArray
 ) -> Steps[tuple[dict[int, list[int]], dict[int, list[int]]]]:
     """Return which of the chosen boxes are around each, and which are inside each.
 
@@ -158,11 +155,7 @@ def _nested_boxes(
     return around, inside
 
 
-def _winding_number(
-    point: NDArray[np.float64],
-    corners: NDArray[np.float64],
-    signs: NDArray[np.float64],
-) -> float:
+def _winding_number(point: FloatArray, corners: FloatArray, signs: FloatArray) -> float:
     """Return how often triangles (T, 3, 3) wind around a point (3,).
 
     `signs` (T,) are -1 for triangles to be turned. A sum of solid angles, by the

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.frames import unit
 from ..geometry.graphs.components import components
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import BoolArray, FloatArray, Int32Array, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks, used_rows
 from .neighbors import find_neighbors
@@ -42,20 +42,18 @@ class Shells:
         shell's triangles.
     """
 
-    of_triangle: NDArray[np.int64]
-    against: NDArray[np.bool_]
-    windable: NDArray[np.bool_]
-    closed: NDArray[np.bool_]
+    of_triangle: IntArray
+    against: BoolArray
+    windable: BoolArray
+    closed: BoolArray
 
     @cached_property
-    def members(self) -> list[NDArray[np.int64]]:
+    def members(self) -> list[IntArray]:
         """Triangles of each shell, ascending."""
         order = np.argsort(self.of_triangle, kind="stable")
         return np.split(order, np.cumsum(np.bincount(self.of_triangle))[:-1])
 
-    def bounds(
-        self, mesh: TriangleMesh
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def bounds(self, mesh: TriangleMesh) -> tuple[FloatArray, FloatArray]:
         """Return the lowest and highest coordinates of each shell of a mesh, (S, 3)."""
         counts = np.bincount(self.of_triangle)
         firsts = np.cumsum(counts) - counts
@@ -133,7 +131,7 @@ def set_apart(mesh: TriangleMesh, shells: Shells) -> Steps[TriangleMesh]:
 
 def _own_vertices(
     mesh: TriangleMesh, shells: Shells
-) -> Steps[tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]]:
+) -> Steps[tuple[IntArray, IntArray, FloatArray]]:
     """Return vertices of which each belongs to one place and one shell.
 
     A shell moves as one, though its vertices be split, and by itself, though it share
@@ -173,8 +171,8 @@ def _own_vertices(
 
 
 def _wind(
-    neighbors: NDArray[np.int32], opposed: NDArray[np.bool_], n_triangles: int
-) -> Steps[tuple[NDArray[np.int64], NDArray[np.bool_], NDArray[np.bool_]]]:
+    neighbors: Int32Array, opposed: BoolArray, n_triangles: int
+) -> Steps[tuple[IntArray, BoolArray, BoolArray]]:
     """Return the shell of each triangle, and how shells are wound.
 
     Parameters

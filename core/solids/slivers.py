@@ -7,16 +7,16 @@ their two other sides are one edge.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.graphs.edges import Edges, sort_edges
 from ..geometry.mesh import SAME_PLACE, TriangleMesh
+from ..steps.arrays import BoolArray, Int32Array, IntArray
 from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import blocks
 
 
-def are_thin(mesh: TriangleMesh, rows: NDArray[np.int64]) -> Steps[bool]:
+def are_thin(mesh: TriangleMesh, rows: IntArray) -> Steps[bool]:
     """Return whether some triangles all have their corners on one line.
 
     They have if the height above the longest side counts as one place.
@@ -40,7 +40,7 @@ def are_thin(mesh: TriangleMesh, rows: NDArray[np.int64]) -> Steps[bool]:
 
 
 @computed_once
-def solid_edges(mesh: TriangleMesh) -> Steps[tuple[Edges, NDArray[np.bool_]]]:
+def solid_edges(mesh: TriangleMesh) -> Steps[tuple[Edges, BoolArray]]:
     """Return the edges of a mesh without collapsed triangles.
 
     Parameters
@@ -61,7 +61,7 @@ def solid_edges(mesh: TriangleMesh) -> Steps[tuple[Edges, NDArray[np.bool_]]]:
     return edges, left_out
 
 
-def hosts(mesh: TriangleMesh, left_out: NDArray[np.bool_]) -> Steps[NDArray[np.int32]]:
+def hosts(mesh: TriangleMesh, left_out: BoolArray) -> Steps[Int32Array]:
     """Return pairs of a triangle that was left out and another one at a corner of it.
 
     There is one pair for each, so that no shells are connected through them. The other
@@ -89,7 +89,7 @@ def hosts(mesh: TriangleMesh, left_out: NDArray[np.bool_]) -> Steps[NDArray[np.i
     return np.stack([rows, found[np.arange(len(rows)), columns]], axis=1)
 
 
-def _collapsed(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
+def _collapsed(mesh: TriangleMesh) -> Steps[BoolArray]:
     """Return the triangles (T,) that have two corners at one place, or all three."""
     places = yield from within(mesh.welded_in_steps(), 0.0, 0.5)
     collapsed = np.empty(len(places), dtype=bool)
@@ -100,7 +100,7 @@ def _collapsed(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
     return collapsed
 
 
-def _without(edges: Edges, left_out: NDArray[np.bool_]) -> Steps[Edges]:
+def _without(edges: Edges, left_out: BoolArray) -> Steps[Edges]:
     """Return edges without some triangles (T,); the others keep their numbers."""
     kept = np.empty(len(edges.sides), dtype=bool)
     for rows in blocks(len(kept)):
@@ -115,7 +115,7 @@ def _without(edges: Edges, left_out: NDArray[np.bool_]) -> Steps[Edges]:
     return Edges(edges.sides[kept], first[used])
 
 
-def _is_thin(mesh: TriangleMesh, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _is_thin(mesh: TriangleMesh, rows: IntArray) -> BoolArray:
     """Return whether each of some triangles (R,) has its corners on one line."""
     a, b, c = (mesh.vertices[column] for column in mesh.triangles[rows].T)
     squares = [(side * side).sum(axis=1) for side in (a - b, b - c, c - a)]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.frames import cross
 from ..geometry.mesh import TriangleMesh
+from ..steps.arrays import FloatArray
 from ..steps.progress import Progress, Steps
 from ..steps.rows import blocks
 
@@ -26,7 +26,7 @@ def signed_volume(mesh: TriangleMesh) -> Steps[float]:
     return float((yield from volumes_of(mesh)).sum())
 
 
-def volumes_of(mesh: TriangleMesh) -> Steps[NDArray[np.float64]]:
+def volumes_of(mesh: TriangleMesh) -> Steps[FloatArray]:
     """Return the volumes of the tetrahedra between triangles and the mesh's center.
 
     Parameters

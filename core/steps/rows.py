@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import BoolArray, IntArray
 from .progress import Progress, Steps
 
 # Rows that are computed with in one step: few enough for the processor's cache.
@@ -27,7 +28,7 @@ def blocks(n_rows: int, size: int = _BLOCK) -> Iterator[slice]:
         yield slice(start, min(start + size, n_rows))
 
 
-def used_rows(numbers: NDArray[np.integer], n_rows: int) -> Steps[NDArray[np.bool_]]:
+def used_rows(numbers: NDArray[np.integer], n_rows: int) -> Steps[BoolArray]:
     """Return which of the rows 0…N − 1 an array names.
 
     Parameters
@@ -46,9 +47,7 @@ def used_rows(numbers: NDArray[np.integer], n_rows: int) -> Steps[NDArray[np.boo
     return used
 
 
-def ranges(
-    counts: NDArray[np.int64],
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def ranges(counts: IntArray) -> tuple[IntArray, IntArray]:
     """Return ranges of numbers from 0 on, one behind the other.
 
     Parameters
@@ -85,11 +84,11 @@ class RowsByNumber:
     n_numbers : int
     """
 
-    def __init__(self, numbers: NDArray[np.int64], n_numbers: int) -> None:
+    def __init__(self, numbers: IntArray, n_numbers: int) -> None:
         self._order = np.argsort(numbers, kind="stable")
         self._begins = np.searchsorted(numbers[self._order], np.arange(n_numbers + 1))
 
-    def of(self, number: int) -> NDArray[np.int64]:
+    def of(self, number: int) -> IntArray:
         """Return the rows with a number, ascending.
 
         Parameters

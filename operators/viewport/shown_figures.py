@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
 from ...core.errors import DecompositionError
+from ...core.steps.arrays import FloatArray
 from ..bridge.mesh.by_label import sums_of_all
 from ..bridge.mesh.fingerprint import fits, together
 from ..bridge.parts.figures import PartFigures, figures_of
@@ -34,7 +33,7 @@ _REST = 4.0
 _MANY = 50_000
 _LULL = 0.5
 # The figures of an object's parts, and the fingerprint of all of its faces.
-_Counted: TypeAlias = tuple[PartFigures | None, NDArray[np.float64] | None]
+_Counted: TypeAlias = tuple[PartFigures | None, FloatArray | None]
 
 
 @dataclass

@@ -11,15 +11,9 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ..bridge.mesh.attributes import (
-    IntArray,
-    read_attribute,
-    read_flags,
-    read_ints,
-    read_labels,
-)
+from ...core.steps.arrays import BoolArray, Float32Array, Int32Array
+from ..bridge.mesh.attributes import read_attribute, read_flags, read_ints, read_labels
 from ..bridge.mesh.corners import edge_sides
 from ..bridge.mesh.known import triangles_of
 from ..bridge.mesh.layers import layers_of
@@ -55,19 +49,19 @@ class ShownParts:
     """
 
     identities: tuple[Identity, ...]
-    numbers: NDArray[np.int32]
-    hidden: NDArray[np.bool_]
-    corners: NDArray[np.float32]
-    triangle_numbers: NDArray[np.int32]
-    edges: NDArray[np.float32]
-    sides: NDArray[np.int32]
+    numbers: Int32Array
+    hidden: BoolArray
+    corners: Float32Array
+    triangle_numbers: Int32Array
+    edges: Float32Array
+    sides: Int32Array
     kept: dict[Any, Any] = field(default_factory=dict)
 
-    def triangles_of(self, number: int) -> NDArray[np.float32]:
+    def triangles_of(self, number: int) -> Float32Array:
         """Return the corners of the triangles of a part, (N, 3)."""
         return self.corners[self.triangle_numbers == number].reshape(-1, 3)
 
-    def border_of(self, number: int) -> NDArray[np.float32]:
+    def border_of(self, number: int) -> Float32Array:
         """Return the ends of the edges around a part, (N, 3)."""
         return self.edges[(self.sides == number).any(axis=1)].reshape(-1, 3)
 
@@ -145,7 +139,7 @@ def _read(obj: bpy.types.Object, graph: bpy.types.Depsgraph) -> ShownParts | Non
 
 def _told_apart(
     obj: bpy.types.Object, found: FoundParts, mesh: bpy.types.Mesh
-) -> IntArray:
+) -> Int32Array:
     """Return the number of the part of each face of a mesh that modifiers made.
 
     Parts that share a number after a join were `found` on the object's own faces. Those
@@ -164,7 +158,7 @@ def _told_apart(
     return np.where(told < 0, shown[0], told)
 
 
-def _own_marks(obj: bpy.types.Object, n_faces: int) -> list[IntArray]:
+def _own_marks(obj: bpy.types.Object, n_faces: int) -> list[Int32Array]:
     """Return the number, the owner and the material index of an object's faces."""
     layers = layers_of(obj)
     found = layers.faces(PART_LAYER), layers.faces(OWNER_LAYER)
@@ -175,7 +169,7 @@ def _own_marks(obj: bpy.types.Object, n_faces: int) -> list[IntArray]:
     ]
 
 
-def _shown_marks(mesh: bpy.types.Mesh) -> list[IntArray]:
+def _shown_marks(mesh: bpy.types.Mesh) -> list[Int32Array]:
     """Return the same of the faces that modifiers made."""
     names = PART_LAYER, OWNER_LAYER, "material_index"
     return [read_labels(mesh, name, missing=0) for name in names]

@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ...core.results.views import View
+from ...core.steps.arrays import Float32Array, FloatArray
 from .viewports import redraw
 
 
@@ -33,9 +31,9 @@ class Overlay:
     """
 
     object_uid: int
-    stretch: NDArray[np.float64]
+    stretch: FloatArray
     workspace: str
-    vertices: NDArray[np.float32]
+    vertices: Float32Array
     view: View | None = None
 
     @property

@@ -10,9 +10,9 @@ import bpy
 import numpy as np
 from bpy_extras import view3d_utils
 from mathutils import Vector
-from numpy.typing import NDArray
 
 from ...core.geometry.frames import moved
+from ...core.steps.arrays import BoolArray, FloatArray
 from ..bridge.mesh.attributes import corner_vertices
 from ..bridge.mesh.known import corner_faces
 from ..bridge.mesh.points import is_cloud, positions_of
@@ -115,9 +115,7 @@ def navigates(event: bpy.types.Event) -> bool:
     return event.type in {"LEFTMOUSE", "RIGHTMOUSE"} and (event.alt or event.ctrl)
 
 
-def points_of_parts(
-    obj: bpy.types.Object, members: NDArray[np.bool_]
-) -> NDArray[np.float64]:
+def points_of_parts(obj: bpy.types.Object, members: BoolArray) -> FloatArray:
     """Return the corners of some faces, or some points, in world space, (N, 3)."""
     places = positions_of(obj).astype(np.float64)
     if is_cloud(obj):
@@ -128,7 +126,7 @@ def points_of_parts(
     return moved(places, np.array(obj.matrix_world))
 
 
-def frame_points(context: bpy.types.Context, points: NDArray[np.float64]) -> None:
+def frame_points(context: bpy.types.Context, points: FloatArray) -> None:
     """Move a view so that it shows points, from the side it shows now.
 
     It is the one under the cursor, or from the sidebar of a Quad View the one in

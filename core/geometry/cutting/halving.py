@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ...steps.arrays import FloatArray
 
 
-def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def edge_lengths(corners: FloatArray) -> FloatArray:
     """Return the lengths of the edges of triangles: from corner i to i + 1, (T, 3).
 
     Parameters
@@ -17,9 +18,7 @@ def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.sqrt(np.einsum("ted,ted->te", edges, edges))
 
 
-def halved(
-    corners: NDArray[np.float64], lengths: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def halved(corners: FloatArray, lengths: FloatArray) -> FloatArray:
     """Return triangles cut in two at the middle of their longest edges, (2 T, 3, 3).
 
     Parameters

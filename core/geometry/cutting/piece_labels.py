@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import FloatArray, IntArray
 from ...steps.rows import RowsByNumber
 from ..frames import cross
 from ..mesh import TriangleMesh
@@ -17,11 +17,8 @@ _LOST = 0.1
 
 
 def labels_of_pieces(
-    refined: RefinedMesh,
-    labels: NDArray[np.int64],
-    cut: TriangleMesh,
-    faces: NDArray[np.int64],
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    refined: RefinedMesh, labels: IntArray, cut: TriangleMesh, faces: IntArray
+) -> tuple[IntArray, IntArray]:
     """Return the part that covers most of each piece of the faces.
 
     Parameters
@@ -57,12 +54,12 @@ def labels_of_pieces(
 
 
 def _pieces_at(
-    points: NDArray[np.float64],
-    faces_of_points: NDArray[np.int64],
+    points: FloatArray,
+    faces_of_points: IntArray,
     points_of_faces: RowsByNumber,
     cut: TriangleMesh,
-    faces: NDArray[np.int64],
-) -> NDArray[np.int64]:
+    faces: IntArray,
+) -> IntArray:
     """Return the piece of its face that each point lies in."""
     triangles = RowsByNumber(faces[cut.polygons], int(faces.max()) + 1)
     single = np.bincount(faces) == 1
@@ -76,9 +73,7 @@ def _pieces_at(
     return found
 
 
-def _insideness(
-    points: NDArray[np.float64], corners: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _insideness(points: FloatArray, corners: FloatArray) -> FloatArray:
     """Return the least barycentric coordinate of points in triangles, (M, T).
 
     It is 0 or more inside; −inf for a triangle without area.
@@ -96,8 +91,8 @@ def _insideness(
 
 
 def labels_by_area(
-    labels: NDArray[np.int64], origins: NDArray[np.int64], areas: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    labels: IntArray, origins: IntArray, areas: FloatArray
+) -> tuple[IntArray, IntArray, IntArray]:
     """Return the label that covers most of each face, from labels of its fragments.
 
     Of labels that cover equal areas, the lowest counts. A label that so gets little of
@@ -127,7 +122,7 @@ def labels_by_area(
     covered = np.bincount(places, areas).astype(np.float64)
     faces, starts, counts = np.unique(rows, return_index=True, return_counts=True)
 
-    def largest(values: NDArray[np.float64]) -> NDArray[np.int64]:
+    def largest(values: FloatArray) -> IntArray:
         """Return the first cell of the largest value of each face."""
         most = np.repeat(np.maximum.reduceat(values, starts), counts)
         best = np.flatnonzero(values >= (1 - _EQUAL) * most)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import FloatArray, Int32Array, IntArray
 from ...steps.progress import run
 from ...steps.rows import RowsByNumber
 from ..frames import unit
@@ -28,15 +28,15 @@ _NEAR = 1.0
 class _Seams(NamedTuple):
     """The edges (S,) of a refined mesh between polygons of different parts."""
 
-    starts: NDArray[np.float64]
-    ends: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    weights: NDArray[np.float64]
-    face: NDArray[np.int64]  # that the edge runs through, -1 along an original edge
-    seam: NDArray[np.int64]  # number of the connected seam between two parts
+    starts: FloatArray
+    ends: FloatArray
+    normals: FloatArray
+    weights: FloatArray
+    face: IntArray  # that the edge runs through, -1 along an original edge
+    seam: IntArray  # number of the connected seam between two parts
 
 
-def find_cuts(refined: RefinedMesh, labels: NDArray[np.int64]) -> list[Cut]:
+def find_cuts(refined: RefinedMesh, labels: IntArray) -> list[Cut]:
     """Return planes that cut the faces of a mesh along the seams of parts.
 
     One plane is fitted to each connected seam between two parts. Where the seam is far
@@ -62,7 +62,7 @@ def find_cuts(refined: RefinedMesh, labels: NDArray[np.int64]) -> list[Cut]:
     return sorted(cuts, key=lambda cut: -len(cut.faces))
 
 
-def _cuts_of_seam(seams: _Seams, rows: NDArray[np.int64], size: float) -> list[Cut]:
+def _cuts_of_seam(seams: _Seams, rows: IntArray, size: float) -> list[Cut]:
     """Return the planes that cut the faces of one connected seam."""
     within = rows[seams.face[rows] >= 0]
     if len(within) == 0:
@@ -84,9 +84,7 @@ def _cuts_of_seam(seams: _Seams, rows: NDArray[np.int64], size: float) -> list[C
     return [*([Cut(point, normal, np.array(along))] if along else []), *cuts]
 
 
-def _fitted(
-    seams: _Seams, rows: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _fitted(seams: _Seams, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     """Return a point and the normal of the plane that is nearest to some edges."""
     weights = seams.weights[rows]
     points = np.concatenate([seams.starts[rows], seams.ends[rows]])
@@ -101,7 +99,7 @@ def _fitted(
     return center, np.linalg.eigh(spread)[1][:, 0]
 
 
-def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
+def _seams_of(refined: RefinedMesh, labels: IntArray) -> _Seams:
     """Return the edges between parts, with the connected seam each belongs to."""
     mesh = refined.mesh
     neighbors, sides = run(shared_edges(mesh))
@@ -126,11 +124,8 @@ def _seams_of(refined: RefinedMesh, labels: NDArray[np.int64]) -> _Seams:
 
 
 def _connected(
-    welded: NDArray[np.int32],
-    sides: NDArray[np.int32],
-    one: NDArray[np.int64],
-    other: NDArray[np.int64],
-) -> NDArray[np.int64]:
+    welded: Int32Array, sides: Int32Array, one: IntArray, other: IntArray
+) -> IntArray:
     """Return the number of the connected seam of each edge; `one`, `other`: parts."""
     if len(sides) == 0:
         return np.zeros(0, dtype=np.int64)

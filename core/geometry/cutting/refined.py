@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import FloatArray, IntArray
 from ..mesh import TriangleMesh
 
 # About the number of triangles that the surface of a mesh of few is refined to.
@@ -29,9 +29,9 @@ class Cut(NamedTuple):
         The faces that it cuts.
     """
 
-    point: NDArray[np.float64]
-    normal: NDArray[np.float64]
-    faces: NDArray[np.int64]
+    point: FloatArray
+    normal: FloatArray
+    faces: IntArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,10 +50,10 @@ class RefinedMesh:
     """
 
     mesh: TriangleMesh
-    faces: NDArray[np.int64]
+    faces: IntArray
     size: float
 
-    def centers(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def centers(self) -> tuple[FloatArray, FloatArray]:
         """Return the center (Q, 3) and area (Q,) of each polygon."""
         mesh, n_polygons = self.mesh, len(self.faces)
         middles = mesh.vertices[mesh.triangles].mean(axis=1)
@@ -113,8 +113,8 @@ def refined(mesh: TriangleMesh) -> RefinedMesh:
 
 
 def _middles_of_long(
-    vertices: NDArray[np.float64], triangles: NDArray[np.int64], size: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    vertices: FloatArray, triangles: IntArray, size: float
+) -> tuple[IntArray, FloatArray]:
     """Return new vertices (N, 3) on long edges, the longest of some triangle.
 
     Return also the number of the new vertex on each side (T, 3), −1 for none.
@@ -133,10 +133,8 @@ def _middles_of_long(
 
 
 def _halved(
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.int64],
-    middles: NDArray[np.int64],
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    vertices: FloatArray, triangles: IntArray, middles: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
     """Halve triangles at the longest of their sides that have a new vertex.
 
     Return the triangles, the new vertices on their sides that are left, and the former

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import FloatArray
 from ..frames import heights_above
 
 
-def segments_below(
-    planes: NDArray[np.float64], segments: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def segments_below(planes: FloatArray, segments: FloatArray) -> FloatArray:
     """Return what is below all planes of line segments.
 
     Parameters
@@ -34,5 +32,5 @@ def segments_below(
     kept = enter <= leave
     shares = np.stack([enter, leave], axis=1)[kept, :, None]
     one, other = segments[kept, :1], segments[kept, 1:]
-    clipped: NDArray[np.float64] = one + shares * (other - one)
+    clipped: FloatArray = one + shares * (other - one)
     return clipped

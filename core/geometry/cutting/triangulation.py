@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ..frames import area_vectors, cross
 
 # A triangle of less area, in squared diagonals of its polygon's bounding box, counts
@@ -21,8 +21,8 @@ _FEW = 32
 # Shapes too large to compute with, or infinite, are refused later, in a sentence.
 @np.errstate(over="ignore", invalid="ignore")
 def triangulate(
-    vertices: NDArray[np.float64], faces: Sequence[NDArray[np.int64]]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    vertices: FloatArray, faces: Sequence[IntArray]
+) -> tuple[IntArray, IntArray]:
     """Cut polygons into triangles that keep their winding.
 
     A quad is cut between its first and third corner, unless it folds over that line. A
@@ -54,14 +54,12 @@ def triangulate(
     return triangles, np.repeat(np.arange(len(sizes)), sizes - 2)
 
 
-def _as_they_are(_: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.int64]:
+def _as_they_are(_: FloatArray, faces: IntArray) -> IntArray:
     """Return triangles (F, 3) as triangles (F, 1, 3)."""
     return faces[:, None]
 
 
-def _cut_alike(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _cut_alike(vertices: FloatArray, faces: IntArray) -> IntArray:
     """Return the triangles (F, N - 2, 3) of polygons (F, N) of one size."""
     size = faces.shape[1]
     fan = np.array([(0, i, i + 1) for i in range(1, size - 1)])
@@ -89,9 +87,7 @@ def _cut_alike(
     return triangles
 
 
-def _cut_quads(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _cut_quads(vertices: FloatArray, faces: IntArray) -> IntArray:
     """Return the triangles (F, 2, 3) of quads (F, 4)."""
     triangles = faces[:, [(0, 1, 2), (0, 2, 3)]]
     folded = are_folded(vertices[faces.T])
@@ -99,7 +95,7 @@ def _cut_quads(
     return triangles
 
 
-def are_folded(quads: NDArray[np.float64]) -> NDArray[np.bool_]:
+def are_folded(quads: FloatArray) -> BoolArray:
     """Return which quads fold over the line from first to third corner.
 
     Their two triangles would face away from each other.
@@ -117,9 +113,7 @@ def are_folded(quads: NDArray[np.float64]) -> NDArray[np.bool_]:
     return ax * bx + ay * by + az * bz < 0
 
 
-def _cross(
-    one: NDArray[np.float64], other: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], ...]:
+def _cross(one: FloatArray, other: FloatArray) -> tuple[FloatArray, ...]:
     """Return the three columns of the cross products of vectors, both (3, Q)."""
     (ax, ay, az), (bx, by, bz) = one, other
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -128,11 +122,11 @@ def _cross(
 class _Planes(NamedTuple):
     """The planes of F polygons."""
 
-    normals: NDArray[np.float64]  # (F, 3), unit vectors or 0
-    flat: NDArray[np.float64]  # (F,), triangles of no more area count as flat
+    normals: FloatArray  # (F, 3), unit vectors or 0
+    flat: FloatArray  # (F,), triangles of no more area count as flat
 
     @classmethod
-    def of(cls, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> _Planes:
+    def of(cls, vertices: FloatArray, faces: IntArray) -> _Planes:
         """Return the planes of polygons (F, N) of one size."""
         places = vertices[faces]
         places = places - places.mean(axis=1, keepdims=True)
@@ -146,9 +140,7 @@ class _Planes(NamedTuple):
         """Return the plane of one polygon."""
         return _Planes(self.normals[row : row + 1], self.flat[row : row + 1])
 
-    def signed_areas(
-        self, corners: NDArray[np.float64], rows: NDArray[np.int64] | slice
-    ) -> NDArray[np.float64]:
+    def signed_areas(self, corners: FloatArray, rows: IntArray | slice) -> FloatArray:
         """Return the areas (R, T) of triangles (R, T, 3, 3) of R of the polygons.
 
         An area is negative if the triangle faces against its polygon, 0 if it is flat.
@@ -158,9 +150,7 @@ class _Planes(NamedTuple):
         return areas
 
 
-def _cut_ears(
-    places: NDArray[np.float64], face: NDArray[np.int64], plane: _Planes
-) -> NDArray[np.int64]:
+def _cut_ears(places: FloatArray, face: IntArray, plane: _Planes) -> IntArray:
     """Return the triangles (N - 2, 3) of a polygon whose fans all fold.
 
     Ear clipping (Meisters, "Polygons have ears", 1975). Where a polygon that crosses
@@ -184,7 +174,7 @@ class _Outline:
         The corners that are left.
     """
 
-    def __init__(self, places: NDArray[np.float64], plane: _Planes) -> None:
+    def __init__(self, places: FloatArray, plane: _Planes) -> None:
         self._places, self._plane = places, plane
         self._columns = np.ascontiguousarray((places - places[0]).T)
         corners = np.arange(len(places))
@@ -211,7 +201,7 @@ class _Outline:
             self._holding[held].append(corner)
         return int(self.left.argmax())
 
-    def cut_off(self, corner: int) -> NDArray[np.int64]:
+    def cut_off(self, corner: int) -> IntArray:
         """Cut off a corner, and return its triangle (3,)."""
         triangle = self._triangles[corner]
         before, _, after = triangle
@@ -222,7 +212,7 @@ class _Outline:
         self._changed = triangle[::2]
         return triangle
 
-    def _first_within(self, triangle: NDArray[np.int64]) -> int | None:
+    def _first_within(self, triangle: IntArray) -> int | None:
         """Return the first corner that lies in a triangle of others, None if none does.
 
         Those on its sides do, but for rounding: a cut through a corner may leave a

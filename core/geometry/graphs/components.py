@@ -9,15 +9,14 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from ...steps.arrays import BoolArray, Int32Array, IntArray
 from ...steps.progress import Progress, Steps
 
 # Most nodes whose connected components are found in one step.
 _MOST_NODES = 2**20
 
 
-def components(
-    pairs: NDArray[np.integer[Any]], n_nodes: int
-) -> Steps[NDArray[np.int64]]:
+def components(pairs: NDArray[np.integer[Any]], n_nodes: int) -> Steps[IntArray]:
     """Return the connected component of each node of a graph.
 
     Parameters
@@ -54,9 +53,7 @@ def components(
     return components_at_once(pairs, n_found)[found]
 
 
-def components_at_once(
-    pairs: NDArray[np.integer[Any]], n_nodes: int
-) -> NDArray[np.int64]:
+def components_at_once(pairs: NDArray[np.integer[Any]], n_nodes: int) -> IntArray:
     """Return what `components` does, for a small graph.
 
     Parameters
@@ -70,8 +67,8 @@ def components_at_once(
 
 
 def components_of_labels(
-    graph: sparse.csr_array, arcs: NDArray[np.int64], labels: NDArray[np.int64]
-) -> NDArray[np.int32]:
+    graph: sparse.csr_array, arcs: IntArray, labels: IntArray
+) -> Int32Array:
     """Return the component of each node where only equal labels are connected, (N,).
 
     Parameters
@@ -91,9 +88,7 @@ def components_of_labels(
     return connected_components(within, directed=False)[1]
 
 
-def nodes_at_seams(
-    neighbors: NDArray[np.integer[Any]], labels: NDArray[np.int64]
-) -> NDArray[np.bool_]:
+def nodes_at_seams(neighbors: NDArray[np.integer[Any]], labels: IntArray) -> BoolArray:
     """Return the nodes that have a neighbor with another label, (N,).
 
     Parameters

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from ...steps.arrays import BoolArray, FloatArray, Int32Array, IntArray
 from ...steps.memo import computed_once
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
@@ -30,11 +31,11 @@ class Edges(NamedTuple):
         Place in `sides` of the first side of each edge.
     """
 
-    sides: NDArray[np.int32]
-    first: NDArray[np.int64]
+    sides: Int32Array
+    first: IntArray
 
     @property
-    def uses(self) -> NDArray[np.int64]:
+    def uses(self) -> IntArray:
         """Number of sides of each edge, (E,)."""
         uses = np.empty_like(self.first)  # np.diff would copy the places
         uses[:-1], uses[-1:] = self.first[1:], len(self.sides)
@@ -90,9 +91,7 @@ def sort_edges(mesh: TriangleMesh) -> Steps[Edges]:
     return Edges(sides, np.flatnonzero(new))
 
 
-def shared_edges(
-    mesh: TriangleMesh,
-) -> Steps[tuple[NDArray[np.int32], NDArray[np.int32]]]:
+def shared_edges(mesh: TriangleMesh) -> Steps[tuple[Int32Array, Int32Array]]:
     """Return which polygons have a common edge.
 
     Parameters
@@ -124,7 +123,7 @@ def shared_edges(
     return np.concatenate(neighbors), np.concatenate(along)
 
 
-def sides_forward(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
+def sides_forward(mesh: TriangleMesh) -> Steps[BoolArray]:
     """Return the sides that run from the lower to the higher place.
 
     Parameters
@@ -146,7 +145,7 @@ def sides_forward(mesh: TriangleMesh) -> Steps[NDArray[np.bool_]]:
 
 
 def corner_of_sides(
-    triangles: NDArray[Whole], sides: NDArray[np.int32], step: int
+    triangles: NDArray[Whole], sides: Int32Array, step: int
 ) -> NDArray[Whole]:
     """Return a corner of the triangle of each side, numbered as in `Edges`.
 
@@ -167,7 +166,7 @@ def corner_of_sides(
 
 
 def ends_of_sides(
-    triangles: NDArray[Whole], sides: NDArray[np.int32]
+    triangles: NDArray[Whole], sides: Int32Array
 ) -> tuple[NDArray[Whole], NDArray[Whole]]:
     """Return the corners (...) where sides of triangles start, and where they end.
 
@@ -180,9 +179,7 @@ def ends_of_sides(
     return corner_of_sides(triangles, sides, 0), corner_of_sides(triangles, sides, 1)
 
 
-def places_of_sides(
-    mesh: TriangleMesh, sides: NDArray[np.int32]
-) -> NDArray[np.float64]:
+def places_of_sides(mesh: TriangleMesh, sides: Int32Array) -> FloatArray:
     """Return where sides of triangles start and end, and the corners opposite.
 
     Parameters
@@ -198,7 +195,7 @@ def places_of_sides(
     return mesh.vertices[np.stack(corners)]
 
 
-def _order(numbers: NDArray[np.int32]) -> NDArray[np.int32]:
+def _order(numbers: Int32Array) -> Int32Array:
     """Return a stable order of numbers from 0. SciPy's counting sort beats NumPy's."""
     n_rows = len(numbers)
     ones = np.ones(n_rows, dtype=np.int8)

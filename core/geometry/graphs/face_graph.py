@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
 
+from ...steps.arrays import BoolArray, FloatArray, Int32Array, IntArray
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
@@ -47,14 +48,14 @@ class FaceGraph:
         Length of the outline along each polygon of a flat mesh.
     """
 
-    areas: NDArray[np.float64]
-    centers: NDArray[np.float64]
-    normals: NDArray[np.float64]
+    areas: FloatArray
+    centers: FloatArray
+    normals: FloatArray
     neighbors: NDArray[np.integer[Any]]
-    lengths: NDArray[np.float64]
-    bends: NDArray[np.float64]
-    links: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
-    outline: NDArray[np.float64] | None = None
+    lengths: FloatArray
+    bends: FloatArray
+    links: IntArray = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    outline: FloatArray | None = None
 
     @property
     def n_polygons(self) -> int:
@@ -62,17 +63,17 @@ class FaceGraph:
         return len(self.areas)
 
     @property
-    def weights(self) -> NDArray[np.float64]:
+    def weights(self) -> FloatArray:
         """Expected share of the samples on each polygon, (P,), sum 1."""
         sampled = self.areas if self.outline is None else self.outline
         return sampled / sampled.sum()
 
     @property
-    def seam_costs(self) -> NDArray[np.float64]:
+    def seam_costs(self) -> FloatArray:
         """Cost of a seam along each edge, (E,): creases cost less than ridges."""
         return self.lengths * np.exp(-CREASE * np.maximum(self.bends, 0.0))
 
-    def areas_of(self, labels: NDArray[np.int64]) -> NDArray[np.float64]:
+    def areas_of(self, labels: IntArray) -> FloatArray:
         """Return the total area of each label 0…K − 1, (K,) float.
 
         Parameters
@@ -81,7 +82,7 @@ class FaceGraph:
         """
         return np.bincount(labels, self.areas).astype(np.float64)
 
-    def shells(self) -> NDArray[np.int64]:
+    def shells(self) -> IntArray:
         """Return the shell number of each polygon, (P,) int."""
         return connected_components(self._graph, directed=False)[1].astype(np.int64)
 
@@ -91,17 +92,17 @@ class FaceGraph:
         return graph_of(self.neighbors, self.n_polygons)
 
     @cached_property
-    def _arcs(self) -> NDArray[np.int64]:
+    def _arcs(self) -> IntArray:
         """(2, A) ends of each stored entry of the adjacency matrix."""
         tails = np.repeat(np.arange(self.n_polygons), np.diff(self._graph.indptr))
         return np.stack([tails, self._graph.indices])
 
     @cached_property
-    def _known(self) -> Memo[bytes, NDArray[np.int32]]:
+    def _known(self) -> Memo[bytes, Int32Array]:
         """Maps the digest of labels to the component of one label of each polygon."""
         return Memo(_MOST_KNOWN)
 
-    def pieces(self, labels: NDArray[np.int64], firm_area: float) -> NDArray[np.int64]:
+    def pieces(self, labels: IntArray, firm_area: float) -> IntArray:
         """Return the piece of each polygon, connected and of one label, (P,) int.
 
         A link joins pieces that are each a whole shell, or have at least `firm_area`.
@@ -126,7 +127,7 @@ class FaceGraph:
             ends = ends[(fit | whole)[ends].all(axis=1)]
         return components_at_once(ends, len(fit))[pieces]
 
-    def borders(self, labels: NDArray[np.int64], n_labels: int) -> sparse.csr_array:
+    def borders(self, labels: IntArray, n_labels: int) -> sparse.csr_array:
         """Return the border length between every two labels, (K, K) sparse float.
 
         Parameters
@@ -141,32 +142,30 @@ class FaceGraph:
         borders = sparse.coo_array((np.tile(lengths, 2), ends), shape=shape)
         return borders.tocsr()
 
-    def alone(self, labels: NDArray[np.int64], n_labels: int) -> NDArray[np.bool_]:
+    def alone(self, labels: IntArray, n_labels: int) -> BoolArray:
         """Return whether each label 0…K − 1 touches no other label, (K,) bool."""
         alone = np.ones(n_labels, dtype=bool)
         alone[np.concatenate(self._crossing(labels)[1:])] = False
         return alone
 
-    def _crossing(
-        self, labels: NDArray[np.int64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    def _crossing(self, labels: IntArray) -> tuple[IntArray, IntArray, IntArray]:
         """Return where labels differ, of all edges and then links, and both labels."""
         one, other = (labels[ends] for ends in self._ends)
         crossing = np.flatnonzero(one != other)
         return crossing, one[crossing], other[crossing]
 
     @cached_property
-    def _border_lengths(self) -> NDArray[np.float64]:
+    def _border_lengths(self) -> FloatArray:
         """(E + L,) lengths of edges and links: never 0, since labels border there."""
         lengths = np.concatenate([self.lengths, np.zeros(len(self.links))])
         return np.where(lengths == 0, np.finfo(float).tiny, lengths)
 
     @cached_property
-    def _ends(self) -> NDArray[np.int64]:
+    def _ends(self) -> IntArray:
         """(2, E + L) ends of edges and links, each row contiguous."""
         return np.concatenate([self.neighbors, self.links]).T.astype(np.int64, "C")
 
-    def part(self, kept: NDArray[np.int64]) -> FaceGraph:
+    def part(self, kept: IntArray) -> FaceGraph:
         """Return the graph of some polygons, numbered in the order of `kept`.
 
         Parameters
@@ -233,11 +232,7 @@ def face_graph(mesh: TriangleMesh) -> Steps[FaceGraph]:
     return FaceGraph(areas, centers, normals, neighbors, lengths, bends)
 
 
-def _bends(
-    normals: NDArray[np.float64],
-    others: NDArray[np.float64],
-    along: NDArray[np.float64],
-) -> NDArray[np.float64]:
+def _bends(normals: FloatArray, others: FloatArray, along: FloatArray) -> FloatArray:
     """Return the signed angle (E,) between two normals (E, 3), positive at creases.
 
     `along` (E, 3) is the edge as it runs around the second polygon. What counts is on

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
 from ..frames import unit
@@ -49,9 +50,9 @@ class Patches:
 
     fine: FaceGraph
     coarse: FaceGraph
-    of_nodes: NDArray[np.int64]
+    of_nodes: IntArray
 
-    def labels_of(self, labels: NDArray[np.int64]) -> NDArray[np.int64]:
+    def labels_of(self, labels: IntArray) -> IntArray:
         """Return the label that most of the area of each patch has, (G,).
 
         Parameters
@@ -64,9 +65,7 @@ class Patches:
         areas = np.bincount(cells, self.fine.areas, n_patches * n_labels)
         return areas.reshape(n_patches, n_labels).argmax(axis=1)
 
-    def opened(
-        self, chosen: NDArray[np.bool_]
-    ) -> Steps[tuple[FaceGraph, NDArray[np.int64]]]:
+    def opened(self, chosen: BoolArray) -> Steps[tuple[FaceGraph, IntArray]]:
         """Return the graph in which the nodes of some patches count on their own.
 
         Parameters
@@ -159,11 +158,7 @@ def find_patches(graph: FaceGraph, n_patches: int) -> Steps[Patches]:
     return Patches(graph, coarse, patches)
 
 
-def _joins(
-    pairs: NDArray[np.int64],
-    weights: NDArray[np.float64],
-    areas: NDArray[Any],
-) -> NDArray[np.int64]:
+def _joins(pairs: IntArray, weights: FloatArray, areas: NDArray[Any]) -> IntArray:
     """Return small patches and the neighbors that they join, (J, 2).
 
     It is the larger neighbor with the longest common border. `areas` are shares of the
@@ -182,7 +177,7 @@ def _joins(
     return np.stack([small[first], others[first]], axis=1)
 
 
-def contracted(graph: FaceGraph, groups: NDArray[np.int64]) -> Steps[FaceGraph]:
+def contracted(graph: FaceGraph, groups: IntArray) -> Steps[FaceGraph]:
     """Return the graph of groups of nodes, without links.
 
     Between two groups there is one edge. It is as long as all edges between their

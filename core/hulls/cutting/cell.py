@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.cutting.segments import segments_below
 from ...geometry.frames import heights_above
+from ...steps.arrays import BoolArray, FloatArray
 from ..fitting import Fit
 from ..piece import Piece
 from ..solid import Solid
@@ -33,9 +33,9 @@ class Cell(Piece):
         Unit normal n and offset d of each plane: n · x + d ≤ 0 in the piece.
     """
 
-    chords: NDArray[np.float64]
-    volumes: NDArray[np.float64]
-    planes: NDArray[np.float64]
+    chords: FloatArray
+    volumes: FloatArray
+    planes: FloatArray
 
     @property
     def cut_share(self) -> float:
@@ -59,7 +59,7 @@ class Cell(Piece):
         return float(-heights[:, kept].max(axis=1).min())
 
     @cached_property
-    def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def lines(self) -> tuple[FloatArray, FloatArray]:
         """The lines in which two of the planes meet, see `lines_of`."""
         return lines_of(self.planes)
 
@@ -87,7 +87,7 @@ def whole(solid: Solid, fit: Fit) -> Cell:
     )
 
 
-def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
+def cut(cell: Cell, plane: FloatArray) -> tuple[Cell, Cell]:
     """Cut a piece in two by a plane.
 
     Parameters
@@ -120,10 +120,10 @@ def cut(cell: Cell, plane: NDArray[np.float64]) -> tuple[Cell, Cell]:
 
 def _side(
     cell: Cell,
-    plane: NDArray[np.float64],
-    kept: list[NDArray[np.bool_]],
-    rim: NDArray[np.float64],
-    face: NDArray[np.float64],
+    plane: FloatArray,
+    kept: list[BoolArray],
+    rim: FloatArray,
+    face: FloatArray,
 ) -> Cell:
     """Return the side of a cell below a plane; `rim` and `face` lie in the plane.
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import settled
+from ...steps.arrays import FloatArray
 from ...steps.progress import Progress, Steps, within
 from ..cost import cost_of_sides
 from ..enclosing.shapes import roughly_around
@@ -159,7 +159,7 @@ def best_cut(cell: Cell) -> Steps[tuple[Cell, Cell] | None]:
 
 
 def _cheapest(
-    cell: Cell, planes: NDArray[np.float64], is_block: bool = False
+    cell: Cell, planes: FloatArray, is_block: bool = False
 ) -> Steps[tuple[Cell, Cell] | None]:
     """Return the sides of lowest cost, of cuts by the first planes that differ."""
     made: list[tuple[Cell, Cell]] = []
@@ -200,14 +200,14 @@ def _is_convex(cell: Cell) -> bool:
     return cell.hull.volume - cell.volume < _CONVEX * cell.hull.volume
 
 
-def _middle(cell: Cell) -> NDArray[np.float64]:
+def _middle(cell: Cell) -> FloatArray:
     """Return the plane across the longest side of a piece's box, (1, 4)."""
     box = roughly_around(cell.hull, "BOX")
     normal = box.axes[np.round(box.sizes, 6).argmax()]
     return settled(np.append(normal, -normal @ box.center)[None])
 
 
-def _distinct(planes: NDArray[np.float64]) -> Iterator[NDArray[np.float64]]:
+def _distinct(planes: FloatArray) -> Iterator[FloatArray]:
     """Yield the first planes (4,) that differ from those before, `_TRIES` at most."""
     taken = np.zeros((0, 4))
     for plane in planes:

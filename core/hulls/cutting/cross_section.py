@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import coordinates_along, cross, frames, heights_above
+from ...steps.arrays import BoolArray, FloatArray
 from ..solid import Solid
 
 # Distance between the sample points of a cross-section; the longest side is 2.
@@ -18,9 +18,7 @@ _PARALLEL = 1e-4
 _ON_PLANE = 1e-9
 
 
-def contour(
-    corners: NDArray[np.float64], plane: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def contour(corners: FloatArray, plane: FloatArray) -> FloatArray:
     """Return the segments in which a plane meets triangles.
 
     Parameters
@@ -69,12 +67,12 @@ class Section:
         The same segments in 2D, as coordinates along `axes`.
     """
 
-    plane: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    rim: NDArray[np.float64]
-    segments: NDArray[np.float64]
+    plane: FloatArray
+    axes: FloatArray
+    rim: FloatArray
+    segments: FloatArray
 
-    def spread(self, within: NDArray[np.float64]) -> NDArray[np.float64]:
+    def spread(self, within: FloatArray) -> FloatArray:
         """Return the points of a square grid that are inside the cross-section.
 
         Parameters
@@ -96,7 +94,7 @@ class Section:
         (right, top), normal = self.axes, self.plane[:3]
         return across * right + up * top - self.plane[3] * normal
 
-    def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    def holds(self, points: FloatArray) -> BoolArray:
         """Return which points of the plane are inside the cross-section.
 
         Parameters
@@ -118,7 +116,7 @@ class Section:
         return (windings < 0) & (turns.sum(axis=1) == 0)
 
 
-def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
+def cross_section(solid: Solid, plane: FloatArray) -> Section:
     """Return the cross-section of a solid in a plane.
 
     Parameters
@@ -136,9 +134,7 @@ def cross_section(solid: Solid, plane: NDArray[np.float64]) -> Section:
     return Section(plane, axes, rim, coordinates_along(axes, rim))
 
 
-def lines_of(
-    planes: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def lines_of(planes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the lines in which two planes meet, by Plücker coordinates.
 
     Parameters
@@ -159,10 +155,8 @@ def lines_of(
 
 
 def meeting_points(
-    lines: tuple[NDArray[np.float64], NDArray[np.float64]],
-    planes: NDArray[np.float64],
-    plane: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    lines: tuple[FloatArray, FloatArray], planes: FloatArray, plane: FloatArray
+) -> FloatArray:
     """Return the corners of a cell where a plane meets two others, (M, 3).
 
     Such corners may lie inside the solid, where no triangle has a vertex.
@@ -185,9 +179,7 @@ def meeting_points(
     return points[(heights_above(planes, points) <= _ON_PLANE).all(axis=1)]
 
 
-def _is_inside(
-    segments: NDArray[np.float64], across: NDArray[np.float64], up: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _is_inside(segments: FloatArray, across: FloatArray, up: FloatArray) -> BoolArray:
     """Return which points of a grid are inside a 2D contour (S, 2, 2), (U, A)."""
     (x0, y0), (x1, y1) = segments.transpose(1, 2, 0)
     turns = (y1 > up[:, None]).astype(np.int64) - (y0 > up[:, None])

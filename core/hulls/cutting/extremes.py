@@ -9,9 +9,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.directions import sphere_directions
+from ...steps.arrays import FloatArray, IntArray
 from ..convex_hull import convex_hull
 
 # E unit vectors; extreme points are found along these and their opposites.
@@ -20,7 +20,7 @@ _DIRECTIONS = sphere_directions(96)[:48]
 _TRIANGLES = convex_hull(np.concatenate([_DIRECTIONS, -_DIRECTIONS]), 1.0).triangles
 
 
-def reaches_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def reaches_of(points: FloatArray) -> FloatArray:
     """Return the coordinates of points along all E directions.
 
     Parameters
@@ -35,10 +35,8 @@ def reaches_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def volumes_beside(
-    points: NDArray[np.float64],
-    reaches: NDArray[np.float64],
-    ends: NDArray[np.int64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    points: FloatArray, reaches: FloatArray, ends: IntArray
+) -> tuple[FloatArray, FloatArray]:
     """Estimate the hull volumes of the first points and of the rest, for K splits.
 
     Parameters
@@ -72,20 +70,16 @@ def volumes_beside(
     return volumes[: len(ends)], volumes[len(ends) :]
 
 
-def _running(
-    rows: NDArray[np.int64], farthest: NDArray[np.float64]
-) -> NDArray[np.int64]:
+def _running(rows: IntArray, farthest: FloatArray) -> IntArray:
     """Return the rows of the extreme points of the first 1 to K layers, (K, 2 E)."""
     leads = farthest == np.maximum.accumulate(farthest, axis=0)
     layers = np.where(leads, np.arange(len(rows))[:, None, None], 0)
     layers = np.maximum.accumulate(layers, axis=0)
-    running: NDArray[np.int64] = np.take_along_axis(rows, layers, axis=0)
+    running: IntArray = np.take_along_axis(rows, layers, axis=0)
     return running.reshape(len(rows), -1)
 
 
-def _volumes_about(
-    points: NDArray[np.float64], rows: NDArray[np.int64]
-) -> NDArray[np.float64]:
+def _volumes_about(points: FloatArray, rows: IntArray) -> FloatArray:
     """Return the volumes enclosed by extreme points, whose rows are (K, 2 E), (K,)."""
     # Coordinate by coordinate, one row a direction: so NumPy takes a third of the time.
     chosen = np.ascontiguousarray(points[rows.T].transpose(2, 0, 1))

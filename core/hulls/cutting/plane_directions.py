@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import area_vectors, distinct_directions, principal_axes, unit
+from ...steps.arrays import FloatArray
 from .cell import Cell
 
 # Two directions count as the same above this cosine between them.
@@ -19,7 +19,7 @@ _LARGE_FACE = 0.05
 _NORMAL_DIGITS = 3
 
 
-def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
+def directions_of(cell: Cell) -> tuple[FloatArray, bool]:
     """Return the normals of planes to try, and whether the piece is a block.
 
     Blocks are cut along their faces alone, however they are turned; others along the
@@ -42,14 +42,14 @@ def directions_of(cell: Cell) -> tuple[NDArray[np.float64], bool]:
         return flat, True
     own = principal_axes(cell.boundary if len(cell.boundary) else cell.points)
     across = [own[0]] if cell.is_sheet else []  # there is nothing to part
-    found: list[NDArray[np.float64]] = []
+    found: list[FloatArray] = []
     for direction in (*np.eye(3), *own):
         if all(abs(direction @ other) < _SAME for other in (*across, *found)):
             found.append(direction)
     return np.array(found), False
 
 
-def _flat_normals(cell: Cell) -> tuple[NDArray[np.float64], float]:
+def _flat_normals(cell: Cell) -> tuple[FloatArray, float]:
     """Return the normals of a piece's large flat faces, (N, 3), and their share of all.
 
     The first has most of the surface. Parallel faces count together.

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import area_vectors, coordinates_along, settled, unit
+from ...steps.arrays import BoolArray, FloatArray
 from ...steps.progress import Steps, within
 from ..piece import Piece
 from .cell import Cell
@@ -68,7 +68,7 @@ def _plates_of(cell: Cell, most: int) -> list[Cell]:
     return [_plate(cell, rows == row, planes) for row in range(count)]
 
 
-def _planes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def _planes_of(corners: FloatArray) -> FloatArray:
     """Return the planes of triangles, (T, 4): the same one of both sides."""
     normals = unit(area_vectors(corners))
     rounded = np.round(normals, _DIGITS)
@@ -78,7 +78,7 @@ def _planes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return settled(np.column_stack([normals, -offsets]))
 
 
-def _plate(cell: Cell, chosen: NDArray[np.bool_], planes: NDArray[np.float64]) -> Cell:
+def _plate(cell: Cell, chosen: BoolArray, planes: FloatArray) -> Cell:
     """Return triangles of a whole that lie in one plane as a piece."""
     points = cell.solid.corners[chosen].reshape(-1, 3)
     normal = planes[chosen][0, :3]

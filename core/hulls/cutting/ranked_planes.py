@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import principal_axes, settled
+from ...steps.arrays import BoolArray, FloatArray
 from ...steps.progress import Progress, Steps
 from ..convex_hull import THIN, thickened
 from .cell import Cell
@@ -44,7 +44,7 @@ _FEWEST_POINTS = 4
 _FLAT = 1e-6
 
 
-def ranked_planes(cell: Cell) -> Steps[tuple[NDArray[np.float64], bool]]:
+def ranked_planes(cell: Cell) -> Steps[tuple[FloatArray, bool]]:
     """Return planes through a piece, ranked by the volume that both hulls add.
 
     First, evenly spaced planes are tried along each direction. Then others around the
@@ -114,14 +114,12 @@ class _Sketch:
     """
 
     cell: Cell
-    points: NDArray[np.float64]
-    rounded: NDArray[np.float64]
-    reaches: NDArray[np.float64]
+    points: FloatArray
+    rounded: FloatArray
+    reaches: FloatArray
     scale: float
 
-    def along(
-        self, direction: NDArray[np.float64]
-    ) -> tuple[_Sketch, NDArray[np.float64], NDArray[np.float64]]:
+    def along(self, direction: FloatArray) -> tuple[_Sketch, FloatArray, FloatArray]:
         """Return the sketch in order of the heights of points along a direction (3,).
 
         The others are these heights, (N,), and those of the chords, (C,).
@@ -137,11 +135,8 @@ class _Sketch:
         return ordered, heights[order], self.cell.chords @ direction
 
     def added_volumes(
-        self,
-        heights: NDArray[np.float64],
-        chords: NDArray[np.float64],
-        offsets: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
+        self, heights: FloatArray, chords: FloatArray, offsets: FloatArray
+    ) -> FloatArray:
         """Return the volumes that the hulls of both sides of parallel planes add.
 
         Parameters
@@ -179,14 +174,12 @@ def _sketch_of(cell: Cell) -> _Sketch:
     return _Sketch(cell, points, rounded, reaches_of(rounded), float(np.prod(widths)))
 
 
-def _with_thickness(cell: Cell, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _with_thickness(cell: Cell, points: FloatArray) -> FloatArray:
     """Return points of a piece, those of a sheet as thick as its hull."""
     return thickened(points, THIN) if cell.is_sheet else points
 
 
-def _off_faces(
-    offsets: NDArray[np.float64], heights: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _off_faces(offsets: FloatArray, heights: FloatArray) -> FloatArray:
     """Return offsets (K,) of planes, with two beside each plane that points lie on.
 
     Rounding would decide on which side these points are. `heights` are those of all
@@ -198,7 +191,7 @@ def _off_faces(
     return np.sort(np.concatenate([offsets[clear], beside[~clear].ravel()]))
 
 
-def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
+def _levels(heights: FloatArray) -> FloatArray:
     """Return the lowest and highest height of levels, such as flat faces, (L, 2).
 
     The points of a level agree up to rounding: a turned face is not quite even.
@@ -212,9 +205,7 @@ def _levels(heights: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([ascending[starts[several]], ascending[ends]], axis=1)
 
 
-def _flat_levels(
-    levels: NDArray[np.float64], heights: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _flat_levels(levels: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the levels at which the largest flat faces lie, at most `_MOST_LEVELS`.
 
     `heights` are those of points spread over the surface, ascending.
@@ -225,9 +216,7 @@ def _flat_levels(
     return levels[largest[counts[largest] >= _FLAT_FACE * len(heights)]]
 
 
-def _crowded(
-    offsets: NDArray[np.float64], flush: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _crowded(offsets: FloatArray, flush: FloatArray) -> BoolArray:
     """Return which planes at offsets (K,) are near flush ones (L, 2), none of them."""
     away = np.abs(offsets[:, None] - flush.ravel()).min(axis=1, initial=np.inf)
     return (away > 0) & (away < _CROWDED)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from ...geometry.frames import (
@@ -16,6 +15,7 @@ from ...geometry.frames import (
     principal_axes,
 )
 from ...geometry.primitives import CollisionShape, Hull
+from ...steps.arrays import FloatArray
 from ...steps.rows import blocks
 
 # Number of faces that a box may be flush with, the largest ones; and while cuts are
@@ -66,7 +66,7 @@ def rough_box(hull: Hull) -> CollisionShape:
     return _smallest_box(hull, np.concatenate([largest, axes]))
 
 
-def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
+def _smallest_box(hull: Hull, normals: FloatArray) -> CollisionShape:
     """Return the smallest of the boxes that have a side with one of the normals.
 
     Few of them are made: lower bounds of their volumes rule the others out. Equal ones
@@ -91,16 +91,14 @@ def _smallest_box(hull: Hull, normals: NDArray[np.float64]) -> CollisionShape:
     return best
 
 
-def _normals_of_largest(hull: Hull, n_faces: int) -> NDArray[np.float64]:
+def _normals_of_largest(hull: Hull, n_faces: int) -> FloatArray:
     """Return the normals of the largest faces of a hull, in its order, (N, 3)."""
     areas = np.linalg.norm(area_vectors(hull.corners), axis=1)
     largest = np.argsort(-np.round(areas, DIGITS), kind="stable")[:n_faces]
     return hull.planes[np.sort(largest), :3]
 
 
-def _least_areas(
-    points: NDArray[np.float64], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _least_areas(points: FloatArray, normals: FloatArray) -> FloatArray:
     """Return lower bounds of the areas of rectangles around points along normals, (N,).
 
     The widths at some angles are exact. The two points that are farthest apart at one
@@ -126,9 +124,7 @@ def _least_areas(
     return least
 
 
-def _rectangle_axes(
-    points: NDArray[np.float64], normal: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _rectangle_axes(points: FloatArray, normal: FloatArray) -> FloatArray:
     """Return the axes of the box of least base area, the last one `normal`, (3, 3)."""
     frame = frame_of(normal)
     flat = coordinates_along(frame[:2], points)

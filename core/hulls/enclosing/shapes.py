@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import coordinates_along, frame_of, principal_axes
 from ...geometry.primitives import CollisionShape, Hull
+from ...steps.arrays import FloatArray
 from .boxes import DIGITS, box_around, rough_box
 
 # Rounds of the search for the smallest ball; its radius is then exact to a thousandth.
@@ -76,7 +76,7 @@ def _sphere(hull: Hull, rounds: int) -> CollisionShape:
     return CollisionShape("SPHERE", hull, center, np.eye(3), sizes)
 
 
-def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
+def _cylinder(hull: Hull, axis: FloatArray, rounds: int) -> CollisionShape:
     """Return the smallest cylinder along an axis."""
     frame = frame_of(axis)
     local = coordinates_along(frame, hull.vertices)
@@ -87,7 +87,7 @@ def _cylinder(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionSh
     return CollisionShape("CYLINDER", hull, middle, frame, sizes)
 
 
-def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionShape:
+def _capsule(hull: Hull, axis: FloatArray, rounds: int) -> CollisionShape:
     """Return the shortest of the capsules with the least radius along an axis."""
     frame = frame_of(axis)
     local = coordinates_along(frame, hull.vertices)
@@ -101,9 +101,7 @@ def _capsule(hull: Hull, axis: NDArray[np.float64], rounds: int) -> CollisionSha
     return CollisionShape("CAPSULE", hull, middle, frame, sizes)
 
 
-def _smallest_ball(
-    points: NDArray[np.float64], rounds: int
-) -> tuple[NDArray[np.float64], float]:
+def _smallest_ball(points: FloatArray, rounds: int) -> tuple[FloatArray, float]:
     """Return center and radius of nearly the smallest ball around points (N, 2 or 3).
 
     Bădoiu and Clarkson 2003, "Smaller core-sets for balls": the center moves towards

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.cutting.halving import edge_lengths, halved
 from ...geometry.mesh import TriangleMesh
 from ...solids.shells import Shells
 from ...solids.volume import volumes_of
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps
 from ...steps.rows import blocks
 from .fragments import reach_of
@@ -45,11 +45,11 @@ class _Surface:
         Triangles that are buried, or that some piece is missing of.
     """
 
-    pieces: NDArray[np.float64]
-    rows: NDArray[np.int64]
-    lost: NDArray[np.bool_]
+    pieces: FloatArray
+    rows: IntArray
+    lost: BoolArray
 
-    def joined(self, mesh: TriangleMesh) -> tuple[TriangleMesh, NDArray[np.int64]]:
+    def joined(self, mesh: TriangleMesh) -> tuple[TriangleMesh, IntArray]:
         """Return the whole triangles of the mesh, and the pieces of others."""
         cut = self.lost[self.rows]
         more, whole = self.pieces[cut], np.flatnonzero(~self.lost)
@@ -59,9 +59,7 @@ class _Surface:
         rows = np.concatenate([whole, self.rows[cut]])
         return TriangleMesh(vertices, triangles, np.arange(len(rows))), rows
 
-    def bury(
-        self, solid: _Container, others: NDArray[np.int64], most: int
-    ) -> Steps[int]:
+    def bury(self, solid: _Container, others: IntArray, most: int) -> Steps[int]:
         """Leave out what is inside a solid, of some of the pieces.
 
         Returns how many were looked at: once that are `most`, none is cut any more.
@@ -90,12 +88,10 @@ class _Surface:
 class _Container:
     """A solid, with the cavities near it, that others may be buried in."""
 
-    def __init__(self, corners: NDArray[np.float64]) -> None:
+    def __init__(self, corners: FloatArray) -> None:
         self._inside, self._targets = InsideTest(corners, 1), Targets(corners)
 
-    def is_clear_of(
-        self, centers: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> Steps[NDArray[np.bool_]]:
+    def is_clear_of(self, centers: FloatArray, radii: FloatArray) -> Steps[BoolArray]:
         """Return which balls (M,) its surface does not meet."""
         clear = np.zeros(len(centers), dtype=bool)
         for some in blocks(len(centers), _AT_ONCE):
@@ -103,7 +99,7 @@ class _Container:
             clear[some] = ~self._targets.are_within(centers[some], radii[some])
         return clear
 
-    def holds(self, points: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
+    def holds(self, points: FloatArray) -> Steps[BoolArray]:
         """Return which points (M,) are inside."""
         inside = np.zeros(len(points), dtype=bool)
         for some in blocks(len(points), _AT_ONCE):
@@ -111,7 +107,7 @@ class _Container:
             inside[some] = self._inside.holds(points[some])
         return inside
 
-    def has_on_it(self, pieces: NDArray[np.float64]) -> Steps[NDArray[np.bool_]]:
+    def has_on_it(self, pieces: FloatArray) -> Steps[BoolArray]:
         """Return which pieces (M,) have their corners and centers on its surface."""
         on_it, radii = np.ones(len(pieces), dtype=bool), np.full(len(pieces), _FLUSH)
         for points in (pieces.mean(axis=1), *pieces.swapaxes(0, 1)):
@@ -121,7 +117,7 @@ class _Container:
 
 def unburied(
     mesh: TriangleMesh, shells: Shells
-) -> Steps[tuple[TriangleMesh, NDArray[np.int64]]]:
+) -> Steps[tuple[TriangleMesh, IntArray]]:
     """Return the surface of a union of closed solids.
 
     What is inside one other solid is buried.
@@ -156,9 +152,7 @@ def unburied(
     return left.joined(mesh) if left.lost.any() else (mesh, all_rows)
 
 
-def _meeting(
-    pieces: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _meeting(pieces: FloatArray, low: FloatArray, high: FloatArray) -> BoolArray:
     """Return whether the boxes around pieces (N, K, 3) meet another one, (N,)."""
     meets = np.ones(len(pieces), dtype=bool)
     for axis in range(3):
@@ -169,8 +163,8 @@ def _meeting(
 
 
 def _containers(
-    mesh: TriangleMesh, shells: Shells, boxes: NDArray[np.float64]
-) -> Steps[dict[int, NDArray[np.int64]]]:
+    mesh: TriangleMesh, shells: Shells, boxes: FloatArray
+) -> Steps[dict[int, IntArray]]:
     """Return the triangles of solids whose boxes meet others, and of cavities there.
 
     They are those of a shell and of each cavity whose box (S, 2, 3) meets its own. None
@@ -180,7 +174,7 @@ def _containers(
     solid = np.bincount(shells.of_triangle, volumes, n_shells) > 0
     if np.count_nonzero(solid) * len(mesh.triangles) > _MOST_COMPARED:
         return {}
-    found: dict[int, NDArray[np.int64]] = {}
+    found: dict[int, IntArray] = {}
     for shell in np.flatnonzero(solid).tolist():
         meets = _meeting(boxes, *boxes[shell])
         meets[shell] = False

@@ -8,9 +8,9 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.primitives import CollisionShape, Hull
+from ...steps.arrays import FloatArray
 from ..convex_hull import THIN
 from ..outline import fine_outline
 from ..solid import Solid
@@ -106,7 +106,7 @@ class ErrorBound:
         return bound
 
     @property
-    def place(self) -> NDArray[np.float64]:
+    def place(self) -> FloatArray:
         """A point of the shape that is far from the surface, (1, 3), or (0, 3)."""
         return self._outer.place if self._outer else np.zeros((0, 3))
 
@@ -135,7 +135,7 @@ class ErrorBound:
         return uncovered(self._shape, self._hull)
 
     @cached_property
-    def _within(self) -> NDArray[np.float64]:
+    def _within(self) -> FloatArray:
         """What of the solid's surface is within the shape, (N, 3, 3)."""
         return surface_within(self._solid, self._shape)
 
@@ -157,14 +157,14 @@ class ErrorBound:
             longest = _COARSE * max(1.0, float((high - low).max()) / 2)
             self._outer = PatchSearch(fragments_of(outline, longest)[0])
 
-        def away(corners: NDArray[np.float64], level: float) -> Bounds:
+        def away(corners: FloatArray, level: float) -> Bounds:
             return _distances(self._solid, self._targets, corners, level, gap == 0)
 
         enough = max(enough - gap, gap)
         return self._outer.largest(away, enough, limit - gap, tolerance) + gap
 
 
-def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> Bounds:
+def _depths(shape: CollisionShape, corners: FloatArray) -> Bounds:
     """Return bounds of the depth of patches below the surface of a shape."""
     centers, radii = reach_of(corners)
     depths = -shape.heights(centers)
@@ -174,11 +174,7 @@ def _depths(shape: CollisionShape, corners: NDArray[np.float64]) -> Bounds:
 
 
 def _distances(
-    solid: Solid,
-    targets: Targets,
-    corners: NDArray[np.float64],
-    level: float,
-    complete: bool,
+    solid: Solid, targets: Targets, corners: FloatArray, level: float, complete: bool
 ) -> Bounds:
     """Return bounds of the distance of patches outside a solid from targets.
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.primitives import CollisionShape, Hull
 from ...geometry.sampling import points_on
+from ...steps.arrays import FloatArray
 from ..outline import fine_outline
 from ..solid import Solid
 
@@ -26,8 +26,8 @@ def estimated_error(
     solid: Solid,
     shape: CollisionShape,
     hull: Hull,
-    boundary: NDArray[np.float64],
-    witnesses: NDArray[np.float64],
+    boundary: FloatArray,
+    witnesses: FloatArray,
     least: float,
 ) -> float:
     """Estimate the error of a collision shape from samples.
@@ -68,7 +68,7 @@ def estimated_error(
     return float(max(least, outside, away))
 
 
-def estimated_depth(shape: CollisionShape, boundary: NDArray[np.float64]) -> float:
+def estimated_depth(shape: CollisionShape, boundary: FloatArray) -> float:
     """Return about how deep below the surface of a shape that of its piece is.
 
     Parameters

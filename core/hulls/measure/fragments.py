@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.cutting.halving import edge_lengths, halved
+from ...steps.arrays import FloatArray, IntArray
 
 # Cutting stops at so many triangles more, however long their edges still are.
 _MOST_MORE = 200_000
 
 
-def fragments_of(
-    corners: NDArray[np.float64], longest: float
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def fragments_of(corners: FloatArray, longest: float) -> tuple[FloatArray, IntArray]:
     """Halve triangles until no edge is longer than allowed.
 
     Whether an edge is halved depends on nothing but its length, so that neighbors that
@@ -49,9 +47,7 @@ def fragments_of(
     return np.concatenate(done), np.concatenate(rows)
 
 
-def reach_of(
-    corners: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def reach_of(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the centers of triangles (T, 3), and how far corners are from them, (T,).
 
     Parameters
@@ -63,9 +59,7 @@ def reach_of(
     return centers, np.sqrt(np.einsum("tcd,tcd->tc", arms, arms).max(axis=1))
 
 
-def distances_to(
-    points: NDArray[np.float64], corners: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def distances_to(points: FloatArray, corners: FloatArray) -> FloatArray:
     """Return the distance of each point from a triangle of its own.
 
     Parameters
@@ -101,14 +95,14 @@ def distances_to(
     return np.sqrt(np.maximum(squared, 0.0) + noise)
 
 
-def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the dot products of vectors (N, 3), (N,)."""
     return np.einsum("nd,nd->n", a, b)
 
 
 def _from_segment(
-    square: NDArray[np.float64], along: NDArray[np.float64], length: NDArray[np.float64]
-) -> NDArray[np.float64]:
+    square: FloatArray, along: FloatArray, length: FloatArray
+) -> FloatArray:
     """Return squared distances from segments, (N,).
 
     `square` is the squared distance from the start, `along` the dot product with the

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.frames import cross_2d
 from ...geometry.welding import distinct_points
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.rows import ranges
 from .line_crossings import as_seen
 
@@ -30,7 +30,7 @@ class HoleEdges:
         Corners of the triangles, counter-clockwise seen from outside.
     """
 
-    def __init__(self, corners: NDArray[np.float64]) -> None:
+    def __init__(self, corners: FloatArray) -> None:
         edges = _open_edges(corners)
         starts, ways = edges[:, 0], edges[:, 1] - edges[:, 0]
         counts = np.ceil(np.linalg.norm(ways, axis=1) / _GRAIN).astype(np.int64)
@@ -43,11 +43,8 @@ class HoleEdges:
         self._tree = cKDTree(_spots_of(axes, self._ends.mean(axis=1)))
 
     def surely_inside(
-        self,
-        points: NDArray[np.float64],
-        radii: NDArray[np.float64],
-        leaving: NDArray[np.int64],
-    ) -> NDArray[np.bool_]:
+        self, points: FloatArray, radii: FloatArray, leaving: IntArray
+    ) -> BoolArray:
         """Return in which regions most rays say that all of it is inside.
 
         Parameters
@@ -76,9 +73,7 @@ class HoleEdges:
         np.add.at(votes, rows, more)
         return votes > 3
 
-    def _are_near(
-        self, turned: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> NDArray[np.bool_]:
+    def _are_near(self, turned: FloatArray, radii: FloatArray) -> BoolArray:
         """Return beside which regions, seen along an axis, edges of holes are, (3, M).
 
         `turned` (3, M, 3) are the centers of regions as rays along each axis see them.
@@ -91,12 +86,8 @@ class HoleEdges:
         return away.reshape(3, -1) <= reach
 
     def _votes(
-        self,
-        axes: NDArray[np.int64],
-        turned: NDArray[np.float64],
-        radii: NDArray[np.float64],
-        leaving: NDArray[np.int64],
-    ) -> NDArray[np.int64]:
+        self, axes: IntArray, turned: FloatArray, radii: FloatArray, leaving: IntArray
+    ) -> IntArray:
         """Return how many of the two rays leave the mesh from all of a region, (M,).
 
         From elsewhere in a region, rays may leave the mesh less often than from the
@@ -127,9 +118,7 @@ class HoleEdges:
         return votes
 
 
-def _spots_of(
-    axes: NDArray[np.int64], turned: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _spots_of(axes: IntArray, turned: FloatArray) -> FloatArray:
     """Return where rays along an axis each run, (M, 3), those of each axis far apart.
 
     `turned` (M, 3) are points as these rays see them.
@@ -138,11 +127,8 @@ def _spots_of(
 
 
 def _leave_more(
-    leaving: NDArray[np.int64],
-    row: NDArray[np.int64],
-    rank: NDArray[np.int64],
-    flat: NDArray[np.float64],
-) -> NDArray[np.bool_]:
+    leaving: IntArray, row: IntArray, rank: IntArray, flat: FloatArray
+) -> BoolArray:
     """Return where rays leave more often than a way through the region crosses edges.
 
     `flat` (P, 2, 2) are the edges that may be crossed to their right; `row` and `rank`
@@ -160,7 +146,7 @@ def _leave_more(
     return more
 
 
-def _most_crossed(ends: NDArray[np.float64]) -> NDArray[np.int64]:
+def _most_crossed(ends: FloatArray) -> IntArray:
     """Return how many segments a way from the origin crosses at most, (M,).
 
     Each row of `ends` (M, K, 2, 2) has segments that the origin is left of, and zeros.
@@ -172,7 +158,7 @@ def _most_crossed(ends: NDArray[np.float64]) -> NDArray[np.int64]:
     return over.sum(axis=1).max(axis=1)
 
 
-def _from_origin(segments: NDArray[np.float64]) -> NDArray[np.float64]:
+def _from_origin(segments: FloatArray) -> FloatArray:
     """Return the distances of segments (P, 2, 2) from the origin, (P,)."""
     starts, ways = segments[:, 0], segments[:, 1] - segments[:, 0]
     squares = np.maximum((ways**2).sum(axis=1), 1e-30)
@@ -180,7 +166,7 @@ def _from_origin(segments: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.linalg.norm(starts + shares[:, None] * ways, axis=1)
 
 
-def _open_edges(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def _open_edges(corners: FloatArray) -> FloatArray:
     """Return the edges that triangles run along more often one way, (E, 2, 3).
 
     They run that way, and come as often as it is more often.

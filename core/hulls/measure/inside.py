@@ -6,10 +6,10 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import settled
 from ...geometry.primitives import CollisionShape
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from .holes import HoleEdges
 from .line_crossings import TURNS, LineCrossings, as_seen, in_order
 from .shape_chords import chord_in
@@ -43,7 +43,7 @@ class InsideTest:
         Number of axes to ask about points: 1 if the mesh is closed, else 3.
     """
 
-    def __init__(self, corners: NDArray[np.float64], n_axes: int) -> None:
+    def __init__(self, corners: FloatArray, n_axes: int) -> None:
         self._n_axes = n_axes
         self._corners = corners @ AXES.T
         self._crossings = LineCrossings(self._corners)
@@ -53,7 +53,7 @@ class InsideTest:
         """The edges of holes, in the coordinates of the lines."""
         return HoleEdges(self._corners)
 
-    def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    def holds(self, points: FloatArray) -> BoolArray:
         """Return which points are inside, by most rays along the axes, both ways.
 
         Parameters
@@ -68,11 +68,8 @@ class InsideTest:
         return votes > self._n_axes
 
     def holds_patches(
-        self,
-        centers: NDArray[np.float64],
-        radii: NDArray[np.float64],
-        asked: NDArray[np.bool_],
-    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        self, centers: FloatArray, radii: FloatArray, asked: BoolArray
+    ) -> tuple[BoolArray, BoolArray]:
         """Return which patches have centers inside, and no way out but the surface.
 
         Parameters
@@ -131,7 +128,7 @@ class InsideTest:
             estimates.append((leave - enter).sum() - inside)
         return float(max(*estimates, 0.0) * step**2) * _SURELY
 
-    def _leaving(self, local: NDArray[np.float64]) -> NDArray[np.int64]:
+    def _leaving(self, local: FloatArray) -> IntArray:
         """Return how many more triangles rays leave than enter, (axes, 2, M).
 
         Of each axis, the first rays run against it, the others along it.
@@ -148,11 +145,7 @@ class InsideTest:
         return np.stack(leaving, axis=1).astype(np.int64)
 
     def _length_inside(
-        self,
-        axis: int,
-        spots: NDArray[np.float64],
-        enter: NDArray[np.float64],
-        leave: NDArray[np.float64],
+        self, axis: int, spots: FloatArray, enter: FloatArray, leave: FloatArray
     ) -> float:
         """Return the length of segments of lines along an axis that is inside."""
         axes = np.full(len(spots), axis)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.rows import ranges
 from .fragments import fragments_of
 
@@ -16,7 +16,7 @@ _CELLS = 96
 _COARSE = 0.3
 
 
-def as_seen(places: NDArray[np.float64]) -> NDArray[np.float64]:
+def as_seen(places: FloatArray) -> FloatArray:
     """Return places (..., 3) as lines along each axis see them, (3, ..., 3).
 
     Coordinates are in the order of `TURNS`.
@@ -33,7 +33,7 @@ class LineCrossings:
         Corners of the triangles, counter-clockwise seen from outside.
     """
 
-    def __init__(self, corners: NDArray[np.float64]) -> None:
+    def __init__(self, corners: FloatArray) -> None:
         corners = fragments_of(corners, _COARSE)[0]
         self._low = corners.min(axis=(0, 1))[TURNS[:, :2]]
         self._step = np.ptp(corners, axis=(0, 1)).max() / _CELLS or 1.0
@@ -43,9 +43,7 @@ class LineCrossings:
         self._slopes = _slopes_of(turned)
         self._triangles, self._starts = self._table(axes, turned)
 
-    def _table(
-        self, axes: NDArray[np.int64], turned: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def _table(self, axes: IntArray, turned: FloatArray) -> tuple[IntArray, IntArray]:
         """Return the triangles over each cell of three grids, and where they start."""
         flat = (turned[..., :2] - self._low[axes, None]) / self._step
         low, high = (
@@ -64,8 +62,8 @@ class LineCrossings:
         return triangle[order], starts
 
     def of(
-        self, axes: NDArray[np.int64], spots: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+        self, axes: IntArray, spots: FloatArray
+    ) -> tuple[IntArray, FloatArray, IntArray]:
         """Return the crossings of lines with triangles.
 
         Parameters
@@ -101,13 +99,13 @@ class LineCrossings:
 
 
 def in_order(
-    line: NDArray[np.int64], heights: NDArray[np.float64], turns: NDArray[np.int64]
+    line: IntArray, heights: FloatArray, turns: IntArray
 ) -> tuple[
-    NDArray[np.int64],
-    NDArray[np.float64],
-    NDArray[np.int64],
-    NDArray[np.bool_],
-    NDArray[np.int64],
+    IntArray,
+    FloatArray,
+    IntArray,
+    BoolArray,
+    IntArray,
 ]:
     """Sort crossings of lines and a surface by line and height, and count them.
 
@@ -137,14 +135,12 @@ def in_order(
     return line, heights, turns, first, total - (total - turns)[starts]
 
 
-def _number_of(
-    axes: NDArray[np.int64], columns: NDArray[np.int64], rows: NDArray[np.int64]
-) -> NDArray[np.int64]:
+def _number_of(axes: IntArray, columns: IntArray, rows: IntArray) -> IntArray:
     """Return the numbers of cells of the grids across the axes."""
     return (axes * _CELLS + columns) * _CELLS + rows
 
 
-def _slopes_of(turned: NDArray[np.float64]) -> NDArray[np.float64]:
+def _slopes_of(turned: FloatArray) -> FloatArray:
     """Return what tells where lines along z cross triangles (T, 3, 3), (10, T).
 
     Three rows have the first corner. Then three for each other corner: how much its

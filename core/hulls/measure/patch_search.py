@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.cutting.halving import edge_lengths, halved
 from ...geometry.frames import settled
+from ...steps.arrays import FloatArray, IntArray
 
 # Patches looked at in one round; with more to halve, the highest ones go first.
 _MOST_PATCHES = 60_000
@@ -24,7 +24,7 @@ _MOST_IN_ALL = 240_000
 _FEW_PATCHES, _HALVINGS = 400, 2
 
 # Bounds of patches (N, 3, 3): what is surely reached, and what is surely not exceeded.
-Bounds: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]
+Bounds: TypeAlias = tuple[FloatArray, FloatArray]
 
 
 class PatchSearch:
@@ -41,7 +41,7 @@ class PatchSearch:
         Where the largest known value is reached, if it was told apart.
     """
 
-    def __init__(self, corners: NDArray[np.float64]) -> None:
+    def __init__(self, corners: FloatArray) -> None:
         self.place = np.zeros((0, 3))
         self._corners = corners
         self._high = np.full(len(corners), np.inf)
@@ -49,7 +49,7 @@ class PatchSearch:
 
     def largest(
         self,
-        bounds_of: Callable[[NDArray[np.float64], float], Bounds],
+        bounds_of: Callable[[FloatArray, float], Bounds],
         enough: float,
         limit: float,
         tolerance: float,
@@ -93,7 +93,7 @@ class PatchSearch:
         known = self._high[np.isfinite(self._high)]
         return max(self._reached, float(known.max(initial=0.0)))
 
-    def _next_rows(self, level: float) -> NDArray[np.int64]:
+    def _next_rows(self, level: float) -> IntArray:
         """Return the rows of patches to look at next, so that none is above a level.
 
         First those that nothing is known of. Then all that are above the level, or the
@@ -109,9 +109,7 @@ class PatchSearch:
         return rows if len(rows) + len(self._high) <= _MOST_IN_ALL else rows[:0]
 
 
-def _smaller(
-    corners: NDArray[np.float64], high: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _smaller(corners: FloatArray, high: FloatArray) -> FloatArray:
     """Return halves of patches, or the patches if nothing is known of them yet."""
     if np.isinf(high).all():
         return corners

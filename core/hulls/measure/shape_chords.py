@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import heights_above
 from ...geometry.primitives import CollisionShape
+from ...steps.arrays import FloatArray
 
 
 def chord_in(
-    shape: CollisionShape, origins: NDArray[np.float64], direction: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    shape: CollisionShape, origins: FloatArray, direction: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Return where parallel lines enter and leave a collision shape.
 
     Parameters
@@ -59,9 +59,7 @@ def chord_in(
     )
 
 
-def _between(
-    heights: NDArray[np.float64], slopes: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _between(heights: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return where lines are below planes: at heights (L, P), rising by slopes."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ends = -heights / slopes
@@ -71,8 +69,8 @@ def _between(
 
 
 def _in_ball(
-    places: NDArray[np.float64], along: NDArray[np.float64], radius: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    places: FloatArray, along: FloatArray, radius: float
+) -> tuple[FloatArray, FloatArray]:
     """Return where lines are within a radius of the origin, in 2D or 3D."""
     square = max(float(along @ along), 1e-30)
     middle = -(places @ along) / square

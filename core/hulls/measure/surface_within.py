@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import HEIGHTS_AT_ONCE, heights_above
 from ...geometry.primitives import CollisionShape
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.rows import blocks
 from ..convex_hull import LEFT_OUT
 from ..outline import outline_of
@@ -16,7 +16,7 @@ from ..solid import Solid
 _ABOVE = 1e-9
 
 
-def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
+def surface_within(solid: Solid, shape: CollisionShape) -> FloatArray:
     """Return what of the triangles of a solid is within a shape.
 
     Round shapes count as polyhedra that are a little smaller.
@@ -52,8 +52,8 @@ def surface_within(solid: Solid, shape: CollisionShape) -> NDArray[np.float64]:
 
 
 def _farthest_above(
-    planes: NDArray[np.float64], points: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    planes: FloatArray, points: FloatArray
+) -> tuple[FloatArray, IntArray]:
     """Return the height of points (N, 3) above their highest plane, and which it is."""
     height, plane = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
     for some in blocks(len(points), HEIGHTS_AT_ONCE // len(planes)):
@@ -62,17 +62,13 @@ def _farthest_above(
     return height, plane
 
 
-def _is_above(
-    planes: NDArray[np.float64], corners: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _is_above(planes: FloatArray, corners: FloatArray) -> BoolArray:
     """Return which triangles (N, 3, 3) are wholly above planes of their own, (N, 4)."""
     heights = np.einsum("tcd,td->tc", corners, planes[:, :3]) + planes[:, 3:]
     return (heights > _ABOVE).all(axis=1)
 
 
-def _below_all(
-    planes: NDArray[np.float64], corners: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _below_all(planes: FloatArray, corners: FloatArray) -> FloatArray:
     """Return what of triangles is below planes (P, 4), in triangles (N, 3, 3).
 
     Each round cuts every triangle by the plane that it is farthest above.
@@ -87,9 +83,7 @@ def _below_all(
     return np.concatenate(found)
 
 
-def _above(
-    planes: NDArray[np.float64], corners: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _above(planes: FloatArray, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how high triangles are above planes (P, 4).
 
     First how high above one plane they are with all corners, (N,). Then the heights of
@@ -105,9 +99,7 @@ def _above(
     return lowest, above
 
 
-def _below(
-    corners: NDArray[np.float64], heights: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _below(corners: FloatArray, heights: FloatArray) -> FloatArray:
     """Return what of triangles is below a plane each, in triangles (M, 3, 3).
 
     `heights` (N, 3) are those of the corners: one or two of each are above.

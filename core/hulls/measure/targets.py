@@ -6,9 +6,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.rows import blocks
 from .fragments import distances_to, fragments_of, reach_of
 
@@ -43,16 +43,13 @@ class _Fragments(NamedTuple):
     """
 
     tree: cKDTree
-    origins: NDArray[np.int64]
-    radii: NDArray[np.float64]
+    origins: IntArray
+    radii: FloatArray
     reach: float
 
     @classmethod
     def of(
-        cls,
-        centers: NDArray[np.float64],
-        radii: NDArray[np.float64],
-        origins: NDArray[np.int64],
+        cls, centers: FloatArray, radii: FloatArray, origins: IntArray
     ) -> _Fragments:
         """Return fragments with these centers and reaches."""
         # Building a balanced tree takes twice as long, and questions are few.
@@ -68,7 +65,7 @@ class Targets:
     corners : (N, 3, 3) float
     """
 
-    def __init__(self, corners: NDArray[np.float64]) -> None:
+    def __init__(self, corners: FloatArray) -> None:
         small, origins = fragments_of(corners, _GRAIN)
         self._corners = corners
         self._all = _Fragments.of(*reach_of(small), origins)
@@ -87,8 +84,8 @@ class Targets:
         ]
 
     def distances(
-        self, patches: NDArray[np.float64], centers: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        self, patches: FloatArray, centers: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return how far patches are from the triangles.
 
         Parameters
@@ -117,22 +114,18 @@ class Targets:
         # The distance from a triangle is convex: largest at a corner of the patch.
         return at_least, nearest, away.max(axis=1).min(axis=1)
 
-    def are_within(
-        self, points: NDArray[np.float64], radii: NDArray[np.float64]
-    ) -> NDArray[np.bool_]:
+    def are_within(self, points: FloatArray, radii: FloatArray) -> BoolArray:
         """Return which points (M, 3) have a triangle within radii (M,)."""
         farthest = float(radii.max(initial=0.0)) + self._all.reach
         apart, _ = self._all.tree.query(points, distance_upper_bound=farthest)
         # The center of a fragment is on it, and none of it is farther than its reach.
-        within: NDArray[np.bool_] = apart <= radii
+        within: BoolArray = apart <= radii
         unsure = np.flatnonzero(~within & (apart - self._all.reach <= radii))
         nearest = self.nearest(points[unsure], np.nextafter(radii[unsure], np.inf))
         within[unsure] = nearest <= radii[unsure]
         return within
 
-    def nearest(
-        self, points: NDArray[np.float64], most: NDArray[np.float64] | None = None
-    ) -> NDArray[np.float64]:
+    def nearest(self, points: FloatArray, most: FloatArray | None = None) -> FloatArray:
         """Return the distances of points (M, 3) from the nearest triangles, (M,).
 
         Where none is nearer than `most` (M,), it is that: larger ones take longer.
@@ -161,11 +154,11 @@ class Targets:
     def _look(
         self,
         group: _Fragments,
-        points: NDArray[np.float64],
-        rows: NDArray[np.int64],
+        points: FloatArray,
+        rows: IntArray,
         n_near: int,
-        found: NDArray[np.float64],
-    ) -> NDArray[np.int64]:
+        found: FloatArray,
+    ) -> IntArray:
         """Look for triangles nearer to some points, among the fragments next to them.
 
         Distances (M,) are updated in `found`. Returns the rows of points that may be
@@ -191,9 +184,7 @@ class Targets:
         return np.concatenate(unsure) if n_near < len(group.origins) else rows[:0]
 
 
-def _from_each(
-    places: NDArray[np.float64], targets: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _from_each(places: FloatArray, targets: FloatArray) -> FloatArray:
     """Return distances of places (N, P, 3) from triangles (N, K, 3, 3), (N, P, K)."""
     n, p, k = *places.shape[:2], targets.shape[1]
     away = distances_to(

@@ -6,12 +6,12 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
+from ...steps.arrays import BoolArray, IntArray
 from ...steps.memo import digest
 from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
@@ -73,11 +73,8 @@ def cut_joints(
 
 
 def _smooth(
-    graph: FaceGraph,
-    members: NDArray[np.bool_],
-    labels: NDArray[np.int64],
-    parameters: Parameters,
-) -> Steps[NDArray[np.int64]]:
+    graph: FaceGraph, members: BoolArray, labels: IntArray, parameters: Parameters
+) -> Steps[IntArray]:
     """Return the pieces (P,) of a part after their seams are smoothed, 0 elsewhere."""
     kept = np.flatnonzero(members)
     part = graph.part(kept)
@@ -92,11 +89,8 @@ def _smooth(
 
 
 def _pieces(
-    memo: PartMemo,
-    nodes: NDArray[np.int64],
-    chosen: NDArray[np.int64],
-    parameters: Parameters,
-) -> Steps[dict[int, NDArray[np.int64]]]:
+    memo: PartMemo, nodes: IntArray, chosen: IntArray, parameters: Parameters
+) -> Steps[dict[int, IntArray]]:
     """Return the pieces (P,) of each part that is cut; 0 is the one at its seams."""
     transfer = yield from memo.transfer_in_steps()
     graph, parts = transfer.graph, memo.on_patches(nodes)
@@ -123,9 +117,7 @@ def _pieces(
     return {part: _on_all(*pieces, memo) for part, pieces in cut.items()}
 
 
-def _on_all(
-    kept: NDArray[np.int64], labels: NDArray[np.int64], memo: PartMemo
-) -> NDArray[np.int64]:
+def _on_all(kept: IntArray, labels: IntArray, memo: PartMemo) -> IntArray:
     """Return labels (P,) of all nodes of a shape from those of a part's nodes."""
     found = np.zeros(memo.transfer.graph.n_polygons, dtype=np.int64)
     found[kept] = labels

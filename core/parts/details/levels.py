@@ -12,11 +12,11 @@ from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...parameters.parts import Parameters
 from ...results.parts import Decomposition
 from ...sight.prepared import PreparedShape
+from ...steps.arrays import BoolArray, IntArray
 from ...steps.progress import Progress, Steps, within, within_turn
 from ..describe import by_size, describe
 from ..find import find_parts
@@ -108,7 +108,7 @@ def _split(
     parameters: Parameters,
     see: See,
     n_levels: int,
-    tips: NDArray[np.bool_] | None = None,
+    tips: BoolArray | None = None,
 ) -> Steps[Decomposition]:
     """Split parts on some further levels; with tips, only so far that they part."""
     if n_levels <= 0:
@@ -130,7 +130,7 @@ def _split_part(
     parameters: Parameters,
     see: See,
     n_levels: int,
-    tips: NDArray[np.bool_] | None,
+    tips: BoolArray | None,
 ) -> Steps[Decomposition | None]:
     """Return the pieces of a part, and theirs; None if psi gains little by them."""
     memo = yield from within(see(part, parameters), 0.0, 0.4)
@@ -141,19 +141,19 @@ def _split_part(
     return (yield from within(steps, 0.5, 1.0))
 
 
-def _hiding(found: Decomposition, tips: NDArray[np.bool_]) -> NDArray[np.int64]:
+def _hiding(found: Decomposition, tips: BoolArray) -> IntArray:
     """Return the parts that hide details: those with several prongs."""
     counts = np.bincount(found.labels[tips], minlength=found.n_parts)
     hiding = (counts >= _FEWEST_PRONGS) & (found.ranks < _MOST_RANK)
     return np.flatnonzero(hiding)
 
 
-def _come_apart(found: Decomposition, tips: NDArray[np.bool_]) -> bool:
+def _come_apart(found: Decomposition, tips: BoolArray) -> bool:
     """Return whether not all tips are on one piece."""
     return len(np.unique(found.labels[tips])) > 1
 
 
-def _tips_of(memo: PartMemo, found: Decomposition) -> Steps[NDArray[np.bool_]]:
+def _tips_of(memo: PartMemo, found: Decomposition) -> Steps[BoolArray]:
     """Return which polygons are the tips of prongs of small parts, (P,)."""
     tips = np.zeros(len(found.labels), dtype=bool)
     chosen = found.areas < _MOST_AREA * found.areas.sum()

@@ -6,10 +6,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.frames import unit
 from ...geometry.labels import sums_by_label
+from ...steps.arrays import FloatArray, IntArray
 from .surface import PartSurface
 
 # A limb is so long: its squared length is at least its area. A cylinder is, if it is
@@ -34,7 +34,7 @@ class Joints(NamedTuple):
         turns, in radians, or how many times as thick it is on both sides.
     """
 
-    pieces: NDArray[np.int64]
+    pieces: IntArray
     sizes: list[float]
 
 
@@ -58,7 +58,7 @@ class Limb:
         Whether slices are short enough to tell where the middle is.
     """
 
-    def __init__(self, part: PartSurface, far: NDArray[np.float64]) -> None:
+    def __init__(self, part: PartSurface, far: FloatArray) -> None:
         self.part, self.far, self.length = part, far, float(far.max())
         areas = part.graph.areas
         area = float(areas.sum())
@@ -70,7 +70,7 @@ class Limb:
         self.is_fine = most >= self.length / self.radius / _MOST_SLICE
 
     @cached_property
-    def _middle(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _middle(self) -> tuple[FloatArray, FloatArray]:
         """Distance from the tip and center of each slice."""
         graph, width = self.part.graph, self.length / self._n_slices
         rows = np.minimum((self.far / width).astype(np.int64), self._n_slices - 1)
@@ -82,23 +82,17 @@ class Limb:
         line = sums[full] / areas[full, None]
         return at.astype(np.float64), line
 
-    def middle(self, at: NDArray[np.float64]) -> NDArray[np.float64]:
+    def middle(self, at: FloatArray) -> FloatArray:
         """Return the points of the middle at distances (N,) from the tip, (N, 3)."""
         known, line = self._middle
         return np.stack([np.interp(at, known, column) for column in line.T], axis=1)
 
-    def directions(
-        self, first: NDArray[np.float64], last: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def directions(self, first: FloatArray, last: FloatArray) -> FloatArray:
         """Return the unit directions between two such distances (N,), (N, 3)."""
         return unit(self.middle(last) - self.middle(first))
 
     def joints_at(
-        self,
-        places: NDArray[np.float64],
-        sizes: NDArray[np.float64],
-        least: float,
-        apart: float,
+        self, places: FloatArray, sizes: FloatArray, least: float, apart: float
     ) -> Joints:
         """Return the joints at the places (N,) of the largest sizes (N,).
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import IntArray
 from ...steps.progress import Progress, Steps
 from .knees import SHARP_TURN, find_knees
 from .limb import Joints, limb_of
@@ -15,7 +15,7 @@ from .necks import find_necks
 from .seen import Count, Demands, seen_beyond
 from .surface import PartSurface
 
-Pieces: TypeAlias = tuple[NDArray[np.int64], NDArray[np.int64]]
+Pieces: TypeAlias = tuple[IntArray, IntArray]
 
 # An arc has no knees: pieces beside one see little of each other.
 _BESIDE_KNEES = Demands(least_rank=0.6, most_seen=0.5, fewest_samples=10)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
 
+from ...steps.arrays import FloatArray
 from .limb import Joints, Limb
 
 # Lengths are in mean radii of the limb. Its thickness is told at places so far apart,
@@ -41,7 +41,7 @@ def find_necks(limb: Limb) -> Joints:
     return limb.joints_at(places[inner], depths[inner], _LEAST_DEPTH, _APART)
 
 
-def _thickness(limb: Limb, places: NDArray[np.float64]) -> NDArray[np.float64]:
+def _thickness(limb: Limb, places: FloatArray) -> FloatArray:
     """Return the mean distance of the surface from the middle, around each place.
 
     Slices across a bent limb are oblique beyond a bend, so that their outline is longer
@@ -62,7 +62,7 @@ def _thickness(limb: Limb, places: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(moment / np.maximum(area, _TINY))
 
 
-def _depths(thickness: NDArray[np.float64]) -> NDArray[np.float64]:
+def _depths(thickness: FloatArray) -> FloatArray:
     """Return how many times as thick both sides of each place are, 0 beside necks."""
     near, beside = int(_NEAR / _STEP), int(_BESIDE / _STEP)
     windows = sliding_window_view(np.pad(thickness, near, mode="edge"), 2 * near + 1)

@@ -8,10 +8,10 @@ from the rest of the shape than all around them. To see them takes no ray.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
+from ...steps.arrays import BoolArray, IntArray
 from ...steps.progress import Progress, Steps
 from .surface import PartSurface, meetings
 
@@ -24,9 +24,7 @@ _LEAST_LENGTH = 0.03
 _LEAST_NODES = 6
 
 
-def find_tips(
-    graph: FaceGraph, parts: NDArray[np.int64], chosen: NDArray[np.bool_]
-) -> Steps[NDArray[np.int64]]:
+def find_tips(graph: FaceGraph, parts: IntArray, chosen: BoolArray) -> Steps[IntArray]:
     """Return the tips of the prongs of some parts.
 
     Seen from the tips, distances from the part's seams fall until two prongs meet. The

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...sight.pair_tally import PairTally
+from ...steps.arrays import BoolArray, IntArray
 from ..part_memo import PartMemo
 from .limb import Joints
 
-Count: TypeAlias = Callable[[NDArray[np.int64], int], PairTally]
+Count: TypeAlias = Callable[[IntArray, int], PairTally]
 
 # What is left of a part without its spikes sees at least so much of itself: a wing of
 # feathers has no spikes.
@@ -41,7 +41,7 @@ class Demands(NamedTuple):
 
 
 def count_pairs(
-    memo: PartMemo, kept: NDArray[np.int64], labels: NDArray[np.int64], n_labels: int
+    memo: PartMemo, kept: IntArray, labels: IntArray, n_labels: int
 ) -> PairTally:
     """Count pairs of samples by labels (M,) of a part's nodes; the rest comes last."""
     on_all = np.full(memo.transfer.graph.n_polygons, n_labels)
@@ -51,11 +51,8 @@ def count_pairs(
 
 
 def seen_apart(
-    n_nodes: int,
-    spikes: list[NDArray[np.int64]],
-    count: Count,
-    alpha: float,
-) -> NDArray[np.int64]:
+    n_nodes: int, spikes: list[IntArray], count: Count, alpha: float
+) -> IntArray:
     """Return the number (M,) of the spike that each node lies on, 0 for the body.
 
     Only spikes count without which psi is larger. The body has to be nearly convex.
@@ -115,6 +112,6 @@ def seen_beyond(joints: Joints, count: Count, demands: Demands) -> Joints:
     return Joints(pieces, sizes)
 
 
-def _sampled(tally: PairTally, fewest: int) -> NDArray[np.bool_]:
+def _sampled(tally: PairTally, fewest: int) -> BoolArray:
     """Return which pieces have as many known pairs as so many samples have (K,)."""
     return np.diag(tally.known) >= fewest**2

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...steps.arrays import FloatArray, IntArray
 from .surface import PartSurface
 
 # A spike is long if its squared length is at least its area, as that of a cylinder six
@@ -27,7 +27,7 @@ _LENGTHS = np.linspace(0.05, 0.95, 73)
 _TINY = np.finfo(float).tiny
 
 
-def find_spikes(part: PartSurface, least_area: float) -> list[NDArray[np.int64]]:
+def find_spikes(part: PartSurface, least_area: float) -> list[IntArray]:
     """Return the long thin prongs of a part that widen where they end.
 
     Parameters
@@ -52,14 +52,12 @@ def find_spikes(part: PartSurface, least_area: float) -> list[NDArray[np.int64]]
     return found
 
 
-def _spike_at(
-    part: PartSurface, far: NDArray[np.float64], least_area: float
-) -> NDArray[np.int64]:
+def _spike_at(part: PartSurface, far: FloatArray, least_area: float) -> IntArray:
     """Return the nodes of the spike at a tip that all are so `far` from, or none."""
     order = np.argsort(far, kind="stable")
     reached, areas = far[order], np.cumsum(part.graph.areas[order])
 
-    def within(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    def within(lengths: FloatArray) -> FloatArray:
         rows = np.searchsorted(reached, lengths, side="right")
         return np.where(rows > 0, areas[rows - 1], 0.0)
 

@@ -12,6 +12,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
 from ...geometry.graphs.face_graph import FaceGraph
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 
 
 def roads(graph: FaceGraph, least: float = 0.0) -> sparse.csr_array:
@@ -23,8 +24,8 @@ def roads(graph: FaceGraph, least: float = 0.0) -> sparse.csr_array:
 
 
 def meetings(
-    far: NDArray[np.float64], pairs: NDArray[np.integer[Any]]
-) -> Iterator[tuple[int, int, int, NDArray[np.bool_]]]:
+    far: FloatArray, pairs: NDArray[np.integer[Any]]
+) -> Iterator[tuple[int, int, int, BoolArray]]:
     """Yield where two hills meet, the highest places first; they are one from then on.
 
     Parameters
@@ -51,8 +52,8 @@ def meetings(
 
 
 def _hills(
-    far: NDArray[np.float64], pairs: NDArray[np.integer[Any]]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    far: FloatArray, pairs: NDArray[np.integer[Any]]
+) -> tuple[IntArray, IntArray]:
     """Return the top that each node climbs to, (P,), and where hills meet, (S, 3).
 
     These are two tops and the node between them, the highest ones first.
@@ -94,26 +95,21 @@ class PartSurface:
     kept : (M,) int
     """
 
-    def __init__(
-        self,
-        graph: FaceGraph,
-        kept: NDArray[np.int64],
-        at_seams: NDArray[np.bool_],
-    ) -> None:
+    def __init__(self, graph: FaceGraph, kept: IntArray, at_seams: BoolArray) -> None:
         self.graph, self.kept = graph.part(kept), kept
         self._starts = np.flatnonzero(at_seams[kept])
         self._roads = roads(self.graph)
-        self._from: dict[int, NDArray[np.float64]] = {}
+        self._from: dict[int, FloatArray] = {}
 
     @cached_property
-    def far(self) -> NDArray[np.float64]:
+    def far(self) -> FloatArray:
         """(M,) distance of each node from the seams; 0 if there are none."""
         if len(self._starts) == 0:
             return np.zeros(len(self.kept))
         far = dijkstra(self._roads, directed=False, indices=self._starts, min_only=True)
         return np.where(np.isfinite(far), far, 0.0)
 
-    def from_nodes(self, nodes: list[int]) -> list[NDArray[np.float64]]:
+    def from_nodes(self, nodes: list[int]) -> list[FloatArray]:
         """Return the distances (M,) of all nodes from each of some; 0 without a way.
 
         Parameters

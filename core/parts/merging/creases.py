@@ -11,11 +11,11 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.graphs.components import components_at_once
 from ...geometry.graphs.face_graph import FaceGraph
 from ...geometry.labels import sums_by_label
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import run
 from ..part_psi import count_parts
 from ..partition import Partitioner
@@ -59,7 +59,7 @@ class CreaseParts:
         self._partitioner = partitioner
 
     @cached_property
-    def pieces(self) -> NDArray[np.int64]:
+    def pieces(self) -> IntArray:
         """(P,) piece of each node, small ones merged; 0 for all if none is proposed."""
         graph = self._partitioner.graph
         if graph.outline is not None:
@@ -74,7 +74,7 @@ class CreaseParts:
             return pieces
         return _joined(graph, pieces, _flat(graph, pieces) | _fillets(graph, pieces))
 
-    def _between_corners(self, graph: FaceGraph) -> NDArray[np.int64]:
+    def _between_corners(self, graph: FaceGraph) -> IntArray:
         """Return the pieces (P,) of a flat shape between its concave corners.
 
         There are many. So neighbors are merged while their seam costs more than they
@@ -92,12 +92,8 @@ class CreaseParts:
         return partitioner.merged(pieces, most, graph.seam_costs, price, further=True)
 
     def better(
-        self,
-        parts: NDArray[np.int64],
-        low: int,
-        high: int,
-        *others: NDArray[np.int64],
-    ) -> NDArray[np.int64]:
+        self, parts: IntArray, low: int, high: int, *others: IntArray
+    ) -> IntArray:
         """Return the best of some parts, the pieces, both seams, shells, and one part.
 
         If `low` is below `high`, seams that gain next to nothing are left out of it.
@@ -130,9 +126,7 @@ class CreaseParts:
         best = max([parts, *rivals], key=self._worth) if rivals else parts
         return self._without_idle_seams(best, low) if low < high else best
 
-    def _without_idle_seams(
-        self, parts: NDArray[np.int64], low: int
-    ) -> NDArray[np.int64]:
+    def _without_idle_seams(self, parts: IntArray, low: int) -> IntArray:
         """Return the parts, (P,), merged where a seam gains a small share of its cost.
 
         They stay as they are if fewer than `low` would be left.
@@ -143,7 +137,7 @@ class CreaseParts:
         )
         return merged if low <= count_parts(merged) < n_parts else parts
 
-    def _with_loops(self, parts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+    def _with_loops(self, parts: IntArray, most: int) -> IntArray:
         """Return the parts, cut along the loops too; at most so many (P,)."""
         partitioner, n_pieces = self._partitioner, count_parts(self.pieces)
         # What is small joins across seams rather than across loops: these are cut.
@@ -158,14 +152,14 @@ class CreaseParts:
             return finer
         return partitioner.merged(finer, most, self._costs, 1.0)
 
-    def _worth(self, parts: NDArray[np.int64]) -> float:
+    def _worth(self, parts: IntArray) -> float:
         """Return psi of parts (P,), less what their seams cost."""
         one, other = parts[self._partitioner.graph.neighbors].T
         cost = float(self._costs[one != other].sum())
         return self._partitioner.psi_seen(parts) - cost
 
     @cached_property
-    def _costs(self) -> NDArray[np.float64]:
+    def _costs(self) -> FloatArray:
         """(E,) what a seam along each edge costs, in psi.
 
         To leave an edge of a loop uncut would cost what a seam there saves by the
@@ -176,7 +170,7 @@ class CreaseParts:
         return _price(graph) * (graph.seam_costs - saved)
 
     @cached_property
-    def _on_loops(self) -> NDArray[np.bool_]:
+    def _on_loops(self) -> BoolArray:
         """(E,) whether each edge is on a loop, between two pieces."""
         one, other = self.pieces[self._partitioner.graph.neighbors].T
         return one != other
@@ -187,14 +181,14 @@ def _price(graph: FaceGraph) -> float:
     return float(_SEAM_PRICE / np.sqrt(graph.areas.sum()))
 
 
-def _flat(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _flat(graph: FaceGraph, pieces: IntArray) -> BoolArray:
     """Return whether each piece is as flat as the floor of a pocket or a dish, (K,)."""
     areas = graph.areas_of(pieces)
     normals = sums_by_label(graph.areas[:, None] * graph.normals, pieces, len(areas))
     return np.linalg.norm(normals, axis=1) > _FLAT * areas
 
 
-def _fillets(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _fillets(graph: FaceGraph, pieces: IntArray) -> BoolArray:
     """Return whether each piece is a strip that rounds off a crease, (K,)."""
     n_pieces, areas = count_parts(pieces), graph.areas_of(pieces)
     lengths = graph.borders(pieces, n_pieces).sum(axis=1)
@@ -204,9 +198,7 @@ def _fillets(graph: FaceGraph, pieces: NDArray[np.int64]) -> NDArray[np.bool_]:
     return narrow & (bends < _ROUNDED * lengths)
 
 
-def _slivers(
-    graph: FaceGraph, finer: NDArray[np.int64], parts: NDArray[np.int64]
-) -> NDArray[np.bool_]:
+def _slivers(graph: FaceGraph, finer: IntArray, parts: IntArray) -> BoolArray:
     """Return which pieces, (K,), are what lies between a seam and a loop beside it.
 
     `finer` (P,) are pieces of `parts` (P,).
@@ -216,16 +208,14 @@ def _slivers(
     return areas < np.minimum(_LEAST_PIECE * graph.areas.sum(), _ALL * of_parts)
 
 
-def _joined(
-    graph: FaceGraph, pieces: NDArray[np.int64], small: NDArray[np.bool_]
-) -> NDArray[np.int64]:
+def _joined(graph: FaceGraph, pieces: IntArray, small: BoolArray) -> IntArray:
     """Return pieces (P,), of which the `small` ones, (K,) bool, join a neighbor."""
     areas = np.where(small[pieces], 0.0, graph.areas)
     least = areas[areas > 0].min(initial=np.inf)
     return connected_parts(replace(graph, areas=areas), pieces, least)
 
 
-def pieces_between(graph: FaceGraph, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
+def pieces_between(graph: FaceGraph, seams: BoolArray) -> IntArray:
     """Return the pieces that are left when a surface is cut along some edges.
 
     A crease that ends somewhere on the surface divides nothing. Shells that touch are

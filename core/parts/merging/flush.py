@@ -7,9 +7,9 @@ plane with that of the body. The plane of the body's bottom shows where it would
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...geometry.graphs.face_graph import FaceGraph
+from ...steps.arrays import BoolArray
 
 # Neighbors are in one plane if the surface turns by less than this, in radians.
 _FLAT = 1e-3
@@ -25,7 +25,7 @@ _MOST_PLANES = 32
 _LEAST_CREASED = 0.01
 
 
-def flush_seams(graph: FaceGraph, creases: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def flush_seams(graph: FaceGraph, creases: BoolArray) -> BoolArray:
     """Return the edges within flat sides that close loops of creases.
 
     Parameters

@@ -10,13 +10,13 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ...geometry.frames import unit
 from ...geometry.graphs.components import components_at_once
 from ...geometry.graphs.face_graph import FaceGraph
 from ...geometry.labels import sums_by_label
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps
 from ..part_psi import count_parts
 from ..partition import Partitioner
@@ -61,7 +61,7 @@ class LimbMerger:
         self._samples = partitioner.visibility.samples
         self._transfer = partitioner.transfer
 
-    def merge(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+    def merge(self, parts: IntArray) -> Steps[IntArray]:
         """Return the parts after neighbors are merged that only a bend divides.
 
         Two parts are one limb if they are about equally thick, neither is much wider
@@ -80,7 +80,7 @@ class LimbMerger:
         bends = yield from self._bends(parts)
         return components_at_once(bends, count_parts(parts))[parts]
 
-    def _bends(self, parts: NDArray[np.int64]) -> Steps[NDArray[np.int64]]:
+    def _bends(self, parts: IntArray) -> Steps[IntArray]:
         """Return the pairs (B, 2) of parts of one limb."""
         thickness = self._thicknesses(parts)
         flat = self._transfer.graph.outline is not None
@@ -100,11 +100,7 @@ class LimbMerger:
         return pairs[bends]
 
     def _runs_on(
-        self,
-        labels: NDArray[np.int64],
-        pair: NDArray[np.int64],
-        edges: NDArray[np.int64],
-        thickness: float,
+        self, labels: IntArray, pair: IntArray, edges: IntArray, thickness: float
     ) -> bool:
         """Return whether the surface runs on from one part to the other.
 
@@ -155,12 +151,8 @@ class LimbMerger:
         return cKDTree(self._surface.centers)
 
     def _turns(
-        self,
-        labels: NDArray[np.int64],
-        pair: NDArray[np.int64],
-        edges: NDArray[np.int64],
-        reach: float,
-    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        self, labels: IntArray, pair: IntArray, edges: IntArray, reach: float
+    ) -> tuple[FloatArray, BoolArray]:
         """Return how far the surface turns inwards across each edge of a seam, (E,).
 
         Return also whether a third part is within reach.
@@ -186,7 +178,7 @@ class LimbMerger:
         turns = (across * (normal - other_normal)).sum(axis=1)
         return turns, np.bincount(rows, other, len(edges)) > 0
 
-    def _thicknesses(self, parts: NDArray[np.int64]) -> NDArray[np.float64]:
+    def _thicknesses(self, parts: IntArray) -> FloatArray:
         """Return the median thickness of each part, (K,), nan if it is unknown."""
         labels, thickness = self._transfer.to_samples(parts), self._visibility.thickness
         known = np.isfinite(thickness)

@@ -13,14 +13,15 @@ from ...geometry.graphs.face_graph import FaceGraph
 from ...parameters.parameter import field_of, info_of
 from ...parameters.parts import Parameters
 from ...sight.pair_tally import PairTally
+from ...steps.arrays import BoolArray, IntArray
 
 # If there are more pieces, the smallest ones join their neighbors.
 _MOST_PARTS = int(info_of(field_of(Parameters, "parts")).high)
 
 
 def connected_parts(
-    graph: FaceGraph, labels: NDArray[np.int64], smallest_area: float
-) -> NDArray[np.int64]:
+    graph: FaceGraph, labels: IntArray, smallest_area: float
+) -> IntArray:
     """Cut labels into connected pieces, and give too small pieces to a neighbor.
 
     Parameters
@@ -51,9 +52,7 @@ def connected_parts(
         parts = components_at_once(ties, len(joins))[parts]
 
 
-def _gathered(
-    graph: FaceGraph, labels: NDArray[np.int64], smallest_area: float
-) -> NDArray[np.int64]:
+def _gathered(graph: FaceGraph, labels: IntArray, smallest_area: float) -> IntArray:
     """Return connected pieces; small isolated pieces of one label count as one."""
     pieces = graph.pieces(labels, smallest_area)
     areas = graph.areas_of(pieces)
@@ -68,11 +67,8 @@ def _gathered(
 
 
 def _joins_of_small(
-    graph: FaceGraph,
-    parts: NDArray[np.int64],
-    places: NDArray[np.int64],
-    small: NDArray[np.bool_],
-) -> NDArray[np.int64]:
+    graph: FaceGraph, parts: IntArray, places: IntArray, small: BoolArray
+) -> IntArray:
     """Return the part that each part joins, (K,): itself unless it is `small`.
 
     `places` is the rank of each part by area, 0 for the largest. A part joins only
@@ -105,7 +101,7 @@ def merge_to(
     price: float = 0.0,
     *,
     further: bool = False,
-) -> NDArray[np.int64]:
+) -> IntArray:
     """Merge pairs of parts, always the pair that loses least psi, down to `n_parts`.
 
     Parameters

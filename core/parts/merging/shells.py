@@ -8,18 +8,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ...geometry.graphs.components import components_at_once
+from ...steps.arrays import IntArray
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .pieces import connected_parts, merge_to
 
 
 def whole_shells(
-    partitioner: Partitioner, parts: NDArray[np.int64], most: int
-) -> NDArray[np.int64] | None:
+    partitioner: Partitioner, parts: IntArray, most: int
+) -> IntArray | None:
     """Return the shells of a shape, if psi gains by none of the seams within them.
 
     Parameters

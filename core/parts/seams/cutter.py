@@ -6,10 +6,10 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from ...clusters.moves import MoveGains
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.memo import Memo, digest
 from ...steps.progress import Progress, Steps, within
 from ...steps.rows import blocks
@@ -44,9 +44,9 @@ class Seams(NamedTuple):
         them or cost too much psi; None if there are none.
     """
 
-    parts: NDArray[np.int64]
+    parts: IntArray
     smoothness: float = 0.0
-    ragged: NDArray[np.bool_] | None = None
+    ragged: BoolArray | None = None
 
 
 class SeamCutter:
@@ -76,9 +76,7 @@ class SeamCutter:
         found = partitioner.found
         self._memo: Memo[SeamsKey, Seams] = found.looks if rough else found.seams
 
-    def cut(
-        self, parts: NDArray[np.int64], enough: float | None = None
-    ) -> Steps[Seams]:
+    def cut(self, parts: IntArray, enough: float | None = None) -> Steps[Seams]:
         """Return the parts with smooth seams; their number stays the same.
 
         Smooth seams cost psi. If a part would become too small, its nodes keep their
@@ -99,7 +97,7 @@ class SeamCutter:
         key = self._smoothness, enough, digest(parts)
         return self._memo.recall_steps(key, lambda: self._cut(parts, enough))
 
-    def _cut(self, parts: NDArray[np.int64], enough: float | None) -> Steps[Seams]:
+    def _cut(self, parts: IntArray, enough: float | None) -> Steps[Seams]:
         """Return the parts with smooth seams."""
         n_parts, partitioner = count_parts(parts), self._partitioner
         if n_parts == 1 or self._smoothness == 0:
@@ -135,10 +133,7 @@ class SeamCutter:
         return (yield from self._memo.recall_steps(key, steps))
 
     def _smoothed(
-        self,
-        parts: NDArray[np.int64],
-        smoothness: float,
-        ragged: NDArray[np.bool_],
+        self, parts: IntArray, smoothness: float, ragged: BoolArray
     ) -> Steps[Seams]:
         """Return parts whose seams are smooth where nodes are ragged, too."""
         graph, n_parts = self._partitioner.graph, count_parts(parts)
@@ -158,9 +153,7 @@ class SeamCutter:
                 return Seams(smooth, smoothness)
         return Seams(parts, smoothness)
 
-    def _none_lost(
-        self, cut: NDArray[np.int64], parts: NDArray[np.int64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def _none_lost(self, cut: IntArray, parts: IntArray) -> tuple[IntArray, BoolArray]:
         """Return the cut labels (P,), where parts are lost those of `parts`.
 
         Return which parts these are, too, (K,). A part is lost if none of its pieces is
@@ -182,18 +175,14 @@ class SeamCutter:
             lost |= more
             labels = np.where(lost[parts], parts, cut)
 
-    def _evened(
-        self, parts: NDArray[np.int64], enough: float
-    ) -> Steps[NDArray[np.int64]]:
+    def _evened(self, parts: IntArray, enough: float) -> Steps[IntArray]:
         """Return parts symmetric to the mirror plane, if psi is still high enough."""
         if not self._even:
             return parts
         wanted = {count_parts(parts)}
         return (yield from self._partitioner.evened(parts, wanted, enough))
 
-    def _costs_of_nodes(
-        self, parts: NDArray[np.int64], n_parts: int
-    ) -> Steps[NDArray[np.float64]]:
+    def _costs_of_nodes(self, parts: IntArray, n_parts: int) -> Steps[FloatArray]:
         """Return the data term of eq. 4 for each node, (P, K)."""
         transfer = self._partitioner.transfer
         of_samples = self._data_costs(transfer.to_samples(parts), n_parts)
@@ -203,9 +192,7 @@ class SeamCutter:
             costs[rows] = transfer.shares[rows] @ of_samples
         return costs
 
-    def _data_costs(
-        self, labels: NDArray[np.int64], n_labels: int
-    ) -> NDArray[np.float64]:
+    def _data_costs(self, labels: IntArray, n_labels: int) -> FloatArray:
         """Return the data term of eq. 4: the cost of each label per sample, (N, K)."""
         partitioner = self._partitioner
         if not partitioner.by_psi:
@@ -217,10 +204,8 @@ class SeamCutter:
 
 
 def distances_to_parts(
-    embedding: NDArray[np.float64],
-    labels: NDArray[np.int64],
-    n_labels: int,
-) -> NDArray[np.float64]:
+    embedding: FloatArray, labels: IntArray, n_labels: int
+) -> FloatArray:
     """Return the paper's data term of eq. 4: the cost of each label for each sample.
 
     It is the negative logarithm of a Gaussian of the distance, in the embedding,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.patches import Patches
+from ...steps.arrays import IntArray
 from ...steps.memo import digest
 from ...steps.progress import Progress, Steps, within
 from ..part_psi import count_parts
@@ -27,7 +28,7 @@ _SWEEPS = 2
 
 def parts_of_nodes(
     partitioner: Partitioner, seams: Seams, rough: bool = False
-) -> Steps[NDArray[np.int64]]:
+) -> Steps[IntArray]:
     """Return the part of each node of a shape's graph.
 
     Parameters

@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
 from ...geometry.graphs.face_graph import FaceGraph
+from ...steps.arrays import BoolArray, FloatArray, Int32Array, IntArray
 from ...steps.progress import Progress, Steps
 from ...steps.rows import ranges
 
@@ -25,11 +26,11 @@ _BAND = 6
 
 def cut_seams(
     graph: FaceGraph,
-    labels: NDArray[np.int64],
-    costs: NDArray[np.float64],
+    labels: IntArray,
+    costs: FloatArray,
     smoothness: float,
     sweeps: int = SWEEPS,
-) -> Steps[NDArray[np.int64]]:
+) -> Steps[IntArray]:
     """Move the seams to a minimum of eq. 4, starting from given labels.
 
     The energy E(l) is the sum of areas times `costs`, plus lambda times the length of
@@ -84,9 +85,9 @@ class _Expansion:
     def __init__(
         self,
         neighbors: NDArray[np.integer[Any]],
-        costs: NDArray[np.float64],
-        weights: NDArray[np.float64],
-        seams: NDArray[np.float64],
+        costs: FloatArray,
+        weights: FloatArray,
+        seams: FloatArray,
     ) -> None:
         self.costs, self.weights = costs, weights
         n_nodes = len(costs)
@@ -105,9 +106,7 @@ class _Expansion:
         self._saved = graph.sum(axis=1)
         self._places = np.zeros(n_nodes, dtype=np.int64)
 
-    def expand(
-        self, labels: NDArray[np.int64], label: int
-    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def expand(self, labels: IntArray, label: int) -> tuple[IntArray, BoolArray]:
         """Return the nodes that should change to `label`, by one minimum cut.
 
         Return also which nodes this depends on, (P,) bool: while their labels stay, the
@@ -145,10 +144,10 @@ class _Expansion:
         moves = _minimum_cut(gain, tails[free], heads[free], *costs)
         return nodes[moves], seen
 
-    def _band(self, reached: NDArray[np.bool_]) -> NDArray[np.int64]:
+    def _band(self, reached: BoolArray) -> IntArray:
         """Return nodes up to `_BAND` steps outside a region, sorted, and mark them."""
         front = np.flatnonzero(reached)
-        band: list[NDArray[np.int64]] = []
+        band: list[IntArray] = []
         for _ in range(_BAND):
             ends = self.heads[self._arcs(front)[0]]
             ends = ends[~reached[ends]]
@@ -160,21 +159,19 @@ class _Expansion:
             band.append(front)
         return np.sort(np.concatenate(band))
 
-    def _arcs(
-        self, nodes: NDArray[np.int64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def _arcs(self, nodes: IntArray) -> tuple[IntArray, IntArray]:
         """Return the arcs that leave the nodes, by node, and the row of each node."""
         rows, ranks = ranges(self.n_arcs[nodes])
         return self.starts[nodes][rows] + ranks, rows
 
 
 def _minimum_cut(
-    gain: NDArray[np.float64],
-    tails: NDArray[np.int64],
-    heads: NDArray[np.int64],
-    there: NDArray[np.float64],
-    back: NDArray[np.float64],
-) -> NDArray[np.bool_]:
+    gain: FloatArray,
+    tails: IntArray,
+    heads: IntArray,
+    there: FloatArray,
+    back: FloatArray,
+) -> BoolArray:
     """Return which nodes move so that the total cost is least, (N,) bool.
 
     A node that moves costs its `gain`. An arc costs `there` if its tail stays and its
@@ -220,11 +217,8 @@ def _minimum_cut(
 
 
 def _reached(
-    heads: NDArray[np.int32],
-    n_left: NDArray[np.int64],
-    starts: NDArray[np.int32],
-    start: int,
-) -> NDArray[np.bool_]:
+    heads: Int32Array, n_left: IntArray, starts: Int32Array, start: int
+) -> BoolArray:
     """Return which nodes a walk from one reaches along the arcs that are left, (N,).
 
     `heads` are theirs. `n_left` is how many are left up to each of all arcs, of which

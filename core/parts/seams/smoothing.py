@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.csgraph import dijkstra
 
 from ...geometry.graphs.components import nodes_at_seams
 from ...geometry.graphs.face_graph import FaceGraph
+from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps, within
 from ..details.surface import roads
 from ..part_psi import count_parts
@@ -27,11 +27,11 @@ _CORE = 0.5
 
 def smooth_seams(
     graph: FaceGraph,
-    labels: NDArray[np.int64],
+    labels: IntArray,
     chosen: Sequence[int],
     smoothness: float,
     sweeps: int = SWEEPS,
-) -> Steps[NDArray[np.int64]]:
+) -> Steps[IntArray]:
     """Move the seams of some parts into short lines and creases near the given seams.
 
     This is the graph cut of eq. 4. Its data term is the distance of a polygon from a
@@ -61,9 +61,7 @@ def smooth_seams(
     return (yield from within(cut, 0.4, 1.0))
 
 
-def _costs(
-    graph: FaceGraph, labels: NDArray[np.int64], free: NDArray[np.bool_]
-) -> Steps[NDArray[np.float64]]:
+def _costs(graph: FaceGraph, labels: IntArray, free: BoolArray) -> Steps[FloatArray]:
     """Return the data term (P, K): distances of nodes from parts along the surface.
 
     `free` (K,) says which parts' seams move.

@@ -9,10 +9,10 @@ import bpy
 import numpy as np
 from bmesh.types import BMFace, BMVert
 from mathutils.geometry import intersect_point_line
-from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
 from ....core.geometry.mesh import TriangleMesh
+from ....core.steps.arrays import FloatArray, IntArray
 from ..mesh.attributes import vertex_positions
 from ..mesh.corner_normals import give_back_normals, keep_normals
 from ..read.stretching import stretched, unstretched
@@ -42,7 +42,7 @@ class CutMesh:
     stretch : (3, 3) float
     """
 
-    def __init__(self, mesh: bpy.types.Mesh, stretch: NDArray[np.float64]) -> None:
+    def __init__(self, mesh: bpy.types.Mesh, stretch: FloatArray) -> None:
         self.stretch = stretch
         self._bm = bm = bmesh.new()
         bm.from_mesh(mesh)
@@ -130,15 +130,15 @@ class CutMesh:
         """Free the copy."""
         self._bm.free()
 
-    def wholes(self) -> NDArray[np.int64]:
+    def wholes(self) -> IntArray:
         """Return the face of the mesh as it was read that each piece is of, (P,)."""
         return np.array([face[self._whole] for face in self._bm.faces])
 
-    def areas(self) -> NDArray[np.float64]:
+    def areas(self) -> FloatArray:
         """Return the area of each piece, (P,), in the space of the mesh."""
         return np.array([face.calc_area() for face in self._bm.faces])
 
-    def parts(self) -> NDArray[np.int64]:
+    def parts(self) -> IntArray:
         """Return the part of each piece, as given to `join`, (P,)."""
         return np.array([face[self._part] for face in self._bm.faces])
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.geometry.cutting.refined import Cut
-from ..mesh.attributes import FloatArray, read_floats, vertex_positions
+from ....core.steps.arrays import Float32Array, FloatArray, IntArray
+from ..mesh.attributes import read_floats, vertex_positions
 from ..stored.names import WHOLE_MESH
 from .cut_mesh import CutMesh
 from .whole_mesh import (
@@ -41,8 +41,8 @@ class Pieces:
 
     cuts: list[Cut]
     near: float
-    stretch: NDArray[np.float64]
-    parts: NDArray[np.int64]
+    stretch: FloatArray
+    parts: IntArray
 
     @contextmanager
     def of(self, mesh: bpy.types.Mesh) -> Iterator[CutMesh]:
@@ -72,14 +72,12 @@ class NewFaces:
     """
 
     n_wholes: int
-    places: FloatArray
-    wholes: NDArray[np.int64]
-    areas: NDArray[np.float64]
+    places: Float32Array
+    wholes: IntArray
+    areas: FloatArray
     pieces: Pieces | None
 
-    def former_labels(
-        self, obj: bpy.types.Object, labels: NDArray[np.int64]
-    ) -> NDArray[np.int64]:
+    def former_labels(self, obj: bpy.types.Object, labels: IntArray) -> IntArray:
         """Return the label that each face has on an object with other faces, (P,).
 
         It is that of the largest piece of the same whole face. The object has `labels`
@@ -88,7 +86,7 @@ class NewFaces:
         wholes, areas = whole_faces(obj), read_floats(obj.data.polygons, "area")
         covered = np.zeros((self.n_wholes, int(labels.max()) + 1))
         np.add.at(covered, (wholes, labels), areas)
-        found: NDArray[np.int64] = covered.argmax(axis=1)[self.wholes]
+        found: IntArray = covered.argmax(axis=1)[self.wholes]
         return found
 
     def fit(self, obj: bpy.types.Object) -> bool:

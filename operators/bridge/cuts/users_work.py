@@ -14,8 +14,8 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ....core.steps.arrays import Int32Array
 from ..mesh.attributes import (
-    IntArray,
     corner_vertices,
     read_floats,
     read_ints,
@@ -56,7 +56,7 @@ def face_state(obj: bpy.types.Object) -> str:
 
 
 def _arrays(
-    mesh: bpy.types.Mesh, indices: IntArray | None
+    mesh: bpy.types.Mesh, indices: Int32Array | None
 ) -> Iterator[tuple[str, Any]]:
     """Yield arrays that the user could have edited, with their names.
 

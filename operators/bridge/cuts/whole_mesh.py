@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray, read_labels, write_attribute
+from ....core.steps.arrays import FloatArray, Int32Array, IntArray
+from ..mesh.attributes import read_labels, write_attribute
 from ..mesh.by_label import sums_of_all
 from ..mesh.fingerprint import MEASURED_ON, fingerprint_of, fits
 from ..mesh.seams import unmark_seams
@@ -43,14 +43,14 @@ def edited_since_cut(obj: bpy.types.Object) -> bool:
     return has_work_beside_faces(obj, obj.data[WHOLE_MESH])
 
 
-def whole_faces(obj: bpy.types.Object) -> IntArray:
+def whole_faces(obj: bpy.types.Object) -> Int32Array:
     """Return the number of the whole face that each face of an object is of, (P,)."""
     if whole_mesh_of(obj) == obj.data:
         return np.arange(len(obj.data.polygons), dtype=np.int32)
     return read_labels(obj.data, WHOLE_LAYER, missing=-1)
 
 
-def note_whole(obj: bpy.types.Object, faces: NDArray[np.int64]) -> None:
+def note_whole(obj: bpy.types.Object, faces: IntArray) -> None:
     """Note the whole face of each face, and the state, of an object without parts."""
     write_attribute(obj.data, WHOLE_LAYER, "INT", "FACE", faces)
     obj.data[CUT_STATE] = face_state(obj)
@@ -123,7 +123,7 @@ def replace_mesh(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
         bpy.data.meshes.remove(former)
 
 
-def _keep_figures(obj: bpy.types.Object, before: NDArray[np.float64]) -> None:
+def _keep_figures(obj: bpy.types.Object, before: FloatArray) -> None:
     """Let figures of an object with other faces before be those of its faces now."""
     record = record_of(obj)
     figures = [record[key] for key in beside_parts(obj) if fits(record[key], before)]

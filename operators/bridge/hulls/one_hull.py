@@ -8,7 +8,6 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
@@ -16,6 +15,7 @@ from ....core.geometry.frames import moved
 from ....core.geometry.mesh import TriangleMesh
 from ....core.parameters.hull_names import name_of_kind
 from ....core.results.hulls import HullDecomposition
+from ....core.steps.arrays import FloatArray
 from ....core.steps.progress import Steps
 from ..homes import within_parent
 from ..mesh.attributes import vertex_positions
@@ -123,7 +123,7 @@ def remove_hull(obj: bpy.types.Object, name: str) -> None:
     _note(obj, record, sum(each["volume"] for each in kept) / before)
 
 
-def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
+def _piece_of(hull: bpy.types.Object) -> tuple[FloatArray, bool]:
     """Return the points of the piece that a hull is around, and if they have a margin.
 
     They are in the space of its object: the hull may have another place there, as after
@@ -146,9 +146,7 @@ def _piece_of(hull: bpy.types.Object) -> tuple[NDArray[np.float64], bool]:
     return moved(points, np.array(within)), has_margin
 
 
-def _moved_as(
-    points: NDArray[np.float64], then: NDArray[np.float64], now: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _moved_as(points: FloatArray, then: FloatArray, now: FloatArray) -> FloatArray:
     """Return points, moved as one matrix moved corners, if one did."""
     if then.shape != now.shape or (then == now).all():
         return points

@@ -12,10 +12,10 @@ from typing import Any
 import bpy
 import numpy as np
 from mathutils import Matrix
-from numpy.typing import NDArray
 
 from ....core.geometry.frames import moved
 from ....core.geometry.primitives import CollisionShape
+from ....core.steps.arrays import FloatArray
 from ..read.shape import stretch
 from ..read.stretching import unstretched
 from ..stored.noted_hulls import figures_on
@@ -42,12 +42,12 @@ class Primitive:
     """
 
     kind: str
-    center: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    sizes: NDArray[np.float64]
+    center: FloatArray
+    rotation: FloatArray
+    sizes: FloatArray
 
 
-def pose_of(shape: CollisionShape, scale: NDArray[np.float64]) -> dict[str, Any]:
+def pose_of(shape: CollisionShape, scale: FloatArray) -> dict[str, Any]:
     """Return kind, center, axes and sizes of a primitive, in object space.
 
     Axes are rows. Object space is not scaled yet: the `scale`, (3, 3), is its stretch.
@@ -64,7 +64,7 @@ def pose_of(shape: CollisionShape, scale: NDArray[np.float64]) -> dict[str, Any]
     }
 
 
-def moved_pose(pose: dict[str, Any], matrix: NDArray[np.float64]) -> dict[str, Any]:
+def moved_pose(pose: dict[str, Any], matrix: FloatArray) -> dict[str, Any]:
     """Return a pose, moved by a matrix, which may distort its primitive."""
     if "axes" not in pose:
         return pose
@@ -73,7 +73,7 @@ def moved_pose(pose: dict[str, Any], matrix: NDArray[np.float64]) -> dict[str, A
     return pose | {"center": center.tolist(), "axes": axes.tolist()}
 
 
-def _undistorted(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive | None:
+def _undistorted(pose: dict[str, Any], matrix: FloatArray) -> Primitive | None:
     """Return the primitive of a pose, moved by a matrix.
 
     None for a convex hull, and if the matrix distorts the primitive.
@@ -95,9 +95,7 @@ def _undistorted(pose: dict[str, Any], matrix: NDArray[np.float64]) -> Primitive
     return Primitive(kind, np.array(pose["center"]), rotation, pose["sizes"] * lengths)
 
 
-def primitive_of(
-    hull: bpy.types.Object, matrix: NDArray[np.float64]
-) -> Primitive | None:
+def primitive_of(hull: bpy.types.Object, matrix: FloatArray) -> Primitive | None:
     """Return the primitive that a hull stands for, moved by a matrix.
 
     Parameters
@@ -163,11 +161,11 @@ def _size(primitive: Primitive) -> dict[str, Any]:
     return {"radius": radius, "length": length}
 
 
-def quaternion_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+def quaternion_of(rotation: FloatArray) -> FloatArray:
     """Return a rotation matrix (3, 3) as a unit quaternion w, x, y, z."""
     return np.array(Matrix(rotation.tolist()).to_quaternion().normalized())
 
 
-def angles_of(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+def angles_of(rotation: FloatArray) -> FloatArray:
     """Return a rotation matrix (3, 3) as URDF's roll, pitch and yaw, in radians."""
     return np.array(Matrix(rotation.tolist()).to_euler("XYZ"))

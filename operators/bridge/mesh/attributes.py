@@ -7,15 +7,13 @@ Any other type is converted value by value, which is 20 times slower.
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any
 
 import bpy
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-IntArray: TypeAlias = NDArray[np.int32]
-FloatArray: TypeAlias = NDArray[np.float32]
-BoolArray: TypeAlias = NDArray[np.bool_]
+from ....core.steps.arrays import BoolArray, Float32Array, Int32Array
 
 # How Blender names the values of an attribute of each type, and how many numbers each
 # has.
@@ -35,7 +33,7 @@ _FIELDS = {
 }
 
 
-def read_ints(elements: Any, name: str, width: int = 1) -> IntArray:
+def read_ints(elements: Any, name: str, width: int = 1) -> Int32Array:
     """Return a property of N elements.
 
     Parameters
@@ -53,7 +51,7 @@ def read_ints(elements: Any, name: str, width: int = 1) -> IntArray:
     return _read(elements, name, width, np.int32)
 
 
-def read_floats(elements: Any, name: str, width: int = 1) -> FloatArray:
+def read_floats(elements: Any, name: str, width: int = 1) -> Float32Array:
     """Return a property of N elements, float32; shapes are those of `read_ints`."""
     return _read(elements, name, width, np.float32)
 
@@ -78,7 +76,7 @@ def write_flags(elements: Any, name: str, values: BoolArray) -> None:
     elements.foreach_set(name, values)
 
 
-def read_labels(mesh: Any, name: str, missing: int) -> IntArray:
+def read_labels(mesh: Any, name: str, missing: int) -> Int32Array:
     """Return an integer attribute of the faces, (P,); all are `missing` without it."""
     found = read_attribute(mesh, name, "INT", "FACE")
     if found is not None:
@@ -120,7 +118,7 @@ def write_attribute(
     write(attribute.data, _FIELDS[kind][0], values)
 
 
-def vertex_positions(mesh: bpy.types.Mesh) -> FloatArray:
+def vertex_positions(mesh: bpy.types.Mesh) -> Float32Array:
     """Return the positions of the vertices, (V, 3)."""
     places = mesh.attributes.get("position")
     if places is None or mesh.is_editmode:  # attributes look empty in Edit Mode
@@ -128,17 +126,17 @@ def vertex_positions(mesh: bpy.types.Mesh) -> FloatArray:
     return read_floats(places.data, "vector", 3)  # a hundred times faster
 
 
-def corner_vertices(mesh: bpy.types.Mesh) -> IntArray:
+def corner_vertices(mesh: bpy.types.Mesh) -> Int32Array:
     """Return the vertex of each corner, (C,)."""
     return _of_corners(mesh, ".corner_vert", "vertex_index")
 
 
-def corner_edges(mesh: bpy.types.Mesh) -> IntArray:
+def corner_edges(mesh: bpy.types.Mesh) -> Int32Array:
     """Return the edge from each corner to the next one of its face, (C,)."""
     return _of_corners(mesh, ".corner_edge", "edge_index")
 
 
-def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> IntArray:
+def _of_corners(mesh: bpy.types.Mesh, attribute: str, name: str) -> Int32Array:
     """Return an attribute of the corners, or the property with the same numbers."""
     corners = mesh.attributes.get(attribute)
     if corners is None or mesh.is_editmode:  # attributes look empty in Edit Mode

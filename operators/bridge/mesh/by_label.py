@@ -10,10 +10,11 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.steps.arrays import Float32Array, FloatArray
 from ....core.steps.memo import digest
 from ....core.steps.progress import Progress, Steps, run, within
 from ....core.steps.rows import blocks
-from .attributes import FloatArray, corner_vertices
+from .attributes import corner_vertices
 from .known import SLOW, corner_faces, face_areas, face_centers, finite, latest_of
 from .points import is_cloud, vertices_now
 
@@ -34,7 +35,7 @@ class ByLabel:
     """
 
     vertices: Sequence[list[int]]
-    sums: NDArray[np.float64]
+    sums: FloatArray
 
     @classmethod
     def of(
@@ -97,7 +98,7 @@ def read_ahead(
 
 def sums_by_label(
     obj: bpy.types.Object, labels: NDArray[np.integer], n_labels: int
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Return the number of faces of each label, their area and their center.
 
     Parameters
@@ -119,7 +120,7 @@ def sums_by_label(
     return run(_sums(labels, n_labels, areas, centers))
 
 
-def sums_of_all(obj: bpy.types.Object) -> NDArray[np.float64]:
+def sums_of_all(obj: bpy.types.Object) -> FloatArray:
     """Return the same of all faces, or points, of an object together, (5,).
 
     It is quick. So in Edit Mode only the number of faces is surely that of now: areas
@@ -127,7 +128,7 @@ def sums_of_all(obj: bpy.types.Object) -> NDArray[np.float64]:
     """
     areas, centers = _areas_and_centers(obj)
     labels = np.zeros(len(areas), dtype=np.int64)
-    sums: NDArray[np.float64] = run(_sums(labels, 1, areas, centers))[0]
+    sums: FloatArray = run(_sums(labels, 1, areas, centers))[0]
     if not is_cloud(obj) and obj.data.is_editmode:
         sums[0] = len(bmesh.from_edit_mesh(obj.data).faces)
     return sums
@@ -142,7 +143,7 @@ def areas_of(obj: bpy.types.Object, n_elements: int) -> NDArray[np.floating]:
 
 def _areas_and_centers(
     obj: bpy.types.Object,
-) -> tuple[NDArray[np.floating], FloatArray]:
+) -> tuple[NDArray[np.floating], Float32Array]:
     """Return the area (P,) and center (P, 3) of each face, or point."""
     centers = vertices_now(obj) if is_cloud(obj) else face_centers(obj.data)
     return areas_of(obj, len(centers)), centers
@@ -153,7 +154,7 @@ def _sums(
     n_labels: int,
     areas: NDArray[np.floating],
     centers: NDArray[np.floating],
-) -> Steps[NDArray[np.float64]]:
+) -> Steps[FloatArray]:
     """Return what `sums_by_label` does, of faces with these areas and centers."""
     yield Progress("Writing", 0.0)
     areas = areas.astype(np.float64)

@@ -13,7 +13,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .attributes import BoolArray, corner_edges
+from ....core.steps.arrays import BoolArray
+from .attributes import corner_edges
 from .known import corner_faces
 
 

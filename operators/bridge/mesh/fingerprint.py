@@ -11,8 +11,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import FloatArray
 from .by_label import sums_of_all
 
 # Where what is noted of some faces keeps their fingerprint.
@@ -29,7 +29,7 @@ def fingerprint_of(obj: bpy.types.Object) -> list[float]:
     return to_be_noted(sums_of_all(obj))
 
 
-def to_be_noted(sums: NDArray[np.float64]) -> list[float]:
+def to_be_noted(sums: FloatArray) -> list[float]:
     """Return a fingerprint, (5,), in as few digits as tell faces from others.
 
     Edit Mode computes areas a little otherwise, and must give the same.
@@ -39,14 +39,14 @@ def to_be_noted(sums: NDArray[np.float64]) -> list[float]:
     return [n_faces, float(f"{area:.{_DIGITS}g}"), *(round(x, digits) for x in center)]
 
 
-def together(sums: NDArray[np.float64]) -> NDArray[np.float64]:
+def together(sums: FloatArray) -> FloatArray:
     """Return the fingerprint, (5,), of the faces of several ones, (K, 5), together."""
     total = sums.sum(axis=0)
     total[2:] = sums[:, 1] @ sums[:, 2:] / max(total[1], np.finfo(float).tiny)
     return total
 
 
-def fits(noted: Mapping[str, Any], now: NDArray[np.float64]) -> bool:
+def fits(noted: Mapping[str, Any], now: FloatArray) -> bool:
     """Return whether what is noted was measured on faces with this fingerprint."""
     then = noted.get(MEASURED_ON)
     if then is None or then[0] != now[0]:

@@ -12,18 +12,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.steps.arrays import Float32Array, FloatArray, Int32Array, IntArray
 from ....core.steps.progress import Progress, Steps, as_steps, run
-from .attributes import (
-    FloatArray,
-    IntArray,
-    corner_vertices,
-    read_floats,
-    read_ints,
-    vertex_positions,
-)
+from .attributes import corner_vertices, read_floats, read_ints, vertex_positions
 from .triangles import Asked, ask, cut_in_steps
 
-Triangles: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
+Triangles: TypeAlias = tuple[FloatArray, IntArray, IntArray]
 
 
 class Known(NamedTuple):
@@ -44,14 +38,14 @@ class Known(NamedTuple):
         What `by_label.read_ahead` keeps until it is asked for.
     """
 
-    places: FloatArray
-    corners: IntArray
-    of_triangles: IntArray
+    places: Float32Array
+    corners: Int32Array
+    of_triangles: Int32Array
     triangles: Triangles
     asked: dict[str, NDArray[Any]]
     ahead: dict[tuple[bytes, int], Any]
 
-    def is_of(self, mesh: bpy.types.Mesh, places: FloatArray | None = None) -> bool:
+    def is_of(self, mesh: bpy.types.Mesh, places: Float32Array | None = None) -> bool:
         """Return whether a mesh has these vertices and faces.
 
         Its vertices are read if their `places` are not given.
@@ -83,7 +77,7 @@ def triangles_of(mesh: bpy.types.Mesh) -> Triangles:
 
 
 def triangles_in_steps(
-    mesh: bpy.types.Mesh, places: FloatArray | None = None
+    mesh: bpy.types.Mesh, places: Float32Array | None = None
 ) -> Steps[Triangles]:
     """Return the vertices of a mesh, its triangles, and the face of each triangle.
 
@@ -109,7 +103,7 @@ def triangles_in_steps(
 
 
 def _understood(
-    faces: IntArray, places: FloatArray, corners: IntArray, asked: Asked
+    faces: Int32Array, places: Float32Array, corners: Int32Array, asked: Asked
 ) -> Steps[Triangles]:
     """Return the triangles of a mesh from what was read, and keep them."""
     global _latest
@@ -124,17 +118,17 @@ def _understood(
     return _latest.triangles
 
 
-def face_areas(mesh: bpy.types.Mesh) -> FloatArray:
+def face_areas(mesh: bpy.types.Mesh) -> Float32Array:
     """Return the area of each face, (P,)."""
     return _read(mesh, "areas")
 
 
-def face_centers(mesh: bpy.types.Mesh) -> FloatArray:
+def face_centers(mesh: bpy.types.Mesh) -> Float32Array:
     """Return the center of each face, (P, 3)."""
     return _read(mesh, "centers")
 
 
-def corner_faces(mesh: bpy.types.Mesh) -> IntArray:
+def corner_faces(mesh: bpy.types.Mesh) -> Int32Array:
     """Return the face of each corner, (C,)."""
     return _read(mesh, "corner_faces")
 
@@ -159,20 +153,20 @@ def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[Any]:
     return SLOW[name](mesh) if known is None else known.read(mesh, name)
 
 
-def _corner_faces(mesh: bpy.types.Mesh) -> IntArray:
+def _corner_faces(mesh: bpy.types.Mesh) -> Int32Array:
     """Return the face of each corner, (C,)."""
     starts = read_ints(mesh.polygons, "loop_start")  # a third faster than sizes
     sizes = np.diff(starts, append=len(mesh.loops))
     return np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
 
 
-def _faces_of_triangles(mesh: bpy.types.Mesh) -> IntArray:
+def _faces_of_triangles(mesh: bpy.types.Mesh) -> Int32Array:
     """Return the face of each triangle, (T,)."""
     mesh.calc_loop_triangles()
     return read_ints(mesh.loop_triangle_polygons, "value")
 
 
-def finite(figures: FloatArray) -> FloatArray:
+def finite(figures: Float32Array) -> Float32Array:
     """Return figures with 0 for what single precision cannot hold.
 
     The areas of faces longer than some 1e10 cannot be held.

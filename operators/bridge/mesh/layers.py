@@ -10,14 +10,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from .attributes import (
-    FloatArray,
-    IntArray,
-    corner_vertices,
-    read_attribute,
-    write_attribute,
-    write_floats,
-)
+from ....core.steps.arrays import Float32Array, Int32Array
+from .attributes import corner_vertices, read_attribute, write_attribute, write_floats
 from .known import corner_faces
 from .points import is_cloud
 
@@ -48,30 +42,30 @@ class ObjectModeLayers:
         self._obj = obj
         self._mesh = obj.data
 
-    def material_indices(self) -> IntArray | None:
+    def material_indices(self) -> Int32Array | None:
         """Return the material index of each face, None if the mesh keeps none."""
         return self.faces("material_index")
 
-    def set_material_indices(self, values: IntArray | None) -> None:
+    def set_material_indices(self, values: Int32Array | None) -> None:
         """Write the material index of each face; None removes them."""
         if values is None:
             self.remove("material_index")
         else:
             self.set_faces("material_index", values)
 
-    def faces(self, name: str) -> IntArray | None:
+    def faces(self, name: str) -> Int32Array | None:
         """Return an attribute of whole numbers of the faces, None if there is none."""
         return read_attribute(self._mesh, name, "INT", self._domain)
 
-    def set_faces(self, name: str, values: IntArray) -> None:
+    def set_faces(self, name: str, values: Int32Array) -> None:
         """Write an attribute of the faces."""
         write_attribute(self._mesh, name, "INT", self._domain, values)
 
-    def corners(self) -> tuple[IntArray, IntArray]:
+    def corners(self) -> tuple[Int32Array, Int32Array]:
         """Return the vertex and the face of each corner, (C,) and (C,)."""
         return corner_vertices(self._mesh), corner_faces(self._mesh)
 
-    def set_colors(self, name: str, colors: FloatArray) -> None:
+    def set_colors(self, name: str, colors: Float32Array) -> None:
         """Write an attribute of the corners, from a color for each face (P, 4)."""
         there = self._mesh.color_attributes
         attribute = there.get(name)
@@ -107,7 +101,7 @@ class PointLayers(ObjectModeLayers):
     def material_indices(self) -> None:
         """Return None: there are none."""
 
-    def set_material_indices(self, values: IntArray | None) -> None:
+    def set_material_indices(self, values: Int32Array | None) -> None:
         """Write nothing."""
 
     def finish(self) -> None:
@@ -122,39 +116,39 @@ class EditModeLayers:
         self._obj = obj
         self._bm = bmesh.from_edit_mesh(obj.data)
 
-    def material_indices(self) -> IntArray | None:
+    def material_indices(self) -> Int32Array | None:
         """Return the material index of each face, None if all are 0."""
         values = np.array([f.material_index for f in self._bm.faces], dtype=np.int32)
         return values if values.any() else None
 
-    def set_material_indices(self, values: IntArray | None) -> None:
+    def set_material_indices(self, values: Int32Array | None) -> None:
         """Write the material index of each face; None makes them all 0."""
         indices = [0] * len(self._bm.faces) if values is None else values.tolist()
         for face, index in zip(self._bm.faces, indices, strict=True):
             face.material_index = index
 
-    def faces(self, name: str) -> IntArray | None:
+    def faces(self, name: str) -> Int32Array | None:
         """Return a layer of the faces, None if there is none."""
         layer = self._bm.faces.layers.int.get(name)
         if layer is None:
             return None
         return np.array([face[layer] for face in self._bm.faces], dtype=np.int32)
 
-    def set_faces(self, name: str, values: IntArray) -> None:
+    def set_faces(self, name: str, values: Int32Array) -> None:
         """Write a layer of the faces."""
         layers = self._bm.faces.layers.int
         layer = layers.get(name) or layers.new(name)
         for face, value in zip(self._bm.faces, values.tolist(), strict=True):
             face[layer] = value
 
-    def corners(self) -> tuple[IntArray, IntArray]:
+    def corners(self) -> tuple[Int32Array, Int32Array]:
         """Return the vertex and the face of each corner, (C,) and (C,)."""
         self._bm.verts.index_update()
         vertices = [[vertex.index for vertex in f.verts] for f in self._bm.faces]
         faces = np.repeat(np.arange(len(vertices)), [len(each) for each in vertices])
         return np.concatenate(vertices).astype(np.int32), faces.astype(np.int32)
 
-    def set_colors(self, name: str, colors: FloatArray) -> None:
+    def set_colors(self, name: str, colors: Float32Array) -> None:
         """Write a layer of the corners, from a color for each face (P, 4)."""
         layers = self._bm.loops.layers.float_color
         layer = layers.get(name)

@@ -9,7 +9,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from .attributes import FloatArray, read_attribute, read_floats, vertex_positions
+from ....core.steps.arrays import Float32Array
+from .attributes import read_attribute, read_floats, vertex_positions
 
 # Names that programs and importers give to attributes with normals.
 _NORMALS = ("normal", "Normal", "normals", "Normals", "custom_normal", "N")
@@ -29,7 +30,7 @@ def count_points(obj: bpy.types.Object) -> int:
     return len(obj.data.points if obj.type == "POINTCLOUD" else obj.data.vertices)
 
 
-def positions_of(obj: bpy.types.Object) -> FloatArray:
+def positions_of(obj: bpy.types.Object) -> Float32Array:
     """Return the points, or vertices, of an object in its own space, (N, 3)."""
     if obj.type == "MESH":
         return vertex_positions(obj.data)
@@ -39,7 +40,7 @@ def positions_of(obj: bpy.types.Object) -> FloatArray:
     return read_floats(attribute.data, "vector", 3)
 
 
-def vertices_now(obj: bpy.types.Object) -> FloatArray:
+def vertices_now(obj: bpy.types.Object) -> Float32Array:
     """Return the points, or vertices, of an object as Edit Mode has them, (N, 3)."""
     if obj.mode != "EDIT" or obj.type != "MESH":
         return positions_of(obj)
@@ -47,7 +48,7 @@ def vertices_now(obj: bpy.types.Object) -> FloatArray:
     return np.array([v.co for v in vertices], dtype=np.float32).reshape(-1, 3)
 
 
-def normals_of(obj: bpy.types.Object) -> FloatArray | None:
+def normals_of(obj: bpy.types.Object) -> Float32Array | None:
     """Return the normals of a cloud, (N, 3), None if no attribute holds them."""
     data = obj.data
     for name in _NORMALS:

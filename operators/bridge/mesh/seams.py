@@ -10,8 +10,9 @@ import bmesh
 import bpy
 
 from ....core.errors import DecompositionError
+from ....core.steps.arrays import BoolArray
 from ..stored.names import SEAM_LAYER
-from .attributes import BoolArray, read_flags, read_ints, write_attribute, write_flags
+from .attributes import read_flags, read_ints, write_attribute, write_flags
 from .selection import show_flags
 
 # Blender's own attribute of seams, before and since 5.0.

@@ -11,11 +11,9 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import BoolArray, Int32Array, IntArray
 from .attributes import (
-    BoolArray,
-    IntArray,
     corner_edges,
     corner_vertices,
     read_flags,
@@ -67,9 +65,7 @@ def select_edges(obj: bpy.types.Object, chosen: BoolArray, extend: bool) -> None
     show_flags(mesh)
 
 
-def isolate_parts(
-    obj: bpy.types.Object, labels: NDArray[np.int64], chosen: list[int]
-) -> None:
+def isolate_parts(obj: bpy.types.Object, labels: IntArray, chosen: list[int]) -> None:
     """Hide the faces of all parts but the chosen ones, in Edit Mode.
 
     What is hidden stays so. But a chosen part is shown if none of its faces is: then it
@@ -102,7 +98,7 @@ def show_all(obj: bpy.types.Object) -> None:
     show_flags(obj.data)
 
 
-def _flags(size: int, rows: IntArray) -> BoolArray:
+def _flags(size: int, rows: Int32Array) -> BoolArray:
     """Return an array that is true in these rows."""
     flags = np.zeros(size, dtype=bool)
     flags[rows] = True

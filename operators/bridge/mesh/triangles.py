@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.geometry.cutting.triangulation import are_folded
+from ....core.steps.arrays import Float32Array, Int32Array, IntArray
 from ....core.steps.progress import Progress, Steps
-from .attributes import FloatArray, IntArray, read_ints
+from .attributes import read_ints
 
 # Faces that are looked at together: their arrays fit into the cache.
 _BLOCK = 2**14
@@ -37,12 +37,12 @@ class Asked(NamedTuple):
         Their corners.
     """
 
-    counts: NDArray[np.int64]
-    rows: NDArray[np.int64]
-    corners: IntArray
+    counts: IntArray
+    rows: IntArray
+    corners: Int32Array
 
 
-def ask(mesh: bpy.types.Mesh, faces: IntArray) -> Asked:
+def ask(mesh: bpy.types.Mesh, faces: Int32Array) -> Asked:
     """Ask Blender for the triangles of faces with more than four corners.
 
     Parameters
@@ -63,8 +63,8 @@ def ask(mesh: bpy.types.Mesh, faces: IntArray) -> Asked:
 
 
 def cut_in_steps(
-    asked: Asked, places: FloatArray, corners: IntArray
-) -> Steps[NDArray[np.int64]]:
+    asked: Asked, places: Float32Array, corners: Int32Array
+) -> Steps[IntArray]:
     """Cut all faces of a mesh into triangles.
 
     A quad is cut between its first and third corner, unless the other two lie on the
@@ -102,9 +102,7 @@ def cut_in_steps(
     return found
 
 
-def _blocks_of_faces(
-    counts: NDArray[np.int64],
-) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+def _blocks_of_faces(counts: IntArray) -> Iterator[tuple[IntArray, IntArray]]:
     """Yield the numbers of triangles of some faces at a time, and their first corners.
 
     Together, all faces of a large mesh would take much memory.

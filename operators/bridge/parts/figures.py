@@ -11,8 +11,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import FloatArray
 from ..mesh.by_label import sums_by_label
 from ..mesh.fingerprint import fits
 from ..stored.noted_parts import entry_of
@@ -41,8 +41,8 @@ class PartFigures(FoundParts):
         Why figures are out of date, and what to do.
     """
 
-    measured_on: NDArray[np.float64]
-    ranks: NDArray[np.float64]
+    measured_on: FloatArray
+    ranks: FloatArray
     record: dict[str, Any]
     problem: str | None
 
@@ -74,7 +74,7 @@ def figures_of(obj: bpy.types.Object) -> PartFigures | None:
 
 
 def _problem(
-    record: dict[str, Any], found: FoundParts, measured_on: NDArray[np.float64]
+    record: dict[str, Any], found: FoundParts, measured_on: FloatArray
 ) -> str | None:
     """Return why the record is not all that there is to know, None if it is."""
     if not found.in_step:

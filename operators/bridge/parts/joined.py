@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray
+from ....core.steps.arrays import BoolArray, Int32Array, IntArray
 from ..mesh.layers import layers_of
 from ..mesh.points import is_cloud
 from ..stored.identity import Color
@@ -40,7 +39,7 @@ class Origin(NamedTuple):
 
 
 def highest_number(
-    obj: bpy.types.Object, values: IntArray, noted: Iterable[int]
+    obj: bpy.types.Object, values: Int32Array, noted: Iterable[int]
 ) -> int:
     """Return the highest number of a part that faces of an object can have.
 
@@ -78,9 +77,7 @@ def told_of_part(
     return name_of(material), color_of(material)
 
 
-def turns_of_faces(
-    obj: bpy.types.Object, numbers: NDArray[np.int64]
-) -> NDArray[np.int64] | None:
+def turns_of_faces(obj: bpy.types.Object, numbers: IntArray) -> IntArray | None:
     """Return the turn of each face's part, see `Origin`; None if all are 0."""
     if is_cloud(obj):
         return None
@@ -93,7 +90,7 @@ def turns_of_faces(
     return _turns_of_copies(obj, numbers) if turns is None else turns
 
 
-def _turns_by_owner(owners: IntArray, own: int) -> NDArray[np.int64] | None:
+def _turns_by_owner(owners: Int32Array, own: int) -> IntArray | None:
     """Return 0 for faces of the object itself, and for each other owner a number."""
     # Faces that nobody owns come last: they are of no part.
     others, turns = np.unique(-owners[owners != own], return_inverse=True)
@@ -104,9 +101,7 @@ def _turns_by_owner(owners: IntArray, own: int) -> NDArray[np.int64] | None:
     return found
 
 
-def _turns_by_material(
-    obj: bpy.types.Object, numbers: NDArray[np.int64]
-) -> NDArray[np.int64] | None:
+def _turns_by_material(obj: bpy.types.Object, numbers: IntArray) -> IntArray | None:
     """Return which of the materials with the number of its part each face has.
 
     Faces of an object without parts have another turn. None if all faces have 0.
@@ -125,10 +120,10 @@ def _turns_by_material(
 
 def _without_part(
     obj: bpy.types.Object,
-    numbers: NDArray[np.int64],
-    indices: IntArray,
+    numbers: IntArray,
+    indices: Int32Array,
     slots: dict[int, list[int]],
-) -> NDArray[np.bool_]:
+) -> BoolArray:
     """Return which faces came with an object without parts; Blender gives them 0.
 
     They have a material of the user's, and all faces that part 0 had have its own.
@@ -142,9 +137,7 @@ def _without_part(
     return others if complete else np.zeros_like(others)
 
 
-def _turns_of_copies(
-    obj: bpy.types.Object, numbers: NDArray[np.int64]
-) -> NDArray[np.int64] | None:
+def _turns_of_copies(obj: bpy.types.Object, numbers: IntArray) -> IntArray | None:
     """Return which of the copies of the object, joined to it, each face is of."""
     n_noted = n_faces_of(record_of(obj))
     n_copies, odd = divmod(len(numbers), n_noted) if n_noted else (0, 0)

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import BoolArray, FloatArray
 from ..stored.identity import Color, rgb
 
 # sRGB of parts, each with that of its mirror image. The first seven are those of Okabe
@@ -91,6 +91,6 @@ def srgb_of(color: Sequence[float]) -> Color:
     )
 
 
-def _are_same(colors: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _are_same(colors: FloatArray) -> BoolArray:
     """Return which colors of the palette are the same as each color."""
     return np.abs(colors - _LINEAR).max(axis=-1) < _SAME

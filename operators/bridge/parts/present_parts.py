@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
+from ....core.steps.arrays import BoolArray
 from ..mesh.layers import flush_edits, layers_of
 from ..stored.names import HAND_LAYER
 from ..stored.noted_parts import n_faces_of, psi_by_k_of
@@ -36,8 +36,8 @@ class PresentParts(PartFigures):
         The number of parts that the search chose.
     """
 
-    locked: NDArray[np.bool_]
-    by_hand: NDArray[np.bool_]
+    locked: BoolArray
+    by_hand: BoolArray
     parameters: Parameters
     psi_by_k: dict[int, float]
     best_k: int
@@ -62,7 +62,7 @@ def present_parts(obj: bpy.types.Object) -> PresentParts:
     )
 
 
-def faces_by_hand(obj: bpy.types.Object, n_faces: int) -> NDArray[np.bool_]:
+def faces_by_hand(obj: bpy.types.Object, n_faces: int) -> BoolArray:
     """Return which faces of an object the user settled by hand, (P,)."""
     flags = layers_of(obj).faces(HAND_LAYER)
     if flags is None or len(flags) != n_faces:

@@ -12,10 +12,9 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 from bpy.types import Material
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from ..mesh.attributes import IntArray
+from ....core.steps.arrays import Int32Array, IntArray
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..stored.identity import Color, Identity
@@ -43,18 +42,18 @@ class FoundParts:
         Where each part comes from.
     """
 
-    labels: NDArray[np.int64]
+    labels: IntArray
     identities: tuple[Identity, ...]
     origins: tuple[Origin, ...]
 
     @property
-    def numbers(self) -> IntArray:
+    def numbers(self) -> Int32Array:
         """The number of the part of each face, or point, (P,): its own, in any case."""
         own = np.array([each.number for each in self.identities], dtype=np.int32)
         return own[self.labels]
 
     @property
-    def face_sets(self) -> IntArray:
+    def face_sets(self) -> Int32Array:
         """The face set that shows the part of each face, (P,).
 
         It follows from the number, so that it stays when another part vanishes.
@@ -145,7 +144,7 @@ def loss_of(obj: bpy.types.Object) -> str:
     return f"{obj.name} has lost its parts; decompose it again."
 
 
-def part_labels(obj: bpy.types.Object) -> NDArray[np.int64] | None:
+def part_labels(obj: bpy.types.Object) -> IntArray | None:
     """Return the place of each face's part, None if the object has no parts of ours."""
     found = find_parts_on(obj)
     return None if found is None else found.labels
@@ -157,7 +156,7 @@ def part_identities(obj: bpy.types.Object) -> tuple[Identity, ...]:
     return () if found is None else found.identities
 
 
-def _numbers(obj: bpy.types.Object) -> IntArray | None:
+def _numbers(obj: bpy.types.Object) -> Int32Array | None:
     """Return the attribute with the parts, None if it does not fit the faces."""
     numbers = layers_of(obj).faces(PART_LAYER)
     if numbers is None or not len(numbers) or read_restore(obj.data) is None:

@@ -7,10 +7,9 @@ from contextlib import ExitStack, contextmanager
 
 import bmesh
 import bpy
-import numpy as np
 from mathutils import Matrix
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import BoolArray
 from ..cuts.whole_mesh import forget_whole
 from ..homes import hand_over, new_collection
 from ..hulls.hull_objects import erase_hulls
@@ -101,7 +100,7 @@ def _copy(obj: bpy.types.Object) -> bpy.types.Object:
     return copy
 
 
-def _keep_faces(mesh: bpy.types.Mesh, kept: NDArray[np.bool_], loose: bool) -> None:
+def _keep_faces(mesh: bpy.types.Mesh, kept: BoolArray, loose: bool) -> None:
     """Delete the other faces of a mesh, and loose vertices and edges unless `loose`."""
     bm = bmesh.new()
     try:

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray
+from ....core.steps.arrays import Int32Array
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.points import is_cloud
 from ..stored.names import FORMER_SLOTS, KEPT_MATERIALS, MATERIAL_LAYER
@@ -63,7 +63,7 @@ def put_in_slots(
 
 def bare_materials(
     obj: bpy.types.Object, restore: Restore | None
-) -> tuple[IntArray | None, list[str]]:
+) -> tuple[Int32Array | None, list[str]]:
     """Return the material index of each face, and the names of the user's materials.
 
     Both are as they would be without our slots.
@@ -91,7 +91,7 @@ def take_out_of_slots(
 
 def _bare_slots(
     mesh: bpy.types.Mesh, restore: Restore, layers: ObjectModeLayers | EditModeLayers
-) -> tuple[IntArray | None, dict[int, str]]:
+) -> tuple[Int32Array | None, dict[int, str]]:
     """Return what is left of the slots of a mesh without our materials.
 
     These are the material index of each face, and the slots that stay, each with the
@@ -183,8 +183,8 @@ def _names_in(mesh: bpy.types.Mesh) -> list[str]:
 
 
 def _moved(
-    indices: IntArray, slots: Sequence[str], remaining: list[str], own: bool
-) -> IntArray:
+    indices: Int32Array, slots: Sequence[str], remaining: list[str], own: bool
+) -> Int32Array:
     """Return indices of former slots as indices of the slots that will remain.
 
     The user may have moved, removed or renamed materials since. Only slots that are the

@@ -8,11 +8,11 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
+from ....core.steps.arrays import BoolArray, IntArray
 from ..cuts.new_faces import NewFaces
 from ..hulls.listed import hulls_of
 from ..mesh.attributes import write_attribute
@@ -40,7 +40,7 @@ def write_parts(
     decomposition: Decomposition,
     parameters: Parameters,
     identities: Sequence[Identity] | None = None,
-    by_hand: NDArray[np.bool_] | None = None,
+    by_hand: BoolArray | None = None,
     faces: NewFaces | None = None,
 ) -> None:
     """Show a decomposition on its object; everything is checked before it is written.
@@ -154,7 +154,7 @@ def _write_mesh(
     by_label: ByLabel,
     identities: Sequence[Identity],
     sources: Mapping[int, bpy.types.Material | None],
-    by_hand: NDArray[np.bool_] | None,
+    by_hand: BoolArray | None,
 ) -> tuple[Sequence[Identity], list[str]]:
     """Write parts to a mesh without parts, and how to bring it back.
 
@@ -195,10 +195,10 @@ def _add_groups(
 
 def _write_layers(
     obj: bpy.types.Object,
-    labels: NDArray[np.int64],
+    labels: IntArray,
     by_label: ByLabel,
     identities: Sequence[Identity],
-    by_hand: NDArray[np.bool_] | None,
+    by_hand: BoolArray | None,
 ) -> None:
     """Write the number of each face's part, what is by hand, and who is in a group."""
     layers = layers_of(obj)

@@ -7,9 +7,9 @@ from operator import itemgetter
 
 import numpy as np
 from mathutils.bvhtree import BVHTree
-from numpy.typing import NDArray
 
 from ....core.geometry.mesh import TriangleMesh
+from ....core.steps.arrays import FloatArray, IntArray
 
 # Triangle and distance of what `BVHTree.ray_cast` returns; None where nothing is hit.
 _HIT = itemgetter(2, 3)
@@ -30,11 +30,8 @@ class BvhRayCaster:
         self._tree = _tree_of(mesh)
 
     def first_hit(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        self, origins: FloatArray, directions: FloatArray, reach: FloatArray
+    ) -> tuple[IntArray, FloatArray]:
         """Return the first triangle along each ray and its distance, as `RayCaster`."""
         # Blender has no call for many rays. It reads tuples faster than lists or
         # Vectors. Location and normal of each hit are dropped at once, so that Python's

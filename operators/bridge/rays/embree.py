@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore_scene import EmbreeScene
-from numpy.typing import NDArray
 
 from ....core.geometry.mesh import TriangleMesh
+from ....core.steps.arrays import FloatArray, IntArray
 
 # Triangle number that Embree returns for a ray without a hit.
 _MISS = -1
@@ -31,11 +31,8 @@ class EmbreeRayCaster:
         EmbreeMesh(self._scene, corners)
 
     def first_hit(
-        self,
-        origins: NDArray[np.float64],
-        directions: NDArray[np.float64],
-        reach: NDArray[np.float64],
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        self, origins: FloatArray, directions: FloatArray, reach: FloatArray
+    ) -> tuple[IntArray, FloatArray]:
         """Return the first triangle along each ray and its distance, as `RayCaster`."""
         rays = [
             np.ascontiguousarray(array, dtype=np.float32)

@@ -18,6 +18,7 @@ from ....core.geometry.array_checks import (
 from ....core.geometry.cutting.triangulation import triangulate
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
+from ....core.steps.arrays import FloatArray, IntArray
 
 _OWN = (TriangleMesh, PointCloud)
 _SHAPES = (
@@ -91,7 +92,7 @@ def mesh_of(shape: object, faces: object) -> TriangleMesh:
     return mesh
 
 
-def stretch(shape: object) -> NDArray[np.float64]:
+def stretch(shape: object) -> FloatArray:
     """Return the matrix that coordinates in results of a shape are multiplied by.
 
     Results of Blender objects have the proportions that these have in the scene, at the
@@ -169,7 +170,7 @@ def _check_readable(obj: Any) -> None:
         )
 
 
-def _vertices_of(shape: object) -> NDArray[np.float64]:
+def _vertices_of(shape: object) -> FloatArray:
     """Return the vertices (V, 3) that a script passed."""
     vertices = real_numbers(shape)
     if vertices is None:
@@ -177,9 +178,7 @@ def _vertices_of(shape: object) -> NDArray[np.float64]:
     return rows_of_three(vertices, "Vertices").astype(np.float64)
 
 
-def _triangles_of(
-    vertices: NDArray[np.float64], faces: object
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _triangles_of(vertices: FloatArray, faces: object) -> tuple[IntArray, IntArray]:
     """Return the triangles (T, 3) of faces, and the face (T,) of each."""
     array = real_numbers(faces)
     if array is not None and array.ndim == 2:
@@ -200,7 +199,7 @@ def _triangles_of(
     return triangulate(vertices, polygons)
 
 
-def _polygon(face: object, row: int) -> NDArray[np.int64]:
+def _polygon(face: object, row: int) -> IntArray:
     """Return the vertex numbers of one face, (N,), N at least 3."""
     corners = real_numbers(face)
     if corners is None or corners.ndim != 1:
@@ -214,7 +213,7 @@ def _polygon(face: object, row: int) -> NDArray[np.int64]:
     return _indices(corners)
 
 
-def _indices(array: NDArray[Any]) -> NDArray[np.int64]:
+def _indices(array: NDArray[Any]) -> IntArray:
     """Return vertex numbers as integers; raise if they are not whole."""
     if array.dtype.kind == "f" and array.size:
         raise TypeError(

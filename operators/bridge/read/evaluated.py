@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.mesh import TriangleMesh
 from ....core.results.parts import Decomposition
+from ....core.steps.arrays import BoolArray, Float32Array, FloatArray, IntArray
 from ..mesh.attributes import read_floats, read_labels, write_ints
 from ..mesh.known import triangles_of
 from ..stored.long_names import carrier_name
@@ -55,10 +55,10 @@ class SeenMesh:
     """
 
     shape: TriangleMesh
-    areas: NDArray[np.float64]
-    origins: NDArray[np.int64]
-    own_areas: NDArray[np.float64]
-    stand_ins: NDArray[np.int64]
+    areas: FloatArray
+    origins: IntArray
+    own_areas: FloatArray
+    stand_ins: IntArray
     corresponds: bool
     n_left_out: int
     name: str
@@ -112,7 +112,7 @@ def _leaving_out(n_instances: int) -> tuple[str, ...]:
     )
 
 
-def _sharing(counts: NDArray[np.int64], n_lost: int) -> tuple[str, ...]:
+def _sharing(counts: IntArray, n_lost: int) -> tuple[str, ...]:
     """Return a note on faces that several parts share, and on parts without faces."""
     n_shared = int((counts > 1).sum())
     if not n_shared:
@@ -185,9 +185,7 @@ def _check_readable(obj: bpy.types.Object) -> None:
         )
 
 
-def _nearest(
-    places: NDArray[np.float32], chosen: NDArray[np.bool_]
-) -> NDArray[np.int64]:
+def _nearest(places: Float32Array, chosen: BoolArray) -> IntArray:
     """Return the row of the nearest place that is chosen, for each of N places."""
     from scipy.spatial import cKDTree
 

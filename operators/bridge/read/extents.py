@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ..mesh.attributes import FloatArray, vertex_positions
+from ....core.steps.arrays import Float32Array, FloatArray
+from ..mesh.attributes import vertex_positions
 from ..stored.record import EVALUATED
 from .evaluated import which_mesh
 from .shown_mesh import differs
@@ -45,7 +45,7 @@ def half_side_of(obj: bpy.types.Object, mesh: str) -> float | None:
     return float((sides * scale).max()) / 2
 
 
-def _sides(obj: bpy.types.Object, mesh: str) -> NDArray[np.float64] | None:
+def _sides(obj: bpy.types.Object, mesh: str) -> FloatArray | None:
     """Return the lengths of the sides, (3,), in object space; None if not known."""
     has_nodes = obj.type == "MESH" and any(
         each.show_viewport and each.type == "NODES" for each in obj.modifiers
@@ -57,7 +57,7 @@ def _sides(obj: bpy.types.Object, mesh: str) -> NDArray[np.float64] | None:
     return np.ptp(np.array(obj.bound_box), axis=0)
 
 
-def _sides_of(places: FloatArray) -> NDArray[np.float64]:
+def _sides_of(places: Float32Array) -> FloatArray:
     """Return the lengths of the sides of the box around vertices (V, 3)."""
     if not len(places):
         return np.zeros(3)

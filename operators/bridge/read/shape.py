@@ -5,13 +5,13 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from mathutils import Matrix
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
 from ....core.geometry.array_checks import check_surface
 from ....core.geometry.mesh import TriangleMesh
 from ....core.geometry.point_cloud import PointCloud
 from ....core.geometry.shape import Shape
+from ....core.steps.arrays import FloatArray
 from ....core.steps.progress import Progress, Steps, as_steps, run
 from ..mesh.attributes import vertex_positions
 from ..mesh.known import triangles_in_steps
@@ -55,7 +55,7 @@ def shape_in_steps(obj: bpy.types.Object) -> Steps[Shape]:
         return _mesh_in_steps(mesh, matrix)
 
 
-def _cloud(obj: bpy.types.Object, matrix: NDArray[np.float64]) -> PointCloud:
+def _cloud(obj: bpy.types.Object, matrix: FloatArray) -> PointCloud:
     """Return the points of an object, its coordinates multiplied by a stretch."""
     read = normals_of(obj)
     # Stretching tilts normals the other way.
@@ -63,7 +63,7 @@ def _cloud(obj: bpy.types.Object, matrix: NDArray[np.float64]) -> PointCloud:
     return PointCloud(stretched(positions_of(obj).astype(np.float64), matrix), normals)
 
 
-def read_mesh(mesh: bpy.types.Mesh, matrix: NDArray[np.float64]) -> TriangleMesh:
+def read_mesh(mesh: bpy.types.Mesh, matrix: FloatArray) -> TriangleMesh:
     """Return the triangles of a mesh, its coordinates multiplied by a stretch (3, 3).
 
     Raises
@@ -74,9 +74,7 @@ def read_mesh(mesh: bpy.types.Mesh, matrix: NDArray[np.float64]) -> TriangleMesh
     return run(_mesh_in_steps(mesh, matrix))
 
 
-def _mesh_in_steps(
-    mesh: bpy.types.Mesh, matrix: NDArray[np.float64]
-) -> Steps[TriangleMesh]:
+def _mesh_in_steps(mesh: bpy.types.Mesh, matrix: FloatArray) -> Steps[TriangleMesh]:
     """Return what `read_mesh` returns; the mesh is read and checked at once."""
     places = vertex_positions(mesh)
     places[np.abs(places) == _CLAMPED] = np.inf
@@ -93,7 +91,7 @@ def _mesh_in_steps(
     return work()
 
 
-def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
+def stretch(obj: bpy.types.Object) -> FloatArray:
     """Return the matrix, (3, 3), that gives a mesh its proportions.
 
     It is symmetric: it turns nothing. Its determinant is 1: it keeps volumes, and
@@ -109,11 +107,11 @@ def stretch(obj: bpy.types.Object) -> NDArray[np.float64]:
     return scaling(_factors(scale), axes)
 
 
-def _factors(scale: NDArray[np.float64]) -> NDArray[np.float64]:
+def _factors(scale: FloatArray) -> FloatArray:
     """Return a scale, (3,), without its size: the product is 1."""
     if scale.max() - scale.min() <= _SAME_SCALE * scale.max():
         return np.ones(3)
-    factors: NDArray[np.float64] = scale / np.cbrt(scale.prod())
+    factors: FloatArray = scale / np.cbrt(scale.prod())
     return factors
 
 
@@ -139,7 +137,7 @@ def _is_finite(place: Matrix) -> bool:
     return bool((np.abs(np.array(place)) < _CLAMPED).all())
 
 
-def _scale_of(obj: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _scale_of(obj: bpy.types.Object) -> tuple[FloatArray, FloatArray]:
     """Return the scale of an object, (3,), without signs, and its axes.
 
     These are the columns of a matrix, (3, 3). Raise as `stretch` does.

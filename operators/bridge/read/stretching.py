@@ -7,23 +7,20 @@ diagonal where no parent shears the object.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ....core.steps.arrays import FloatArray
 
 # Largest cosine of the angle between two axes at a right angle: places of objects are
 # products of matrices in single precision.
 _NO_SHEAR = 1e-5
 
 
-def stretched(
-    rows: NDArray[np.float64], stretch: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def stretched(rows: FloatArray, stretch: FloatArray) -> FloatArray:
     """Return points or directions in object space, (..., 3), as they are stretched."""
     return rows * np.diagonal(stretch) if is_diagonal(stretch) else rows @ stretch
 
 
-def unstretched(
-    rows: NDArray[np.float64], stretch: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def unstretched(rows: FloatArray, stretch: FloatArray) -> FloatArray:
     """Return stretched points or directions, (..., 3), in object space.
 
     Normals go the other way: this stretches those of object space.
@@ -33,26 +30,22 @@ def unstretched(
     return rows @ np.linalg.inv(stretch)
 
 
-def is_diagonal(matrix: NDArray[np.float64]) -> bool:
+def is_diagonal(matrix: FloatArray) -> bool:
     """Return whether a matrix is nothing but a factor for each axis."""
     return np.count_nonzero(matrix) == np.count_nonzero(np.diagonal(matrix))
 
 
-def scaling(
-    scale: NDArray[np.float64], axes: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def scaling(scale: FloatArray, axes: FloatArray) -> FloatArray:
     """Return the symmetric matrix that scales along axes: columns of a matrix (3, 3).
 
     If it is not diagonal, it is in single precision, as the matrix of an object is: the
     rest would be noise.
     """
-    matrix: NDArray[np.float64] = (axes * scale) @ axes.T
+    matrix: FloatArray = (axes * scale) @ axes.T
     return matrix if is_diagonal(matrix) else matrix.astype(np.float32).astype(float)
 
 
-def sheared_scale(
-    matrix: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+def sheared_scale(matrix: FloatArray) -> tuple[FloatArray, FloatArray] | None:
     """Return the scale of a matrix along axes of its own, if it shears.
 
     By its polar decomposition into a rotation, or its mirror image, and a symmetric

@@ -6,10 +6,9 @@ from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
-from ..mesh.attributes import FloatArray
+from ....core.steps.arrays import Float32Array, FloatArray
 from ..mesh.layers import flush_edits
 from ..mesh.points import count_points, is_cloud, positions_of
 from ..refusals import CONVERTIBLE, WORKED_ON
@@ -46,8 +45,8 @@ class ShapeThen:
         From its own space to the proportions and the size that it had.
     """
 
-    places: FloatArray
-    scale: NDArray[np.float64]
+    places: Float32Array
+    scale: FloatArray
 
     @classmethod
     def of(cls, obj: bpy.types.Object) -> ShapeThen:

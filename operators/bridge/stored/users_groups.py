@@ -9,9 +9,9 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray, corner_vertices
+from ....core.steps.arrays import BoolArray, Int32Array, IntArray
+from ..mesh.attributes import corner_vertices
 from ..mesh.known import corner_faces
 from ..mesh.layers import flush_edits, layers_of
 from ..mesh.points import is_cloud
@@ -55,20 +55,20 @@ def users_groups(obj: bpy.types.Object, restore: Restore) -> set[str]:
     return found
 
 
-def _has_faces_of(record: dict[str, Any], values: IntArray) -> bool:
+def _has_faces_of(record: dict[str, Any], values: Int32Array) -> bool:
     """Return whether each part has as many faces, or points, as a record says."""
     noted = {part["number"]: part["faces"] for part in record["parts"]}
     numbers, counts = np.unique(values, return_counts=True)
     return dict(zip(numbers.tolist(), counts.tolist(), strict=True)) == noted
 
 
-def _is_group_of(obj: bpy.types.Object, group: int, inside: NDArray[np.bool_]) -> bool:
+def _is_group_of(obj: bpy.types.Object, group: int, inside: BoolArray) -> bool:
     """Return whether half of what a group and a part have, or more, is in both.
 
     `inside` are the vertices of the part. Some vertices tell of all.
     """
 
-    def n_members(vertices: NDArray[np.int64]) -> float:
+    def n_members(vertices: IntArray) -> float:
         picked = vertices[:: len(vertices) // _PICKED + 1].tolist()
         held = [[g.group for g in obj.data.vertices[v].groups] for v in picked]
         return sum(group in each for each in held) / max(len(held), 1) * len(vertices)

@@ -8,7 +8,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.attributes import IntArray, write_attribute
+from ....core.steps.arrays import Float32Array, Int32Array
+from ..mesh.attributes import write_attribute
 from ..mesh.layers import EditModeLayers, ObjectModeLayers, layers_of
 from ..mesh.points import count_points, is_cloud
 from ..parts.palette import UNPAINTED
@@ -31,7 +32,7 @@ def write_face_sets(obj: bpy.types.Object) -> None:
 
 def users_face_sets(
     obj: bpy.types.Object, layers: ObjectModeLayers | EditModeLayers
-) -> IntArray | None:
+) -> Int32Array | None:
     """Return the face sets that Clear leaves, (P,), None for none.
 
     They are those from before ours, unless the user drew over ours.
@@ -68,7 +69,7 @@ def show_colors(obj: bpy.types.Object) -> None:
         write_colors(obj)
 
 
-def point_colors(obj: bpy.types.Object) -> NDArray[np.float32]:
+def point_colors(obj: bpy.types.Object) -> Float32Array:
     """Return the linear RGBA color of each point of a cloud, (N, 4).
 
     They are gray if the cloud has no parts.
@@ -97,6 +98,6 @@ def show(obj: bpy.types.Object, face_sets: bool, colors: bool) -> None:
         write_colors(obj)
 
 
-def _colors(identities: Sequence[Identity]) -> NDArray[np.float32]:
+def _colors(identities: Sequence[Identity]) -> Float32Array:
     """Return the linear RGBA color of each part, (K, 4)."""
     return np.array([(*each.color, 1.0) for each in identities], dtype=np.float32)

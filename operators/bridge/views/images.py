@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import FloatArray
 from ..stored.long_names import name_that_fits
 from ..stored.names import IMAGE_TAG, PICTURE_TAG
 
@@ -15,7 +15,7 @@ from ..stored.names import IMAGE_TAG, PICTURE_TAG
 
 
 def write_image(
-    obj: bpy.types.Object, label: str, pixels: NDArray[np.float64]
+    obj: bpy.types.Object, label: str, pixels: FloatArray
 ) -> bpy.types.Image:
     """Make an image, in place of the former one with that label.
 

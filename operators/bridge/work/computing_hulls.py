@@ -14,7 +14,6 @@ from functools import partial
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
@@ -23,6 +22,7 @@ from ....core.geometry.shape import Shape
 from ....core.parameters.hulls import HullParameters
 from ....core.parameters.parts import Parameters
 from ....core.results.hulls import HullDecomposition
+from ....core.steps.arrays import IntArray
 from ....core.steps.processes import Processes
 from ....core.steps.progress import Steps, run, within
 from ..parts.read import part_labels
@@ -87,9 +87,7 @@ def build_hulls_of(
     return with_libraries(notes, _enlarged(steps, size))
 
 
-def _labels_of(
-    obj: bpy.types.Object, seen: SeenMesh | None
-) -> NDArray[np.int64] | None:
+def _labels_of(obj: bpy.types.Object, seen: SeenMesh | None) -> IntArray | None:
     """Return the part of each face that is read, None if there are no parts."""
     labels = part_labels(obj)
     if seen is None or labels is None:
@@ -99,7 +97,7 @@ def _labels_of(
 
 def _builder(
     obj: bpy.types.Object,
-    labels: NDArray[np.int64] | None,
+    labels: IntArray | None,
     parameters: HullParameters,
     seed: int,
 ) -> Callable[..., Steps[HullDecomposition]]:

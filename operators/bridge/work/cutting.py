@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
+from ....core.steps.arrays import IntArray
 from ....core.steps.progress import Progress, Steps, within
 from ..cuts.cut_mesh import CutMesh
 from ..cuts.new_faces import NewFaces, Pieces
@@ -173,7 +173,7 @@ def _notes_on_patches(n_left_out: int) -> tuple[str, ...]:
 
 def _measured(
     refined: core.RefinedMesh,
-    labels: NDArray[np.int64],
+    labels: IntArray,
     found: Decomposition,
     parameters: Parameters,
 ) -> Steps[Decomposition]:

@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.geometry.shape import Shape
 from ....core.parameters.parameter import check, field_of
 from ....core.parameters.parts import Parameters
+from ....core.steps.arrays import BoolArray, IntArray
 from ....core.steps.progress import Progress, Steps, within_turn
 from ..parts.present_parts import PresentParts
 from .run_edit import MakeChange
@@ -22,13 +22,13 @@ from .session_cache import session_cache
 def merging(chosen: Sequence[int], into: int) -> MakeChange:
     """Return the edit that merges the chosen parts into one of them."""
 
-    def merged(labels: NDArray[np.int64]) -> core.Change:
+    def merged(labels: IntArray) -> core.Change:
         return core.give(labels, np.isin(labels, chosen), into)
 
     return _at_once("Merge", merged)
 
 
-def giving(faces: NDArray[np.bool_], part: int) -> MakeChange:
+def giving(faces: BoolArray, part: int) -> MakeChange:
     """Return the edit that assigns faces, (P,), to a part.
 
     Raises
@@ -46,9 +46,7 @@ def refreshing() -> MakeChange:
     return _at_once("Refresh", lambda labels: core.Change(labels))
 
 
-def _at_once(
-    stage: str, edit: Callable[[NDArray[np.int64]], core.Change]
-) -> MakeChange:
+def _at_once(stage: str, edit: Callable[[IntArray], core.Change]) -> MakeChange:
     """Return an edit that takes the labels of faces, (P,), and no time."""
 
     def change(_: Shape, __: core.PartMemo, parts: PresentParts) -> Steps[core.Change]:

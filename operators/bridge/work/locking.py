@@ -13,12 +13,12 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.errors import DecompositionError
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
+from ....core.steps.arrays import BoolArray
 from ....core.steps.progress import Steps, within
 from ..mesh.by_label import areas_of, read_ahead
 from ..mesh.layers import layers_of
@@ -98,7 +98,7 @@ def _ready_to_write(
     steps: Steps[Decomposition],
     parameters: Parameters,
     seen: SeenMesh | None,
-    by_hand: NDArray[np.bool_] | None = None,
+    by_hand: BoolArray | None = None,
 ) -> Steps[Edited]:
     """Find parts, then read what writing them asks of a mesh: this takes long, too."""
     target, then = Target.of(obj), ShapeThen.of(obj)
@@ -138,7 +138,7 @@ def _may_hold(obj: bpy.types.Object, keep_edits: bool) -> bool:
     return (locked or by_hand) and part_labels(obj) is not None
 
 
-def _held(parts: PresentParts, by_hand: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _held(parts: PresentParts, by_hand: BoolArray) -> BoolArray:
     """Return which parts a run leaves out: the locked, and those settled as a whole."""
     n_parts = len(parts.identities)
     free = np.bincount(parts.labels, ~by_hand, n_parts)
@@ -149,7 +149,7 @@ def _decompose_rest(
     obj: bpy.types.Object,
     parameters: Parameters,
     parts: PresentParts,
-    held: NDArray[np.bool_],
+    held: BoolArray,
     seen: SeenMesh | None,
 ) -> Steps[Edited]:
     """Return the steps that decompose the other faces, from their own samples."""
@@ -191,7 +191,7 @@ def _decompose_rest(
 
 
 def _parameters_of_rest(
-    parameters: Parameters, parts: PresentParts, held: NDArray[np.bool_]
+    parameters: Parameters, parts: PresentParts, held: BoolArray
 ) -> Parameters:
     """Return parameters for the other faces, without the parts that stay in numbers."""
     n_held, n_parts = int(held.sum()), parameters.parts

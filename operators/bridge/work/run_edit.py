@@ -8,12 +8,12 @@ from typing import TypeAlias
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.geometry.shape import Shape
 from ....core.parameters.parts import Parameters
 from ....core.results.parts import Decomposition
+from ....core.steps.arrays import BoolArray, FloatArray, IntArray
 from ....core.steps.progress import Steps, within
 from ..cuts.new_faces import NewFaces
 from ..mesh.layers import let_undo_see_all
@@ -56,7 +56,7 @@ class Edited:
     decomposition: Decomposition
     identities: tuple[Identity, ...] | None
     parameters: Parameters
-    by_hand: NDArray[np.bool_] | None = None
+    by_hand: BoolArray | None = None
     faces: NewFaces | None = None
     seen: SeenMesh | None = None
 
@@ -129,7 +129,7 @@ def _described(
 
 
 def with_known_ranks(
-    found: Decomposition, before: NDArray[np.int64], known: NDArray[np.float64]
+    found: Decomposition, before: IntArray, known: FloatArray
 ) -> Decomposition:
     """Return parts with the ranks that they had, where no face came or went.
 

@@ -7,9 +7,9 @@ from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ....core.steps.arrays import FloatArray
 from ..files.text import lines_of, whole_number
 from .damage_checks import wordy
 from .finite_checks import all_finite, not_finite
@@ -19,7 +19,7 @@ from .finite_checks import all_finite, not_finite
 _HEADER = re.compile(r"(ST)?C?N?OFF(?![A-Za-z])\s*(.*)")
 
 
-def read_off(path: Path) -> tuple[NDArray[np.float64], list[list[int]]]:
+def read_off(path: Path) -> tuple[FloatArray, list[list[int]]]:
     """Return the vertices (V, 3) and the polygons of an .off file.
 
     Colors, normals and texture coordinates are ignored.
@@ -69,7 +69,7 @@ def _header(lines: list[str], path: Path) -> tuple[int, int, list[str]]:
     return n_vertices, n_faces, body
 
 
-def _vertices(rows: list[str], path: Path) -> NDArray[np.float64]:
+def _vertices(rows: list[str], path: Path) -> FloatArray:
     """Return the first three numbers of each row, (V, 3)."""
     try:
         values = [[float(word) for word in row.split(None, 3)[:3]] for row in rows]

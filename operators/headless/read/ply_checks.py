@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.steps.arrays import IntArray
 from ..files.headers import Element, Header
 from ..files.text import whole_number
 
@@ -97,7 +98,7 @@ def _text_corners(header: Header, data: bytes) -> NDArray[Any]:
         return np.zeros(0)
 
 
-def _equal_rows(rows: Sequence[bytes]) -> NDArray[np.int64] | None:
+def _equal_rows(rows: Sequence[bytes]) -> IntArray | None:
     """Return the members of lists of whole numbers; None if they differ in length."""
     try:
         with warnings.catch_warnings():

@@ -11,9 +11,9 @@ from io import StringIO
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ....core.steps.arrays import FloatArray
 from ..files.text import lines_of, whole_number
 from .finite_checks import all_finite, not_finite
 
@@ -24,7 +24,7 @@ _DECIMAL_COMMAS = re.compile(rf"^\s*{_COMMA}[ \t;]+{_COMMA}(?!\S)", re.MULTILINE
 # Normals differ from length 1 by less, in most of their rows.
 _NOT_UNIT = 0.01
 
-Points = tuple[NDArray[np.float64], NDArray[np.float64] | None]
+Points = tuple[FloatArray, FloatArray | None]
 
 
 def read_points(path: Path) -> Points:
@@ -71,7 +71,7 @@ def read_points(path: Path) -> Points:
     return points, normals
 
 
-def _split(table: NDArray[np.float64], n_points: int | None) -> Points:
+def _split(table: FloatArray, n_points: int | None) -> Points:
     """Return points and normals: normals on the same lines, or after all points."""
     if table.shape[1] == 6:
         points, others = table[:, :3], table[:, 3:]
@@ -81,7 +81,7 @@ def _split(table: NDArray[np.float64], n_points: int | None) -> Points:
     return table[:, :3], None
 
 
-def _are_colors(values: NDArray[np.float64]) -> bool:
+def _are_colors(values: FloatArray) -> bool:
     """Return whether values (N, 3) are red, green and blue, not normals.
 
     These are bytes, or shares from 0 to 1 where most do not have the length of normals.

@@ -13,15 +13,16 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from ....core.steps.arrays import FloatArray
 from .names import legal_names, names_of_hulls, names_of_objects
-from .placed_meshes import Float64Array, digits_of, matrix_of, placed, turned_up
+from .placed_meshes import digits_of, matrix_of, placed, turned_up
 
 # Blender's exporter rounds to this, and computes in single precision.
 _ROUNDING = 2e-6
 
 
 def write_obj(
-    path: Path, meshes: Sequence[tuple[str, Float64Array, Iterable[Sequence[int]]]]
+    path: Path, meshes: Sequence[tuple[str, FloatArray, Iterable[Sequence[int]]]]
 ) -> None:
     """Write meshes, each an object of its own.
 
@@ -96,12 +97,12 @@ def _renamed(line: str, old: str, new: str) -> str:
     return line
 
 
-def _exported_meshes() -> dict[str, list[tuple[str, Float64Array]]]:
+def _exported_meshes() -> dict[str, list[tuple[str, FloatArray]]]:
     """Return the names of visible meshes and their vertices in world space.
 
     They are sorted by their name in the file, where some have one name.
     """
-    found: dict[str, list[tuple[str, Float64Array]]] = {}
+    found: dict[str, list[tuple[str, FloatArray]]] = {}
     for instance in bpy.context.evaluated_depsgraph_get().object_instances:
         obj = instance.object.original
         if obj.type == "MESH":
@@ -112,7 +113,7 @@ def _exported_meshes() -> dict[str, list[tuple[str, Float64Array]]]:
     return found
 
 
-def _agree(lines: Sequence[str], vertices: Float64Array) -> bool:
+def _agree(lines: Sequence[str], vertices: FloatArray) -> bool:
     """Return whether lines of a file hold vertices, as far as their decimals go."""
     if len(lines) != len(vertices):
         return False

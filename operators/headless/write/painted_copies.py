@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.errors import DecompositionError
+from ....core.steps.arrays import Float32Array, Int32Array, IntArray
 from ...bridge.mesh.attributes import (
-    FloatArray,
-    IntArray,
     corner_vertices,
     read_floats,
     read_ints,
@@ -153,7 +152,7 @@ def _painted_points(
     return mesh
 
 
-def _part_numbers(obj: bpy.types.Object, n_rows: int) -> IntArray:
+def _part_numbers(obj: bpy.types.Object, n_rows: int) -> Int32Array:
     """Return the number of the part of each face or point, -1 without parts of ours."""
     found = find_parts_on(obj)
     return np.full(n_rows, -1, np.int32) if found is None else found.numbers
@@ -178,8 +177,8 @@ def _painted_faces(obj: bpy.types.Object) -> bpy.types.Mesh:
 
 
 def _split_at_seams(
-    mesh: bpy.types.Mesh, parts: IntArray
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    mesh: bpy.types.Mesh, parts: Int32Array
+) -> tuple[IntArray, IntArray]:
     """Return the old vertex of each new one, and the new vertex of each corner.
 
     In its part of lowest number a vertex keeps its own number. Its copies for other
@@ -197,7 +196,7 @@ def _split_at_seams(
 
 
 def _mesh_on(
-    mesh: bpy.types.Mesh, positions: FloatArray, corners: NDArray[np.int64]
+    mesh: bpy.types.Mesh, positions: Float32Array, corners: IntArray
 ) -> bpy.types.Mesh:
     """Return a mesh with the faces and the UV map of `mesh`, on other vertices."""
     split = bpy.data.meshes.new(mesh.name)
@@ -221,7 +220,7 @@ def _paint(mesh: bpy.types.Mesh, colors: NDArray[Any]) -> None:
     mesh.color_attributes.active_color = paint
 
 
-def _number(mesh: bpy.types.Mesh, parts: IntArray, name: str) -> None:
+def _number(mesh: bpy.types.Mesh, parts: Int32Array, name: str) -> None:
     """Write the number of the part (V,) of each vertex to an attribute."""
     write_attribute(mesh, name, "INT", "POINT", parts)
 
@@ -238,7 +237,7 @@ def _object_like(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Objec
     return bpy.data.objects.new(obj.name, mesh)
 
 
-def _material_colors(mesh: bpy.types.Mesh) -> FloatArray:
+def _material_colors(mesh: bpy.types.Mesh) -> Float32Array:
     """Return the viewport color of each material slot, (M, 4) with M at least 1."""
     colors = [
         tuple(material.diffuse_color) if material else UNPAINTED

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ....core.steps.arrays import Float32Array
 from ...bridge.read.shape import has_place
 from ..files.replacing import explaining, replacing
 from ..files.whole import check_whole
@@ -58,7 +58,7 @@ def save_picture(
 
 def _render(
     objects: Sequence[bpy.types.Object], engine: RenderEngine
-) -> list[NDArray[np.float32]]:
+) -> list[Float32Array]:
     """Return the view of `objects` from each side, (height, width, 4) in sRGB."""
     with picture_scene(objects) as scene, tempfile.TemporaryDirectory() as folder:
         set_up_engine(scene, engine)
@@ -75,7 +75,7 @@ def _render(
         return views
 
 
-def _read_png(path: Path) -> NDArray[np.float32]:
+def _read_png(path: Path) -> Float32Array:
     """Return the pixels of a PNG file as stored, (height, width, 4), bottom first."""
     image = bpy.data.images.load(str(path))
     try:
@@ -86,7 +86,7 @@ def _read_png(path: Path) -> NDArray[np.float32]:
         bpy.data.images.remove(image)
 
 
-def _write_png(path: Path, pixels: NDArray[np.float32]) -> None:
+def _write_png(path: Path, pixels: Float32Array) -> None:
     """Write RGBA pixels to a PNG file, on top of the background."""
     opacity = pixels[..., 3:]
     opaque = np.ones_like(pixels)

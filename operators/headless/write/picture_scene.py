@@ -9,10 +9,10 @@ from math import pi, radians
 import bpy
 import numpy as np
 from mathutils import Euler, Matrix, Vector
-from numpy.typing import NDArray
 
 from .... import core
 from ....core.geometry.frames import moved
+from ....core.steps.arrays import Float32Array
 from ...bridge.mesh.attributes import corner_vertices, read_attribute, write_ints
 from ...bridge.mesh.points import is_cloud, normals_of, positions_of
 from ...bridge.parts.materials import discard_unused, our_materials, own_materials
@@ -129,7 +129,7 @@ def _set_up_cycles(scene: bpy.types.Scene) -> None:
             node.inputs["Color"].default_value = (0.6, 0.6, 0.6, 1.0)
 
 
-def face_points(objects: Sequence[bpy.types.Object]) -> NDArray[np.float32]:
+def face_points(objects: Sequence[bpy.types.Object]) -> Float32Array:
     """Return the vertices of all faces in world space, (N, 3)."""
     found = []
     for obj in objects:
@@ -139,9 +139,7 @@ def face_points(objects: Sequence[bpy.types.Object]) -> NDArray[np.float32]:
     return np.concatenate(found)
 
 
-def aim_camera(
-    scene: bpy.types.Scene, turn: float, points: NDArray[np.float32]
-) -> None:
+def aim_camera(scene: bpy.types.Scene, turn: float, points: Float32Array) -> None:
     """Move the camera and the lamp of a picture's scene so that all points show.
 
     The outermost point decides at each edge of the frame. In camera space, with slope

@@ -4,25 +4,23 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ....core.geometry.frames import moved
+from ....core.steps.arrays import FloatArray, IntArray
 from ...bridge.mesh.known import triangles_of
 
-Float64Array = NDArray[np.float64]
-TriangleArray = NDArray[np.int64]
 # Digits that keep numbers of single and of double precision as they are.
 SINGLE, DOUBLE = 9, 17
 
 
-def matrix_of(obj: bpy.types.Object) -> Float64Array:
+def matrix_of(obj: bpy.types.Object) -> FloatArray:
     """Return the matrix from an object's space to the world, (4, 4)."""
     return np.array(obj.matrix_world, dtype=np.float64)
 
 
 def placed(
-    obj: bpy.types.Object, matrix: Float64Array
-) -> tuple[Float64Array, TriangleArray, TriangleArray]:
+    obj: bpy.types.Object, matrix: FloatArray
+) -> tuple[FloatArray, IntArray, IntArray]:
     """Return the mesh of an object, moved by a matrix.
 
     Double precision: a small object far away keeps its digits.
@@ -48,7 +46,7 @@ def placed(
     return moved(vertices, matrix), triangles, faces
 
 
-def turned_up(vertices: Float64Array, up: str) -> Float64Array:
+def turned_up(vertices: FloatArray, up: str) -> FloatArray:
     """Return vertices (V, 3) for a file in which `up` ('Y' or 'Z') points up."""
     if up == "Z":
         return vertices
@@ -56,7 +54,7 @@ def turned_up(vertices: Float64Array, up: str) -> Float64Array:
     return np.stack([x, z, -y], axis=1)
 
 
-def digits_of(numbers: Float64Array, n_digits: int = SINGLE) -> str:
+def digits_of(numbers: FloatArray, n_digits: int = SINGLE) -> str:
     """Return numbers as text; no digit of single precision is lost.
 
     Digits count from the first one that is not zero, so models of any size keep theirs.

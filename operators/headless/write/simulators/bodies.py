@@ -12,12 +12,13 @@ import numpy as np
 from .....core.geometry.frames import area_vectors
 from .....core.parameters.bodies import BodyParameters
 from .....core.solids.mass_properties import MassProperties
+from .....core.steps.arrays import FloatArray, IntArray
 from ....bridge.hulls.placed import Primitive, primitive_of
 from ....bridge.mesh.attributes import read_ints
 from ....bridge.parts.palette import UNPAINTED, srgb_of
 from ..names import hulls_by_owner, legal_names, names_of_hulls
 from ..obj_files import write_obj
-from ..placed_meshes import Float64Array, TriangleArray, matrix_of, placed
+from ..placed_meshes import matrix_of, placed
 from .masses import mass_notes, mass_of_objects
 
 # Simulators take a body of this name for the ground, which does not move.
@@ -43,8 +44,8 @@ class Geometry:
 
     name: str
     file: str
-    vertices: Float64Array
-    triangles: TriangleArray
+    vertices: FloatArray
+    triangles: IntArray
     primitive: Primitive | None = None
     color: tuple[float, ...] | None = None
 
@@ -64,7 +65,7 @@ class Body:
     """
 
     name: str
-    frame: Float64Array
+    frame: FloatArray
     mass: MassProperties
     collisions: tuple[Geometry, ...]
     visuals: tuple[Geometry, ...]
@@ -138,7 +139,7 @@ def write_meshes(folder: Path, bodies: Sequence[Body]) -> None:
                 write_obj(folder / geometry.file, [mesh])
 
 
-def _frame_of(obj: bpy.types.Object) -> Float64Array:
+def _frame_of(obj: bpy.types.Object) -> FloatArray:
     """Return the place and rotation of an object, without its scale, (4, 4)."""
     place, turn, _ = obj.matrix_world.decompose()
     frame = np.eye(4)
@@ -147,14 +148,14 @@ def _frame_of(obj: bpy.types.Object) -> Float64Array:
     return frame
 
 
-def _collision(hull: bpy.types.Object, name: str, frame: Float64Array) -> Geometry:
+def _collision(hull: bpy.types.Object, name: str, frame: FloatArray) -> Geometry:
     """Return a hull in the frame of its body."""
     matrix = np.linalg.inv(frame) @ matrix_of(hull)
     vertices, triangles, _ = placed(hull, matrix)
     return Geometry(name, "", vertices, triangles, primitive_of(hull, matrix))
 
 
-def _visuals(obj: bpy.types.Object, name: str, frame: Float64Array) -> list[Geometry]:
+def _visuals(obj: bpy.types.Object, name: str, frame: FloatArray) -> list[Geometry]:
     """Return the mesh of an object in the frame of its body, a piece for each color.
 
     Simulators take one color for a mesh; MuJoCo reads no materials of .obj files.
@@ -176,8 +177,8 @@ def _visuals(obj: bpy.types.Object, name: str, frame: Float64Array) -> list[Geom
 
 
 def _four_vertices(
-    vertices: Float64Array, triangles: TriangleArray
-) -> tuple[Float64Array, TriangleArray]:
+    vertices: FloatArray, triangles: IntArray
+) -> tuple[FloatArray, IntArray]:
     """Return a mesh with four vertices at least, which is what MuJoCo takes."""
     if len(vertices) > 3:
         return vertices, triangles

@@ -10,8 +10,9 @@ import numpy as np
 from ..... import core
 from .....core.geometry.mesh import TriangleMesh
 from .....core.solids.mass_properties import MassProperties, combined_mass
+from .....core.steps.arrays import FloatArray
 from ...current_file import some_of
-from ..placed_meshes import Float64Array, matrix_of, placed
+from ..placed_meshes import matrix_of, placed
 
 # MuJoCo refuses less, in kilograms, and in kilograms times squared meters.
 _LEAST = 1e-15
@@ -21,7 +22,7 @@ _HEAVIER = 1.1
 
 def mass_of_objects(
     owned: Mapping[bpy.types.Object, Sequence[bpy.types.Object]],
-    frame: Float64Array,
+    frame: FloatArray,
     density: float,
 ) -> tuple[MassProperties, list[str], list[str]]:
     """Return the mass properties of a body, and its objects that are no plain solids.

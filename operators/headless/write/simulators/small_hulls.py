@@ -8,9 +8,9 @@ import numpy as np
 
 from .....core.geometry.mesh import TriangleMesh
 from .....core.solids.volume import signed_volume
+from .....core.steps.arrays import FloatArray
 from .....core.steps.progress import run
 from ...current_file import some_of
-from ..placed_meshes import Float64Array
 from .bodies import Body, Geometry
 
 # MuJoCo refuses solids of less volume in cubic meters, and surfaces of less area in
@@ -55,12 +55,12 @@ def _is_refused(shape: Geometry, urdf: bool) -> bool:
     return (volume if urdf else area) < _ROUNDED * _LEAST
 
 
-def _in_mujoco(shape: Geometry) -> Float64Array:
+def _in_mujoco(shape: Geometry) -> FloatArray:
     """Return the vertices of a mesh as MuJoCo has them."""
     return shape.vertices.astype(np.float32).astype(np.float64)
 
 
-def _volume_and_area(vertices: Float64Array, shape: Geometry) -> tuple[float, float]:
+def _volume_and_area(vertices: FloatArray, shape: Geometry) -> tuple[float, float]:
     """Return the volume and the area of a mesh with other vertices."""
     rows = np.arange(len(shape.triangles))
     mesh = TriangleMesh(vertices - vertices.mean(axis=0), shape.triangles, rows)

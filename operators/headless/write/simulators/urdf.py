@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+from .....core.steps.arrays import FloatArray
 from ....bridge.hulls.placed import Primitive, angles_of
-from ..placed_meshes import DOUBLE, Float64Array, digits_of
+from ..placed_meshes import DOUBLE, digits_of
 from .bodies import GROUND, Body, Geometry
 
 
@@ -124,7 +125,7 @@ def _add_mesh(element: ET.Element, shape: Geometry, folder: str) -> None:
 
 
 def _add_origin(
-    element: ET.Element, place: Float64Array, rotation: Float64Array | None = None
+    element: ET.Element, place: FloatArray, rotation: FloatArray | None = None
 ) -> None:
     """Add a place and a rotation matrix; without one, axes are those of the link."""
     angles = np.zeros(3) if rotation is None else angles_of(rotation)
