@@ -11,6 +11,7 @@ from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps
 from .frames import with_normals
 from .graphs.face_graph import FaceGraph
+from .graphs.pieces import Pieces
 
 # Polygons, drawn evenly by area, that mirror images are matched to.
 _POLYGONS = 30_000
@@ -97,12 +98,12 @@ class Side:
         return numbers[labels]
 
 
-def find_sides(graph: FaceGraph, plane: Plane | None) -> Steps[tuple[Side, ...]]:
+def find_sides(surface: Pieces, plane: Plane | None) -> Steps[tuple[Side, ...]]:
     """Find the two sides of a plane, or none without a plane.
 
     Parameters
     ----------
-    graph : FaceGraph
+    surface : Pieces
     plane : Plane or None
 
     Returns
@@ -113,17 +114,19 @@ def find_sides(graph: FaceGraph, plane: Plane | None) -> Steps[tuple[Side, ...]]
         return ()
     sides = []
     for above in (True, False):
-        side, _ = yield from side_of(graph, plane, above)
+        side, _ = yield from side_of(surface, plane, above)
         sides.append(side)
     return tuple(sides)
 
 
-def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, float]]:
+def side_of(surface: Pieces, plane: Plane, above: bool) -> Steps[tuple[Side, float]]:
     """Match the polygons on one side of a plane to mirror images on the other side.
 
     Parameters
     ----------
-    graph : FaceGraph
+    surface : Pieces
+        All polygons in their order, then pieces of them: the mirror image of a center
+        may lie anywhere on a polygon.
     plane : Plane
     above : bool
         True for the side with heights of 0 and above, False for the other one.
@@ -133,46 +136,46 @@ def side_of(graph: FaceGraph, plane: Plane, above: bool) -> Steps[tuple[Side, fl
     Steps of (Side, float)
         The side, and the share of the polygons on the other side that have a match.
     """
-    heights = plane.heights(graph.centers) * (1 if above else -1)
-    sources, images = np.flatnonzero(heights >= 0), np.flatnonzero(heights < 0)
-    if len(sources) == 0 or len(images) == 0:
-        return Side(images[:0], sources[:0]), 0.0
-    tree = cKDTree(
-        with_normals(graph.centers[sources], graph.normals[sources], NORMAL_WEIGHT)
-    )
+    centers, normals, _, polygons = surface
+    heights = plane.heights(centers) * (1 if above else -1)
+    n_polygons = int(polygons.max()) + 1
+    rows = np.flatnonzero(heights[polygons] >= 0)
+    images = np.flatnonzero(heights[:n_polygons] < 0)
+    if len(rows) == 0 or len(images) == 0:
+        return Side(images[:0], images[:0]), 0.0
+    tree = cKDTree(with_normals(centers[rows], normals[rows], NORMAL_WEIGHT))
     nearest = []
     for start in range(0, len(images), _BLOCK):
         yield Progress("Symmetry", 0.0)
-        block = images[start : start + _BLOCK]
-        centers, normals = graph.centers[block], graph.normals[block]
-        nearest.append(sources[nearest_images(tree, centers, normals, plane)])
-    found = np.concatenate(nearest)
-    ways = plane.mirrored(graph.centers[images]) - graph.centers[found]
+        some = images[start : start + _BLOCK]
+        nearest.append(nearest_images(tree, centers[some], normals[some], plane))
+    found = rows[np.concatenate(nearest)]
+    ways = plane.mirrored(centers[images]) - centers[found]
     near = np.linalg.norm(ways, axis=1) <= _IMAGED_WITHIN
-    return Side(images[near], found[near]), float(near.mean())
+    return Side(images[near], polygons[found[near]]), float(near.mean())
 
 
-def find_plane(graph: FaceGraph) -> Steps[Plane | None]:
-    """Return the plane of best mirror symmetry of a graph, None if there is none."""
+def find_plane(surface: Pieces) -> Steps[Plane | None]:
+    """Return the plane of best mirror symmetry, None if there is none."""
     # Drawn evenly by area, without randomness.
-    shares = np.cumsum(graph.areas) / graph.areas.sum()
+    shares = np.cumsum(surface.areas) / surface.areas.sum()
     everywhere, asked = (
         np.searchsorted(shares, (np.arange(n) + 0.5) / n).clip(max=len(shares) - 1)
         for n in (_POLYGONS, _ASKED)
     )
     rows = np.unique(everywhere)
     tree = cKDTree(
-        with_normals(graph.centers[rows], graph.normals[rows], NORMAL_WEIGHT)
+        with_normals(surface.centers[rows], surface.normals[rows], NORMAL_WEIGHT)
     )
     best, most = None, _ENOUGH
-    center = graph.centers[everywhere].mean(axis=0)
-    starts, normals = graph.centers[asked], graph.normals[asked]
-    for normal in likely_normals(graph.centers[everywhere]):
+    center = surface.centers[everywhere].mean(axis=0)
+    starts, normals = surface.centers[asked], surface.normals[asked]
+    for normal in likely_normals(surface.centers[everywhere]):
         plane = Plane(normal, float(center @ normal))
         for _ in range(_ROUNDS):
             yield Progress("Symmetry", 0.0)
             nearest = nearest_images(tree, starts, normals, plane)
-            ends = graph.centers[rows[nearest]]
+            ends = surface.centers[rows[nearest]]
             distances = np.linalg.norm(plane.mirrored(starts) - ends, axis=1)
             fit = float((distances <= _NEAR).mean())
             if fit > most:

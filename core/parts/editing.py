@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import DecompositionError
 from ..geometry.graphs.face_graph import FaceGraph
+from ..geometry.graphs.pieces import whole_polygons
 from ..geometry.symmetry import Plane, side_of
 from ..steps.arrays import BoolArray, IntArray
 from ..steps.progress import Steps
@@ -94,7 +95,7 @@ def mirror(
         If the shape is not symmetric.
     """
     plane = Plane(np.array([1.0, 0.0, 0.0]), middle)
-    side, share = yield from side_of(graph, plane, to_negative)
+    side, share = yield from side_of(whole_polygons(graph), plane, to_negative)
     if share < _SYMMETRIC:
         raise DecompositionError(
             "The shape is not symmetric: most faces have no mirror image across X; move"

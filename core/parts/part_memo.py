@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..clusters.embedding import coordinates_for, embed
 from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.graphs.patches import Patches, find_patches
+from ..geometry.graphs.pieces import whole_polygons, with_small_pieces
 from ..geometry.symmetry import Plane, Side, find_plane, find_sides
 from ..geometry.transfer import NearestSamples, Transfer, carry, spacing_of
 from ..parameters.parts import Parameters
@@ -236,6 +237,11 @@ class PartMemo:
         Steps of tuple of Side
         """
         graph = (yield from self.transfer_in_steps()).graph
+        surface, shape = whole_polygons(graph), self.visibility.shape
+        is_coarse = shape.plane is None and graph.n_polygons == shape.n_nodes
+        if is_coarse and not shape.is_cloud:
+            surface = yield from with_small_pieces(graph, shape.targets)
         if self._plane is None:
-            self._plane = ((yield from find_plane(graph)),)
-        return (yield from find_sides(graph, *self._plane))
+            plane = yield from find_plane(whole_polygons(graph))
+            self._plane = (plane or (yield from find_plane(surface)),)
+        return (yield from find_sides(surface, *self._plane))

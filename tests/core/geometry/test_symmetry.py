@@ -5,6 +5,7 @@ import pytest
 import shapes
 from computed import decompose, graph_of, normalized
 from scipy.spatial.transform import Rotation
+from weak_convex_decomposition.core.geometry.graphs.pieces import whole_polygons
 from weak_convex_decomposition.core.geometry.mesh import TriangleMesh
 from weak_convex_decomposition.core.geometry.symmetry import (
     Plane,
@@ -41,6 +42,7 @@ def turned(mesh):
 
 def sides_of(surface):
     """Return the two sides of a shape's mirror plane."""
+    surface = whole_polygons(surface)
     return run(find_sides(surface, run(find_plane(surface))))
 
 
@@ -61,10 +63,19 @@ def test_a_shape_without_a_mirror_plane_has_no_sides():
     assert sides_of(graph_of(normalized(tripod()))) == ()
 
 
+def test_large_faces_need_no_faces_for_mirror_images():
+    mesh = stand()  # diagonals of all squares run the same way
+    mesh = TriangleMesh(mesh.vertices, mesh.triangles, np.arange(len(mesh.triangles)))
+    assert sides_of(graph_of(normalized(mesh))) == ()
+    parameters = Parameters(samples=300, containers="HOLLOW")
+    assert len(decompose(mesh, parameters).pairs) == 1
+
+
 def test_labels_are_copied_and_parts_across_the_plane_go_on():
     surface = graph_of(stand())
     x, y = surface.centers[:, 0], surface.centers[:, 1]
-    side, share = run(side_of(surface, Plane(np.array([1.0, 0, 0]), 4.5), True))
+    plane = Plane(np.array([1.0, 0, 0]), 4.5)
+    side, share = run(side_of(whole_polygons(surface), plane, True))
     assert share == 1.0
     labels = np.where((y < 4) & (x > 4.5), 1, 0)
     labels[(y > 5) & (x < 4)] = 2  # on the side that is written over
