@@ -71,6 +71,12 @@ class FlatMesh:
         bends = self._concave_angles()[np.stack(ends)].min(axis=0)
         return replace(graph, outline=outline.astype(np.float64), bends=bends)
 
+    @property
+    def outline(self) -> FloatArray:
+        """Both ends of each edge of the outline, (E, 2, 3)."""
+        a, b, c, _, _, d = self.walls.vertices.reshape(-1, 6, 3).swapaxes(0, 1)
+        return np.stack([a + d, b + c], axis=1) / 2
+
     def _concave_angles(self) -> FloatArray:
         """Return by how much the outline turns inwards at each vertex, in radians."""
         corners = self.faces.welded_triangles

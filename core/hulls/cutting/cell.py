@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ...geometry.cutting.segments import segments_below
-from ...geometry.frames import heights_above
+from ...geometry.frames import coordinates_along, heights_above, principal_axes
 from ...steps.arrays import BoolArray, FloatArray
 from ..fitting import Fit
 from ..piece import Piece
@@ -59,6 +59,20 @@ class Cell(Piece):
         return float(-heights[:, kept].max(axis=1).min())
 
     @cached_property
+    def corners(self) -> FloatArray:
+        """Corners of the triangles that it is made of, (T, 3, 3): of a sheet, its own.
+
+        Others that meet its plane have their edges in it.
+        """
+        corners = self.solid.corners
+        if not self.is_sheet:
+            return corners
+        axis, middle = principal_axes(self.points)[:1], self.points.mean(axis=0)
+        heights = coordinates_along(axis, corners - middle)[..., 0]
+        own: FloatArray = corners[(np.abs(heights) < _AT_FACE).all(axis=1)]
+        return own
+
+    @cached_property
     def lines(self) -> tuple[FloatArray, FloatArray]:
         """The lines in which two of the planes meet, see `lines_of`."""
         return lines_of(self.planes)
@@ -101,7 +115,7 @@ def cut(cell: Cell, plane: FloatArray) -> tuple[Cell, Cell]:
     below, above : Cell
         Either may be empty.
     """
-    section = cross_section(cell.solid, plane)
+    section = cross_section(cell.corners, plane)
     face = section.spread(cell.points)
     face = face[(heights_above(cell.planes, face) <= 0).all(axis=1)]
     rim = segments_below(cell.planes, section.rim).reshape(-1, 3)

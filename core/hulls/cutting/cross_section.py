@@ -8,7 +8,6 @@ import numpy as np
 
 from ...geometry.frames import coordinates_along, cross, frames, heights_above
 from ...steps.arrays import BoolArray, FloatArray
-from ..solid import Solid
 
 # Distance between the sample points of a cross-section; the longest side is 2.
 _GRAIN = 0.04
@@ -116,12 +115,13 @@ class Section:
         return (windings < 0) & (turns.sum(axis=1) == 0)
 
 
-def cross_section(solid: Solid, plane: FloatArray) -> Section:
-    """Return the cross-section of a solid in a plane.
+def cross_section(corners: FloatArray, plane: FloatArray) -> Section:
+    """Return the cross-section of a shape in a plane.
 
     Parameters
     ----------
-    solid : Solid
+    corners : (T, 3, 3) float
+        Corners of its triangles, counter-clockwise seen from outside.
     plane : (4,) float
         Unit normal n and offset d: n · x + d = 0 on the plane.
 
@@ -130,7 +130,7 @@ def cross_section(solid: Solid, plane: FloatArray) -> Section:
     Section
     """
     axes = np.concatenate(frames(plane[None, :3]))
-    rim = contour(solid.corners, plane)
+    rim = contour(corners, plane)
     return Section(plane, axes, rim, coordinates_along(axes, rim))
 
 

@@ -47,8 +47,8 @@ _FLAT = 1e-6
 def ranked_planes(cell: Cell) -> Steps[tuple[FloatArray, bool]]:
     """Return planes through a piece, ranked by the volume that both hulls add.
 
-    First, evenly spaced planes are tried along each direction. Then others around the
-    best of each direction, and next to flat faces: of a block next to all large ones.
+    Evenly spaced planes are tried along each direction. Then others around the best of
+    these, and next to flat faces: of a block next to all large ones.
 
     Parameters
     ----------
@@ -74,9 +74,10 @@ def ranked_planes(cell: Cell) -> Steps[tuple[FloatArray, bool]]:
         best = offsets[np.round(first, _DIGITS).argmin()]
         yield Progress("Cutting", turn / len(directions))
         step = (high - low) / (_PLANES + 1)
-        levels = _levels(corners @ direction)
+        levels = _levels(at_corners := np.sort(corners @ direction))
         near = levels[np.abs(levels.mean(axis=1) - best) < step][:_MOST_LEVELS]
-        flat = _flat_levels(levels if is_block else near, heights)
+        on_faces = at_corners if cell.is_sheet else heights
+        flat = _flat_levels(levels if is_block else near, on_faces)
         beside = np.concatenate([near, flat]) + _BESIDE
         others = np.union1d(_off_faces(best + _BETWEEN * step, heights), beside)
         second = ordered.added_volumes(heights, chords, others)
@@ -90,8 +91,7 @@ def ranked_planes(cell: Cell) -> Steps[tuple[FloatArray, bool]]:
     if cell.fit.parameters.shape == "CYLINDER":  # it may well be flat
         gains = [np.zeros(len(each)) for each in gains]
     volumes = np.concatenate(added)
-    shortened = np.round(np.concatenate(gains), _DIGITS)
-    order = np.lexsort((-shortened, np.round(volumes, _DIGITS)))
+    order = np.lexsort(np.round([-np.concatenate(gains), volumes], _DIGITS))
     ranked = np.concatenate(planes)[order[np.isfinite(volumes)[order]]]
     return settled(ranked), is_block
 
@@ -191,12 +191,11 @@ def _off_faces(offsets: FloatArray, heights: FloatArray) -> FloatArray:
     return np.sort(np.concatenate([offsets[clear], beside[~clear].ravel()]))
 
 
-def _levels(heights: FloatArray) -> FloatArray:
+def _levels(ascending: FloatArray) -> FloatArray:
     """Return the lowest and highest height of levels, such as flat faces, (L, 2).
 
     The points of a level agree up to rounding: a turned face is not quite even.
     """
-    ascending = np.sort(heights)
     _, starts, counts = np.unique(
         np.round(ascending, _LEVEL_DIGITS), return_index=True, return_counts=True
     )
@@ -208,7 +207,8 @@ def _levels(heights: FloatArray) -> FloatArray:
 def _flat_levels(levels: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the levels at which the largest flat faces lie, at most `_MOST_LEVELS`.
 
-    `heights` are those of points spread over the surface, ascending.
+    `heights` are those of points spread over the surface, or of the corners of a sheet,
+    ascending.
     """
     ends = np.searchsorted(heights, levels + _BESIDE)
     counts = np.diff(ends, axis=1)[:, 0]

@@ -93,7 +93,7 @@ def test_contours_have_the_inside_on_their_left():
 
 
 def test_rims_end_at_other_planes():
-    section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3)), PLANE)
+    section = cross_section(solid_of(shapes.box((-1,) * 3, (1,) * 3)).corners, PLANE)
     planes = np.array([[1.0, 0, 0, -0.25], [0, 1, 0, -5]])
     rim = segments_below(planes, section.rim)
     assert rim.min(axis=(0, 1)) == pytest.approx([-1, -1, 0.5])
@@ -105,7 +105,7 @@ def test_rims_end_at_other_planes():
 def test_cross_sections_leave_out_what_is_hollow():
     solid = solid_of(shapes.hollow_sphere(0.5, 3))
     plane = np.array([0.6, 0.0, 0.8, 0.0])
-    points = cross_section(solid, plane).spread(solid.vertices)
+    points = cross_section(solid.corners, plane).spread(solid.vertices)
     radii = np.linalg.norm(points, axis=1)
     assert np.abs(points @ plane[:3]).max() < 1e-12
     assert radii.max() < 1
@@ -118,7 +118,7 @@ def test_open_shapes_have_no_cross_section():
     low, high = sheet.vertices.min(axis=0), sheet.vertices.max(axis=0)
     normal = np.eye(3)[np.ptp(sheet.vertices, axis=0).argmax()]
     plane = np.r_[normal, -normal @ (low + high) / 2]
-    assert len(cross_section(sheet, plane).spread(sheet.vertices)) == 0
+    assert len(cross_section(sheet.corners, plane).spread(sheet.vertices)) == 0
 
 
 def test_domes_seen_from_inside_have_no_cross_section():
@@ -127,15 +127,14 @@ def test_domes_seen_from_inside_have_no_cross_section():
     is_upper = (ball.vertices[ball.triangles][..., 2] >= -0.01).all(axis=1)
     dome = shapes.mesh_of(ball.vertices, ball.triangles[is_upper])
     for mesh, has_inside in ((dome, True), (changes.inside_out(dome), False)):
-        section = cross_section(solid_of(mesh), PLANE)
+        section = cross_section(solid_of(mesh).corners, PLANE)
         assert bool(len(section.spread(mesh.vertices))) == has_inside
         assert section.holds(np.array([[0.1, 0.1, 0.5]])) == has_inside
 
 
 def test_points_inside_a_cross_section():
-    section = cross_section(
-        solid_of(shapes.hollow_sphere(0.5, 3)), PLANE * [1, 1, 1, 0]
-    )
+    solid = solid_of(shapes.hollow_sphere(0.5, 3))
+    section = cross_section(solid.corners, PLANE * [1, 1, 1, 0])
     turns = np.linspace(0, 6, 20)
     for radius, inside in ((0.3, False), (0.6, True), (0.9, True), (1.1, False)):
         circle = radius * np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1)
