@@ -238,10 +238,11 @@ class PartMemo:
         """
         graph = (yield from self.transfer_in_steps()).graph
         surface, shape = whole_polygons(graph), self.visibility.shape
-        is_coarse = shape.plane is None and graph.n_polygons == shape.n_nodes
-        if is_coarse and not shape.is_cloud:
-            surface = yield from with_small_pieces(graph, shape.targets)
         if self._plane is None:
-            plane = yield from find_plane(whole_polygons(graph))
-            self._plane = (plane or (yield from find_plane(surface)),)
+            plane = yield from find_plane(surface)
+            is_whole_mesh = shape.plane is None and graph.n_polygons == shape.n_nodes
+            if plane is None and is_whole_mesh and not shape.is_cloud:
+                surface = yield from with_small_pieces(graph, shape.targets)
+                plane = yield from find_plane(surface)
+            self._plane = (plane,)
         return (yield from find_sides(surface, *self._plane))
