@@ -150,14 +150,23 @@ def distinct_directions(
         In the order of the first normal of each. Largest coordinates are positive.
     counts : (D,) int
     """
-    rounded = np.round(normals, digits)  # first, so that rounding decides no signs
-    largest = np.abs(rounded).argmax(axis=1)[:, None]
-    signs = np.sign(np.take_along_axis(rounded, largest, axis=1))
+    found = one_way(normals, digits)
     _, rows, counts = np.unique(
-        signs * rounded, axis=0, return_index=True, return_counts=True
+        np.round(found, digits), axis=0, return_index=True, return_counts=True
     )
     order = np.argsort(rows)
-    return (signs * normals)[rows[order]], counts[order]
+    return found[rows[order]], counts[order]
+
+
+def one_way(normals: FloatArray, digits: int) -> FloatArray:
+    """Return normals (N, 3), turned so that the largest coordinate is positive.
+
+    It is the first one that is largest when rounded to so many decimal digits: so
+    rounding decides no signs.
+    """
+    rounded = np.round(normals, digits)
+    largest = np.abs(rounded).argmax(axis=1)[:, None]
+    return np.sign(np.take_along_axis(rounded, largest, axis=1)) * normals
 
 
 def principal_axes(points: FloatArray) -> FloatArray:

@@ -242,7 +242,8 @@ class PartMemo:
             plane = yield from find_plane(surface)
             is_whole_mesh = shape.plane is None and graph.n_polygons == shape.n_nodes
             if plane is None and is_whole_mesh and not shape.is_cloud:
-                surface = yield from with_small_pieces(graph, shape.targets)
-                plane = yield from find_plane(surface)
+                small = yield from with_small_pieces(graph, shape.targets)
+                if small is not None:
+                    surface, plane = small, (yield from find_plane(small))
             self._plane = (plane,)
         return (yield from find_sides(surface, *self._plane))

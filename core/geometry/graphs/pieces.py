@@ -37,8 +37,8 @@ def whole_polygons(graph: FaceGraph) -> Pieces:
     return Pieces(graph.centers, graph.normals, graph.areas, numbers)
 
 
-def with_small_pieces(graph: FaceGraph, mesh: TriangleMesh) -> Steps[Pieces]:
-    """Return the polygons of a graph and, if some are large, small pieces of all.
+def with_small_pieces(graph: FaceGraph, mesh: TriangleMesh) -> Steps[Pieces | None]:
+    """Return the polygons of a graph and small pieces of all, None if none is large.
 
     Parameters
     ----------
@@ -48,14 +48,14 @@ def with_small_pieces(graph: FaceGraph, mesh: TriangleMesh) -> Steps[Pieces]:
 
     Returns
     -------
-    Steps of Pieces
+    Steps of Pieces or None
     """
-    whole, fine = whole_polygons(graph), refined(mesh)
+    fine = refined(mesh)
     if len(fine.faces) == mesh.n_polygons:
-        return whole
+        return None
     kept = np.flatnonzero(fine.faces < graph.n_polygons)
     steps = mapped(face_graph(fine.mesh), lambda _: Progress("Symmetry", 0.0))
-    pieces = (yield from steps).part(kept)
+    whole, pieces = whole_polygons(graph), (yield from steps).part(kept)
     return Pieces(
         np.concatenate([whole.centers, pieces.centers]),
         np.concatenate([whole.normals, pieces.normals]),

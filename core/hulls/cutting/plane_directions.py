@@ -27,7 +27,7 @@ _BLOCK, _SIDES, _SIDES_OF_SHEET = 0.9, 3, 2
 _LARGE_FACE = 0.05
 # Decimal digits to which the normals of parallel faces agree.
 _NORMAL_DIGITS = 3
-# Number of parts of equal length of an outline.
+# An outline is counted in so many parts: rounding does not tell equal sides apart.
 _PARTS = 1000
 
 

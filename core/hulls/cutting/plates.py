@@ -6,11 +6,18 @@ Cuts find them late: while two walls are left, their hull strays as far as that 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from ...geometry.frames import area_vectors, coordinates_along, settled, unit
+from ...geometry.frames import (
+    area_vectors,
+    coordinates_along,
+    one_way,
+    settled,
+    unit,
+)
 from ...steps.arrays import BoolArray, FloatArray
 from ...steps.progress import Steps, within
 from ..piece import Piece
@@ -70,10 +77,7 @@ def _plates_of(cell: Cell, most: int) -> list[Cell]:
 
 def _planes_of(corners: FloatArray) -> FloatArray:
     """Return the planes of triangles, (T, 4): the same one of both sides."""
-    normals = unit(area_vectors(corners))
-    rounded = np.round(normals, _DIGITS)
-    largest = np.abs(rounded).argmax(axis=1)[:, None]
-    normals = normals * np.sign(np.take_along_axis(rounded, largest, axis=1))
+    normals = one_way(unit(area_vectors(corners)), _DIGITS)
     offsets = np.einsum("td,td->t", normals, corners.mean(axis=1))
     return settled(np.column_stack([normals, -offsets]))
 
@@ -85,16 +89,13 @@ def _plate(cell: Cell, chosen: BoolArray, planes: FloatArray) -> Cell:
     heights = coordinates_along(normal[None], points)
     low, high = float(heights.min()) - _BESIDE, float(heights.max()) + _BESIDE
     samples = chosen[cell.triangles]
-    return Cell(
-        points,
-        cell.boundary[samples],
-        cell.triangles[samples],
-        0.0,
-        cell.solid,
-        cell.fit,
-        cell.witnesses,
-        cell.part,
-        cell.chords[:0],
-        cell.volumes[:0],
-        np.array([[*normal, -high], [*-normal, low]]),
+    return replace(
+        cell,
+        points=points,
+        boundary=cell.boundary[samples],
+        triangles=cell.triangles[samples],
+        volume=0.0,
+        chords=cell.chords[:0],
+        volumes=cell.volumes[:0],
+        planes=np.array([[*normal, -high], [*-normal, low]]),
     )
