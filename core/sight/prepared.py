@@ -58,6 +58,8 @@ class PreparedShape:
         Unit normal of the plane of a flat mesh, None for other shapes.
     convex : bool
         Whether it is the whole surface of a convex solid.
+    shells : (T,) int or None
+        Shell of each triangle of `targets`; None of flat meshes and clouds.
     """
 
     center: FloatArray
@@ -72,6 +74,7 @@ class PreparedShape:
     normals: FloatArray | None = None
     plane: FloatArray | None = None
     convex: bool = False
+    shells: IntArray | None = None
 
     @property
     def graph(self) -> FaceGraph:
@@ -94,16 +97,12 @@ class PreparedShape:
         return np.flatnonzero(self.targets.polygons < self.n_nodes)
 
     def labels_of_nodes(self, labels: IntArray) -> IntArray:
-        """Return the label of each node.
+        """Return the label of each node, (`n_nodes`,).
 
         Parameters
         ----------
         labels : (P,) int
             Label of each polygon, or of each point of the cloud.
-
-        Returns
-        -------
-        labels : (`n_nodes`,) int
         """
         found = np.zeros(self.n_nodes, dtype=np.int64)
         found[self.nodes] = labels
@@ -210,6 +209,7 @@ def _prepare_mesh(
         solid=bare.without_walls(whole),
         notes=notes + bare.notes,
         convex=convex,
+        shells=shells.of_triangle,
     )
 
 

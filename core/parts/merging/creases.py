@@ -12,7 +12,6 @@ from functools import cached_property
 
 import numpy as np
 
-from ...geometry.graphs.components import components_at_once
 from ...geometry.graphs.face_graph import FaceGraph
 from ...geometry.labels import sums_by_label
 from ...steps.arrays import BoolArray, FloatArray, IntArray
@@ -20,7 +19,7 @@ from ...steps.progress import run
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .flush import flush_seams
-from .pieces import connected_parts
+from .pieces import connected_parts, pieces_between
 from .shells import whole_shells
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
@@ -120,11 +119,26 @@ class CreaseParts:
             found.append(self._with_loops(parts, high))
             found.append(np.zeros_like(parts))
         if low < high and partitioner.visibility.shows_all_of_solid:
-            shells = whole_shells(partitioner, parts, high)
+            shells = whole_shells(partitioner, high)
             found += [] if shells is None else [shells]
         rivals = [each for each in found if low <= count_parts(each) <= high]
         best = max([parts, *rivals], key=self._worth) if rivals else parts
-        return self._without_idle_seams(best, low) if low < high else best
+        best = self._without_idle_seams(best, low) if low < high else best
+        return parts if best is parts else self._evened(best)
+
+    def _evened(self, parts: IntArray) -> IntArray:
+        """Return symmetric parts, (P,), or the same ones if these are clearly worse.
+
+        Psi is counted from likely pairs, as wherever parts are made symmetric.
+        """
+        partitioner = self._partitioner
+        if not partitioner.by_psi:
+            return parts
+        even = run(partitioner.symmetric(parts, [count_parts(parts)]))
+        rated = [(each.psi - self._price_of(each.parts), each.parts) for each in even]
+        rating, best = max(rated, key=lambda each: each[0], default=(-np.inf, parts))
+        least = partitioner.psi(parts) - self._price_of(parts)
+        return best if rating >= least - partitioner.sampling_error else parts
 
     def _without_idle_seams(self, parts: IntArray, low: int) -> IntArray:
         """Return the parts, (P,), merged where a seam gains a small share of its cost.
@@ -154,9 +168,12 @@ class CreaseParts:
 
     def _worth(self, parts: IntArray) -> float:
         """Return psi of parts (P,), less what their seams cost."""
+        return self._partitioner.psi_seen(parts) - self._price_of(parts)
+
+    def _price_of(self, parts: IntArray) -> float:
+        """Return what the seams of parts (P,) cost."""
         one, other = parts[self._partitioner.graph.neighbors].T
-        cost = float(self._costs[one != other].sum())
-        return self._partitioner.psi_seen(parts) - cost
+        return float(self._costs[one != other].sum())
 
     @cached_property
     def _costs(self) -> FloatArray:
@@ -213,24 +230,3 @@ def _joined(graph: FaceGraph, pieces: IntArray, small: BoolArray) -> IntArray:
     areas = np.where(small[pieces], 0.0, graph.areas)
     least = areas[areas > 0].min(initial=np.inf)
     return connected_parts(replace(graph, areas=areas), pieces, least)
-
-
-def pieces_between(graph: FaceGraph, seams: BoolArray) -> IntArray:
-    """Return the pieces that are left when a surface is cut along some edges.
-
-    A crease that ends somewhere on the surface divides nothing. Shells that touch are
-    one piece.
-
-    Parameters
-    ----------
-    graph : FaceGraph
-    seams : (E,) bool
-        Which shared edges are cut.
-
-    Returns
-    -------
-    (P,) int
-        Piece of each polygon, in 0…K − 1.
-    """
-    ties = np.concatenate([graph.neighbors[~seams], graph.links])
-    return components_at_once(ties, graph.n_polygons)

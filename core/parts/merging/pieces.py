@@ -93,6 +93,27 @@ def _joins_of_small(
     return joins
 
 
+def pieces_between(graph: FaceGraph, seams: BoolArray) -> IntArray:
+    """Return the pieces that are left when a surface is cut along some edges.
+
+    A crease that ends somewhere on the surface divides nothing. Shells that touch are
+    one piece.
+
+    Parameters
+    ----------
+    graph : FaceGraph
+    seams : (E,) bool
+        Which shared edges are cut.
+
+    Returns
+    -------
+    (P,) int
+        Piece of each polygon, in 0…K − 1.
+    """
+    ties = np.concatenate([graph.neighbors[~seams], graph.links])
+    return components_at_once(ties, graph.n_polygons)
+
+
 def merge_to(
     n_parts: int,
     tally: PairTally,

@@ -1,50 +1,52 @@
 """The shells of a shape as its parts, such as the boards of a shelf.
 
-Likely pairs and the wish for symmetric parts may divide such a board, or take one side
-of a rod as a part. People seldom do: it was made as one thing, and runs through others.
+Where one shell enters another there is no edge, so that seams have no crease to run in.
+Lines of sight alone cut a patch off one of them there, or one side of a rod. People
+seldom do: each was made as one thing.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from ...geometry.graphs.components import components_at_once
+import numpy as np
+
 from ...steps.arrays import IntArray
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .pieces import connected_parts, merge_to
 
+# Shells with fewer samples are not told from those beside them by what they see.
+_FEW_SAMPLES = 10
 
-def whole_shells(
-    partitioner: Partitioner, parts: IntArray, most: int
-) -> IntArray | None:
-    """Return the shells of a shape, if psi gains by none of the seams within them.
+
+def whole_shells(partitioner: Partitioner, most: int) -> IntArray | None:
+    """Return the shells of a shape, those merged by whose merging psi gains.
 
     Parameters
     ----------
     partitioner : Partitioner
-    parts : (P,) int
-        Part of each node; seams are tried where these meet.
     most : int
         Largest number of parts.
 
     Returns
     -------
     (P,) int or None
-        Shell of each node; small ones join the nearest. None if there is one shell, or
-        too many, or if one is better divided by psi, counted from lines of sight alone.
+        Part of each node: one shell or several; small shells join the nearest. None if
+        there is one shell. Psi is counted from lines of sight alone.
     """
-    linked = partitioner.graph
-    graph = replace(linked, links=linked.links[:0])
-    shells = components_at_once(graph.neighbors, graph.n_polygons)
-    if count_parts(shells) > 1:
-        shells = connected_parts(linked, shells, partitioner.smallest_area)
-    n_shells = count_parts(shells)
-    if not 1 < n_shells <= most:
+    shape, graph = partitioner.visibility.shape, partitioner.graph
+    if shape.shells is None or not shape.shells.any():
         return None
-    finer = parts * n_shells + shells
-    finer = connected_parts(linked, finer, partitioner.smallest_area)
-    touching = graph.borders(finer, count_parts(finer)).toarray() > 0
-    tally, alpha = partitioner.tally_seen(finer), partitioner.parameters.alpha
-    merged = merge_to(most, tally, touching, alpha, further=True)
-    return shells if count_parts(merged) == n_shells else None
+    # Nodes that no ray meets, as doubled faces, have no shell. They join any neighbor.
+    unknown = count_parts(shape.shells)
+    shells = np.full(shape.n_nodes, unknown)
+    shells[shape.targets.polygons] = shape.shells
+    shells = partitioner.memo.on_patches(shells)
+    areas = np.where(shells == unknown, 0.0, graph.areas)
+    told = _FEW_SAMPLES / len(partitioner.visibility.samples) * areas.sum()
+    least = max(partitioner.smallest_area, told)
+    shells = connected_parts(replace(graph, areas=areas), shells, least)
+    touching = graph.borders(shells, count_parts(shells)).toarray()
+    tally, alpha = partitioner.tally_seen(shells), partitioner.parameters.alpha
+    return merge_to(most, tally, touching, alpha, further=True)[shells]

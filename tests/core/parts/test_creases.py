@@ -7,8 +7,8 @@ import pytest
 import shapes
 from computed import decompose, decomposer, graph_of, part_count_search, see
 from weak_convex_decomposition.core.parameters.parts import Parameters
-from weak_convex_decomposition.core.parts.merging.creases import pieces_between
 from weak_convex_decomposition.core.parts.merging.flush import flush_seams
+from weak_convex_decomposition.core.parts.merging.pieces import pieces_between
 
 
 def pins():

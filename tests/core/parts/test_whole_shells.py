@@ -33,6 +33,20 @@ def shelf():
     return bars(*sides, *boards, divisions=5)
 
 
+def mushroom():
+    """Return a stem whose end is within the cap."""
+    stem = shapes.turned((0, 0.35, 0.25, 0.28, 0), (0, 0, 0.5, 1.2, 1.2), 24)
+    radii, heights = (0, 0.4, 1, 0.9, 0.5, 0), (1, 0.95, 0.85, 1.3, 1.65, 1.75)
+    return shapes.joined(stem, shapes.turned(radii, heights, 24))
+
+
+def pot():
+    """Return a ball with a spout, and a low lid through which the ball is seen."""
+    lid = shapes.turned((0, 0.5, 0.45, 0), (0.85, 0.87, 1.05, 1.15), 24)
+    spout = shapes.box((0.6, -0.15, -0.15), (2.2, 0.15, 0.15), 6)
+    return shapes.joined(shapes.sphere(3), lid, spout)
+
+
 @cache
 def found_in(make):
     """Return a function from values of parameters to the decomposition of a mesh."""
@@ -54,6 +68,27 @@ def assert_same_parts(labels, others):
 @pytest.mark.parametrize("make", [ladder, shelf])
 def test_boards_and_rungs_are_parts(make, seed):
     assert_same_parts(found_in(make)(seed=seed).labels, shells_of(make()))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("make", [mushroom, pot])
+def test_where_a_shell_enters_another_no_patch_is_cut_off(make, seed):
+    labels, shells = found_in(make)(samples=600, seed=seed).labels, shells_of(make())
+    assert len(set(labels)) == 2
+    assert len(set(zip(labels, shells, strict=True))) == len(set(shells))
+
+
+@pytest.mark.parametrize(
+    ("apart", "width", "end"), [(0.35, 0.3, 2.5), (0.3, 0.25, 2.7)]
+)
+def test_both_legs_that_end_within_a_body_are_parts_or_none_is(apart, width, end):
+    legs = [
+        ((x - width, x + width), (-width, width), (0, end)) for x in (-apart, apart)
+    ]
+    edge = 2 * apart
+    mesh = bars(((-edge, edge), (-0.4, 0.4), (1.5, 3.5)), *legs, divisions=6)
+    found = decompose(mesh, Parameters(samples=600))
+    assert (found.n_parts, len(found.pairs)) == (3, 1)
 
 
 def test_as_many_parts_as_shells_are_the_shells():
