@@ -106,6 +106,7 @@ class PartCountSearch:
         psi_by_k, best_k = self.rated(tried)
         seams = yield from within(self.seams.cut(tried[best_k].parts), 0.9, 1.0)
         low = self.low if self.low > Parameters.min_parts else 1
+        yield from within(self.creases.graph_in_steps(), 1.0, 1.0)
         parts = self.creases.better(seams.parts, low, self.most)
         if parts is not seams.parts:
             seams, best_k = Seams(parts), count_parts(parts)

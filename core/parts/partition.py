@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from ..clusters.kmeans import cluster
 from ..clusters.moves import raise_psi
+from ..geometry.graphs.face_graph import FaceGraph
 from ..geometry.symmetry import Side
 from ..parameters.parts import Parameters
 from ..steps.arrays import FloatArray, IntArray
@@ -232,16 +232,17 @@ class Partitioner(PartPsi):
         self,
         parts: IntArray,
         n_parts: int,
-        lengths: FloatArray | None = None,
+        graph: FaceGraph | None = None,
         price: float = 0.0,
         *,
         further: bool = False,
     ) -> IntArray:
         """Merge parts (P,) where psi loses least, until `n_parts` are left.
 
-        Borders may have a price, and other `lengths` (E,) along edges; see `merge_to`.
+        Borders may have a price, and be those of another graph; see `merge_to`. Parts
+        between which a seam saves more than it costs stay apart.
         """
-        graph = self.graph if lengths is None else replace(self.graph, lengths=lengths)
-        borders = graph.borders(parts, count_parts(parts)).toarray()
+        borders = (graph or self.graph).borders(parts, count_parts(parts)).toarray()
+        borders = np.maximum(borders, 0.0)
         tally, alpha = self.tally(parts), self.parameters.alpha
         return merge_to(n_parts, tally, borders, alpha, price, further=further)[parts]

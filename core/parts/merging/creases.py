@@ -14,13 +14,14 @@ import numpy as np
 
 from ...geometry.graphs.face_graph import FaceGraph
 from ...geometry.labels import sums_by_label
-from ...steps.arrays import BoolArray, FloatArray, IntArray
-from ...steps.progress import run
+from ...steps.arrays import BoolArray, IntArray
+from ...steps.memo import computed_once
+from ...steps.progress import Steps, run
 from ..part_psi import count_parts
 from ..partition import Partitioner
 from .flush import flush_seams
 from .pieces import connected_parts, pieces_between
-from .shells import whole_shells
+from .shells import whole_shells, with_crossings
 
 # Least concave angle of a crease, in radians, and of the corners of an outline.
 _CREASED = 0.25
@@ -60,7 +61,7 @@ class CreaseParts:
     @cached_property
     def pieces(self) -> IntArray:
         """(P,) piece of each node, small ones merged; 0 for all if none is proposed."""
-        graph = self._partitioner.graph
+        graph = self._graph
         if graph.outline is not None:
             return self._between_corners(graph)
         if not self._partitioner.visibility.shows_all_of_solid:
@@ -88,7 +89,8 @@ class CreaseParts:
             partitioner.parameters.smallest_part,
         )
         most, price = partitioner.parameters.max_parts, _price(graph)
-        return partitioner.merged(pieces, most, graph.seam_costs, price, further=True)
+        priced = replace(graph, lengths=graph.seam_costs)
+        return partitioner.merged(pieces, most, priced, price, further=True)
 
     def better(
         self, parts: IntArray, low: int, high: int, *others: IntArray
@@ -119,7 +121,7 @@ class CreaseParts:
             found.append(self._with_loops(parts, high))
             found.append(np.zeros_like(parts))
         if low < high and partitioner.visibility.shows_all_of_solid:
-            shells = whole_shells(partitioner, high)
+            shells = whole_shells(partitioner, high, self._priced)
             found += [] if shells is None else [shells]
         rivals = [each for each in found if low <= count_parts(each) <= high]
         best = max([parts, *rivals], key=self._worth) if rivals else parts
@@ -147,7 +149,7 @@ class CreaseParts:
         """
         n_parts = count_parts(parts)
         merged = self._partitioner.merged(
-            parts, n_parts, self._costs, _IDLE, further=True
+            parts, n_parts, self._priced, _IDLE, further=True
         )
         return merged if low <= count_parts(merged) < n_parts else parts
 
@@ -155,16 +157,13 @@ class CreaseParts:
         """Return the parts, cut along the loops too; at most so many (P,)."""
         partitioner, n_pieces = self._partitioner, count_parts(self.pieces)
         # What is small joins across seams rather than across loops: these are cut.
-        lengths = np.where(self._on_loops, _TINY, 1.0) * partitioner.graph.lengths
-        graph = replace(partitioner.graph, lengths=lengths)
+        lengths = np.where(self._on_loops, _TINY, 1.0) * self._graph.lengths
+        graph = replace(self._graph, lengths=lengths)
         finer = parts * n_pieces + self.pieces
         finer = connected_parts(graph, finer, partitioner.smallest_area)
-        small = _slivers(partitioner.graph, finer, parts)
-        small |= _fillets(partitioner.graph, finer)
+        small = _slivers(self._graph, finer, parts) | _fillets(self._graph, finer)
         finer = _joined(graph, finer, small)
-        if count_parts(finer) <= most:
-            return finer
-        return partitioner.merged(finer, most, self._costs, 1.0)
+        return partitioner.merged(finer, most, self._priced, 1.0)
 
     def _worth(self, parts: IntArray) -> float:
         """Return psi of parts (P,), less what their seams cost."""
@@ -172,24 +171,33 @@ class CreaseParts:
 
     def _price_of(self, parts: IntArray) -> float:
         """Return what the seams of parts (P,) cost."""
-        one, other = parts[self._partitioner.graph.neighbors].T
-        return float(self._costs[one != other].sum())
+        one, other = parts[self._graph.neighbors].T
+        return float(self._priced.lengths[one != other].sum())
+
+    @computed_once
+    def graph_in_steps(self) -> Steps[FaceGraph]:
+        """Return the graph, with edges where shells cross."""
+        return (yield from with_crossings(self._partitioner))
+
+    @property
+    def _graph(self) -> FaceGraph:
+        return run(self.graph_in_steps())
 
     @cached_property
-    def _costs(self) -> FloatArray:
-        """(E,) what a seam along each edge costs, in psi.
+    def _priced(self) -> FaceGraph:
+        """The graph; its lengths are what a seam along each edge costs, in psi.
 
         To leave an edge of a loop uncut would cost what a seam there saves by the
         crease. So that much is taken off.
         """
-        graph = self._partitioner.graph
+        graph = self._graph
         saved = np.where(self._on_loops, graph.lengths - graph.seam_costs, 0.0)
-        return _price(graph) * (graph.seam_costs - saved)
+        return replace(graph, lengths=_price(graph) * (graph.seam_costs - saved))
 
     @cached_property
     def _on_loops(self) -> BoolArray:
         """(E,) whether each edge is on a loop, between two pieces."""
-        one, other = self.pieces[self._partitioner.graph.neighbors].T
+        one, other = self.pieces[self._graph.neighbors].T
         return one != other
 
 

@@ -133,7 +133,7 @@ def merge_to(
         Counts of visible and known pairs of samples in K parts.
     borders : (K, K) float or bool
         Symmetric: the length of the border of each two parts, or whether they have one.
-        Parts without one are merged only if no two parts touch.
+        Below 0 it keeps them apart. Without one they merge only if no two parts touch.
     alpha : float
         Weight of hidden pairs in psi (eq. 5).
     price : float, optional
@@ -149,7 +149,7 @@ def merge_to(
     merged = np.arange(len(borders))
     borders = borders.astype(np.float64)
     while len(borders) > 1:
-        gains, touching = tally.merge_gains(alpha) + price * borders, borders > 0
+        gains, touching = tally.merge_gains(alpha) + price * borders, borders != 0
         if touching.any():
             gains[~touching] = -np.inf
         saves = further and touching.any() and gains.max() > 0

@@ -1,5 +1,6 @@
 """Shells that run through each other: boards, rungs, rods."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,6 +9,8 @@ import shapes
 from computed import decompose, decomposer, graph_of
 from weak_convex_decomposition.core.geometry.graphs.components import components_at_once
 from weak_convex_decomposition.core.parameters.parts import Parameters
+from weak_convex_decomposition.core.solids.crossings import find_crossings
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def bars(*ranges, divisions=4):
@@ -31,6 +34,24 @@ def shelf():
     heights = np.linspace(-1.9, 1.9, 5)
     boards = [((-1.5, 1.5), (-0.5, 0.5), (z - 0.05, z + 0.05)) for z in heights]
     return bars(*sides, *boards, divisions=5)
+
+
+def temple():
+    """Return two slabs, and six columns whose ends are within both."""
+    slabs = [((-2.5, 2.5), (-1.5, 1.5), (z - 0.2, z + 0.2)) for z in (-1.2, 1.2)]
+    places = [(x, y) for x in (-2, 0, 2) for y in (-1.1, 1.1)]
+    columns = [((x - 0.2, x + 0.2), (y - 0.2, y + 0.2), (-1.1, 1.1)) for x, y in places]
+    return bars(*slabs, *columns, divisions=6)
+
+
+def eyes(radius):
+    """Return a ball with two small ones that are half within it."""
+    ball = shapes.sphere(3)
+    small = [
+        replace(ball, vertices=radius * ball.vertices + [x, -0.9, 0.3])
+        for x in (-0.35, 0.35)
+    ]
+    return shapes.joined(ball, *small)
 
 
 def mushroom():
@@ -65,7 +86,7 @@ def assert_same_parts(labels, others):
 
 
 @pytest.mark.parametrize("seed", [1, 0])  # what is seen with the last serves below
-@pytest.mark.parametrize("make", [ladder, shelf])
+@pytest.mark.parametrize("make", [ladder, shelf, temple])
 def test_boards_and_rungs_are_parts(make, seed):
     assert_same_parts(found_in(make)(seed=seed).labels, shells_of(make()))
 
@@ -76,6 +97,30 @@ def test_where_a_shell_enters_another_no_patch_is_cut_off(make, seed):
     labels, shells = found_in(make)(samples=600, seed=seed).labels, shells_of(make())
     assert len(set(labels)) == 2
     assert len(set(zip(labels, shells, strict=True))) == len(set(shells))
+
+
+@pytest.mark.parametrize(("radius", "expected"), [(0.1, 1), (0.3, 3)])
+def test_small_shells_that_are_stuck_in_join_the_large_one(radius, expected):
+    assert decompose(eyes(radius), Parameters(samples=600)).n_parts == expected
+
+
+def crossings_of(*meshes):
+    mesh = shapes.joined(*meshes)
+    return run(find_crossings(mesh, shells_of(mesh)[mesh.polygons]))
+
+
+@pytest.mark.parametrize("divisions", [1, 5])
+@pytest.mark.parametrize("foot", [0.8, 1.0])  # within the slab, or on it
+def test_shells_cross_along_a_line_around_a_post(divisions, foot):
+    slab = shapes.box((0, 0, 0), (3, 3, 1), divisions)
+    found = crossings_of(slab, shapes.box((1, 1, foot), (1.5, 2, 2), divisions))
+    assert found.lengths.sum() == pytest.approx(3.0, abs=0.01)
+    assert found.bends == pytest.approx(np.pi / 2)
+
+
+def test_shells_apart_do_not_cross():
+    one, other = shapes.box(), shapes.box((1.01, 0, 0), (2, 1, 1))
+    assert len(crossings_of(one, other).pairs) == 0
 
 
 @pytest.mark.parametrize(
