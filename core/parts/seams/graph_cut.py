@@ -12,7 +12,6 @@ from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 from ...geometry.graphs.face_graph import FaceGraph
 from ...steps.arrays import BoolArray, FloatArray, Int32Array, IntArray
 from ...steps.progress import Progress, Steps
-from ...steps.rows import ranges
 
 # Cost of a seam as long as the square root of the area, at lambda = 1.
 _SEAM_UNIT = 0.02
@@ -62,9 +61,9 @@ def cut_seams(
     seen = np.zeros((n_labels, len(labels)), dtype=bool)
     for sweep in range(sweeps):
         for label in range(n_labels):
-            yield Progress("Seams", (sweep + label / n_labels) / sweeps)
             if settled[label]:
                 continue
+            yield Progress("Seams", (sweep + label / n_labels) / sweeps)
             moved, seen[label] = cutter.expand(labels, label)
             if len(moved):
                 # Expand labels again that moved nodes last, or depend on moved ones.
@@ -89,7 +88,8 @@ class _Expansion:
         weights: FloatArray,
         seams: FloatArray,
     ) -> None:
-        self.costs, self.weights = costs, weights
+        # The cost of each label for each node of its size, (P, K).
+        self.costs = costs * weights[:, None]
         n_nodes = len(costs)
         ends = np.concatenate([neighbors, neighbors[:, ::-1]])
         # Arcs in both directions, sorted by tail. Several edges between two nodes are
@@ -100,7 +100,7 @@ class _Expansion:
         graph.sum_duplicates()
         # NumPy takes rows by numbers of 64 bits quicker.
         self.heads, self.seams = graph.indices.astype(np.int64), graph.data
-        self.starts = graph.indptr[:-1].astype(np.int64)
+        self.ends = graph.indptr[1:].astype(np.int64)
         self.n_arcs = np.diff(graph.indptr).astype(np.int64)
         # The most that a node can save by a move: the cost of all seams around it.
         self._saved = graph.sum(axis=1)
@@ -114,34 +114,35 @@ class _Expansion:
         """
         seen = labels == label
         nodes = self._band(seen)
-        own = labels[nodes]
-        sizes = self.weights[nodes]
-        gain = self.costs[nodes, label] * sizes - self.costs[nodes, own] * sizes
+        gain = self.costs[nodes, label] - self.costs[nodes, labels[nodes]]
         # No seam around the others saves as much as their move costs.
-        may = np.flatnonzero(gain <= self._saved[nodes])
-        nodes, own, gain = nodes[may], own[may], gain[may]
+        may = np.flatnonzero(gain <= self._saved.take(nodes))
+        nodes, gain = nodes.take(may), gain.take(may)
         if len(nodes) == 0:
             return nodes, seen
-        arcs, tails = self._arcs(nodes)
-        ends, weights = self.heads[arcs], self.seams[arcs]
+        numbers = np.arange(len(nodes))
+        arcs, tails = self._arcs(nodes), np.repeat(numbers, self.n_arcs.take(nodes))
+        ends, weights = self.heads.take(arcs), self.seams.take(arcs)
         seen[ends] = True
-        self._places[nodes] = np.arange(len(nodes))
-        heads = self._places[ends]
+        self._places[nodes] = numbers
+        heads = self._places.take(ends)
         heads[heads >= len(nodes)] = 0  # places of former bands
-        free = nodes[heads] == ends
-        alike = own[tails] == labels[ends]
+        free, beside = nodes.take(heads) == ends, labels.take(ends)
+        alike = labels.take(nodes).take(tails) == beside
         # If the head of an arc cannot move, moving the tail adds or removes their seam.
         # If both can and their labels differ, the seam goes only if both move: its cost
         # is subtracted where the first arc starts, and the arc back adds it again if
         # that node moves alone.
         apart = free & ~alike
         first = apart & (tails < heads)
-        gained = np.where(free, first, labels[ends] == label)
+        gained = np.where(free, first, beside == label)
         lost = alike & ~free
         gain += np.bincount(tails, weights * (lost.astype(int) - gained), len(nodes))
-        costs = np.stack([first, apart & ~first])
-        costs = np.where(costs, 0.0, weights)[:, free]
-        moves = _minimum_cut(gain, tails[free], heads[free], *costs)
+        inner = np.flatnonzero(free)
+        there, back = (
+            (weights * ~none).take(inner) for none in (first, apart & ~first)
+        )
+        moves = _minimum_cut(gain, tails.take(inner), heads.take(inner), there, back)
         return nodes[moves], seen
 
     def _band(self, reached: BoolArray) -> IntArray:
@@ -149,20 +150,22 @@ class _Expansion:
         front = np.flatnonzero(reached)
         band: list[IntArray] = []
         for _ in range(_BAND):
-            ends = self.heads[self._arcs(front)[0]]
-            ends = ends[~reached[ends]]
+            ends = self.heads.take(self._arcs(front))
+            ends = ends[~reached.take(ends)]
             # Each node once: `np.unique` would sort.
             turns = np.arange(len(ends))
             self._places[ends] = turns
-            front = ends[self._places[ends] == turns]
+            front = ends[self._places.take(ends) == turns]
             reached[front] = True
             band.append(front)
         return np.sort(np.concatenate(band))
 
-    def _arcs(self, nodes: IntArray) -> tuple[IntArray, IntArray]:
-        """Return the arcs that leave the nodes, by node, and the row of each node."""
-        rows, ranks = ranges(self.n_arcs[nodes])
-        return self.starts[nodes][rows] + ranks, rows
+    def _arcs(self, nodes: IntArray) -> IntArray:
+        """Return the arcs that leave the nodes, by node."""
+        counts = self.n_arcs.take(nodes)
+        sums = np.cumsum(counts)
+        arcs = np.repeat(self.ends.take(nodes) - sums, counts)
+        return arcs + np.arange(len(arcs))
 
 
 def _minimum_cut(
@@ -193,18 +196,17 @@ def _minimum_cut(
     # The arcs of a node come first, then the arc to the source or sink; these have the
     # highest numbers. Last come their own arcs. So all are sorted without a search.
     ends = np.cumsum(np.bincount(tails, minlength=n_nodes) + 1)
-    last, first = ends - 1, len(tails) + n_nodes
-    inner = np.delete(np.arange(first), last)
-    starts = np.concatenate([[0], ends, first + np.cumsum([len(held), len(drawn)])])
-    starts = starts.astype(np.int32)
+    inner, last = np.arange(len(tails)) + tails, ends - 1
+    first = len(inner) + n_nodes
+    starts = np.zeros(n_nodes + 3, dtype=np.int32)
+    starts[1:-2], starts[-2:] = ends, (first + len(held), first + n_nodes)
     from_source, from_sink = slice(*starts[-3:-1]), slice(*starts[-2:])
     all_heads = np.empty(starts[-1], dtype=np.int32)
     all_heads[inner], all_heads[last] = heads, np.where(costly, source, sink)
     all_heads[from_source], all_heads[from_sink] = held, drawn
 
-    there, back, sizes = (
-        np.round(costs / largest * _LARGEST_CAPACITY) for costs in (there, back, sizes)
-    )
+    unit = largest / _LARGEST_CAPACITY
+    there, back, sizes = (np.rint(costs / unit) for costs in (there, back, sizes))
     forwards, backwards = np.zeros((2, len(all_heads)), dtype=np.int32)
     forwards[inner], backwards[inner] = there, back
     forwards[last], backwards[last] = sizes * ~costly, sizes * costly
@@ -213,20 +215,19 @@ def _minimum_cut(
     graph = sparse.csr_array((backwards, all_heads, starts), shape)
     flow = maximum_flow(graph, sink, source, method="dinic").flow
     left = forwards + flow.data > 0
-    return ~_reached(all_heads[left], np.cumsum(left), starts, source)[:n_nodes]
+    rest = np.zeros(len(left) + 1, dtype=np.int32)
+    np.cumsum(left, out=rest[1:])
+    return ~_reached(all_heads[left], rest[starts], source)[:n_nodes]
 
 
-def _reached(
-    heads: Int32Array, n_left: IntArray, starts: Int32Array, start: int
-) -> BoolArray:
-    """Return which nodes a walk from one reaches along the arcs that are left, (N,).
+def _reached(heads: Int32Array, starts: Int32Array, start: int) -> BoolArray:
+    """Return which nodes a walk from one reaches along arcs, (N,).
 
-    `heads` are theirs. `n_left` is how many are left up to each of all arcs, of which
-    those of a node begin at `starts`.
+    The arcs of each node begin at `starts`, (N + 1,).
     """
     n_nodes = len(starts) - 1
-    arcs = np.ones(len(heads), dtype=np.int8), heads, np.append(0, n_left)[starts]
-    graph = sparse.csr_array(arcs, (n_nodes, n_nodes))
+    # Weights that SciPy need not convert.
+    graph = sparse.csr_array((np.ones(len(heads)), heads, starts), (n_nodes, n_nodes))
     found = np.zeros(n_nodes, dtype=bool)
     found[breadth_first_order(graph, start, return_predecessors=False)] = True
     return found
