@@ -114,9 +114,11 @@ class PairVisibility:
         -------
         PairTally
         """
+        # The product is exact, as the sums are.
+        members = np.eye(n_labels)[labels]
         visible, known = (
-            sums_by_label(of_rows.astype(np.float64).T, labels, n_labels)
-            for of_rows in self.sums(labels, n_labels)
+            of_labels.astype(np.float64) @ members
+            for of_labels in self.sums(labels, n_labels)
         )
         return PairTally(visible, known)
 
