@@ -73,6 +73,13 @@ class FaceGraph:
         """Cost of a seam along each edge, (E,): creases cost less than ridges."""
         return self.lengths * np.exp(-CREASE * np.maximum(self.bends, 0.0))
 
+    @cached_property
+    def seams_between(self) -> sparse.csr_array:
+        """Cost of all seams between every two polygons, (P, P), symmetric."""
+        ends = np.concatenate([self.neighbors, self.neighbors[:, ::-1]])
+        costs = np.tile(self.seam_costs, 2), tuple(ends.T)
+        return sparse.csr_array(costs, shape=2 * (self.n_polygons,))
+
     def areas_of(self, labels: IntArray) -> FloatArray:
         """Return the total area of each label 0…K − 1, (K,) float.
 

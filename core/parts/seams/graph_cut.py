@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
@@ -54,8 +51,7 @@ def cut_seams(
         The new labels.
     """
     unit = _SEAM_UNIT / np.sqrt(graph.areas.sum())
-    seams = smoothness * unit * graph.seam_costs
-    cutter = _Expansion(graph.neighbors, costs, graph.weights, seams)
+    cutter = _Expansion(graph, costs, smoothness * unit)
     labels, n_labels = labels.copy(), costs.shape[1]
     settled, restless = np.zeros((2, n_labels), dtype=bool)
     seen = np.zeros((n_labels, len(labels)), dtype=bool)
@@ -81,30 +77,18 @@ class _Expansion:
     The time of an expansion depends on the size of its band, not of the whole graph.
     """
 
-    def __init__(
-        self,
-        neighbors: NDArray[np.integer[Any]],
-        costs: FloatArray,
-        weights: FloatArray,
-        seams: FloatArray,
-    ) -> None:
+    def __init__(self, graph: FaceGraph, costs: FloatArray, price: float) -> None:
         # The cost of each label for each node of its size, (P, K).
-        self.costs = costs * weights[:, None]
-        n_nodes = len(costs)
-        ends = np.concatenate([neighbors, neighbors[:, ::-1]])
-        # Arcs in both directions, sorted by tail. Several edges between two nodes are
-        # added up.
-        graph = sparse.csr_array(
-            (np.tile(seams, 2), tuple(ends.T)), shape=(n_nodes, n_nodes)
-        )
-        graph.sum_duplicates()
-        # NumPy takes rows by numbers of 64 bits quicker.
-        self.heads, self.seams = graph.indices.astype(np.int64), graph.data
-        self.ends = graph.indptr[1:].astype(np.int64)
-        self.n_arcs = np.diff(graph.indptr).astype(np.int64)
+        self.costs = costs * graph.weights[:, None]
+        # Arcs in both directions, sorted by tail. NumPy takes rows by numbers of 64
+        # bits quicker.
+        arcs = graph.seams_between
+        self.heads, self.seams = arcs.indices.astype(np.int64), price * arcs.data
+        self.ends = arcs.indptr[1:].astype(np.int64)
+        self.n_arcs = np.diff(arcs.indptr).astype(np.int64)
         # The most that a node can save by a move: the cost of all seams around it.
-        self._saved = graph.sum(axis=1)
-        self._places = np.zeros(n_nodes, dtype=np.int64)
+        self._saved = price * arcs.sum(axis=1)
+        self._places = np.zeros(len(costs), dtype=np.int64)
 
     def expand(self, labels: IntArray, label: int) -> tuple[IntArray, BoolArray]:
         """Return the nodes that should change to `label`, by one minimum cut.
