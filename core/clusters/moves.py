@@ -30,10 +30,13 @@ class MoveGains:
     def __init__(self, pairs: PairVisibility, labels: IntArray, n_labels: int) -> None:
         self._pairs = pairs
         self._members = np.eye(n_labels, dtype=np.float32)[labels]
+        visible, known = pairs.sums(labels, n_labels)
+        self._total = known.sum(dtype=np.float64)
+        # If all pairs are known, all samples have one row.
+        known = known[:, :1] if pairs.known is None else known
         self._visible, self._known = (
-            np.array(counts.T, order="C") for counts in pairs.sums(labels, n_labels)
+            np.array(counts.T, order="C") for counts in (visible, known)
         )
-        self._total = self._known.sum(dtype=np.float64)
         self._own = pairs.visible.diagonal()
         self._own_known = (
             np.ones_like(self._own) if pairs.known is None else pairs.known.diagonal()
@@ -58,7 +61,8 @@ class MoveGains:
         mine = self._members[rows]
         # Leave out the sample itself: it sees itself under any label.
         visible = self._visible[rows] - mine * self._own[rows, None]
-        known = self._known[rows] - mine * self._own_known[rows, None]
+        known = self._known if self._pairs.known is None else self._known[rows]
+        known = known - mine * self._own_known[rows, None]
         gains = (1 + alpha) * visible.astype(float) - alpha * known.astype(float)
         return 2 * len(self._members) * gains / self._total
 
