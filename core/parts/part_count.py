@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ..parameters.parts import Parameters
 from ..results.psi import still_rises
+from ..steps.memo import computed_once
 from ..steps.progress import Progress, Steps, within, within_turn
 from .merging.creases import CreaseParts
 from .part_memo import Candidate
@@ -122,6 +123,7 @@ class PartCountSearch:
             more = self._next(high, self.found.searches[self.low, high])
         return high == more
 
+    @computed_once
     def tried(self) -> Steps[tuple[int, dict[int, Candidate]]]:
         """Try numbers of parts, and more of them while psi still rises at the last.
 

@@ -163,6 +163,13 @@ def test_parts_given_are_kept(comb):
     assert first.best_k == run(search.best()).best_k
 
 
+def test_numbers_are_rated_once_a_search(comb, monkeypatch):
+    search = part_count_search(comb, Parameters(samples=500), 2, 8)
+    tried = run(search.tried())
+    monkeypatch.setattr(search, "rated", None)
+    assert run(search.tried()) is tried
+
+
 def test_parts_given_are_known_even_if_more_were_tried_meanwhile():
     few = Parameters(samples=600)
     memo = see(flats.filled(flats.comb(20), spacing=0.5), few)
