@@ -24,7 +24,7 @@ from ..steps.memo import digest
 from ..steps.progress import Progress, Steps, within
 from .convex_solid import exact_error, hull_of_convex
 from .cutting.cell import whole
-from .cutting.plates import pieces_or_plates
+from .cutting.starts import pieces_of
 from .fitting import Fit, fit_for
 from .joining import join_pieces
 from .notes import notes_on, notes_on_parts
@@ -201,7 +201,7 @@ def _pieces_of(solid: Solid, parts: IntArray, fit: Fit) -> Steps[list[Piece]]:
     if not fit.has_room(cell.hull):  # cuts cannot make up for the margin
         no_margin = replace(fit.parameters, margin=0.0)
         cell = replace(cell, fit=replace(fit, parameters=no_margin))
-    return (yield from pieces_or_plates(cell, most))
+    return (yield from pieces_of(cell, most))
 
 
 def _parts_of_triangles(

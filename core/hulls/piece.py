@@ -11,9 +11,12 @@ from ..geometry.primitives import CollisionShape, Hull
 from ..steps.arrays import BoolArray, FloatArray, IntArray
 from .convex_hull import THIN, convex_hull
 from .fitting import Fit
-from .measure.error_bound import ErrorBound
+from .measure.error_bound import ErrorBound, ExactError
 from .measure.estimate import estimated_depth, estimated_error, volume_error
 from .solid import Solid
+
+# In place of the triangle of a sample where another shell buries the surface.
+BURIED = -2
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,9 +32,10 @@ class Piece:
     boundary : (N, 3) float
         Samples of the surface in the piece, and of the faces that cuts made.
     triangles : (N,) int
-        Triangle of the solid that each of these samples lies on, −1 on such faces.
-    volume : float
-        Volume of the solid in the piece.
+        Triangle of the solid that each of these samples lies on, −1 on such faces, and
+        `BURIED` where the piece is a shell that runs through others.
+    chords : (C,) int
+        Rows of the chords of the solid that are in the piece, ascending.
     solid : Solid
         The uncut solid.
     fit : Fit
@@ -45,7 +49,7 @@ class Piece:
     points: FloatArray
     boundary: FloatArray
     triangles: IntArray
-    volume: float
+    chords: IntArray
     solid: Solid
     fit: Fit
     witnesses: FloatArray
@@ -55,6 +59,11 @@ class Piece:
     def on_surface(self) -> BoolArray:
         """Which samples of the boundary are on the surface, (N,)."""
         return self.triangles >= 0
+
+    @cached_property
+    def volume(self) -> float:
+        """Volume of the solid in the piece."""
+        return float(self.solid.volumes[self.chords].sum())
 
     @cached_property
     def hull(self) -> Hull:
@@ -116,7 +125,7 @@ class Piece:
         return self.fit.left_out(self.shape, self.hull)
 
     @cached_property
-    def bound(self) -> ErrorBound:
+    def bound(self) -> ErrorBound | ExactError:
         """An upper bound of the error, found when it is asked for."""
         rest = self.hull, self.fit.max_error, self.is_sheet
         return ErrorBound(self.solid, self.shape, *rest)
@@ -179,7 +188,7 @@ def piece_of_part(solid: Solid, fit: Fit, parts: IntArray, row: int) -> Piece:
         solid.corners[chosen].reshape(-1, 3),
         solid.samples[samples],
         solid.triangles[samples],
-        float(solid.volumes[samples[solid.samples_of_chords]].sum()),
+        np.flatnonzero(samples[solid.samples_of_chords]),
         solid,
         fit,
         np.zeros((0, 3)),
@@ -190,22 +199,34 @@ def piece_of_part(solid: Solid, fit: Fit, parts: IntArray, row: int) -> Piece:
 def join(one: Piece, other: Piece) -> Piece:
     """Join two pieces; the samples of the cut face between them are removed.
 
+    So are those that one buries of the other.
+
     Parameters
     ----------
     one, other : Piece
     """
-    boundary = np.concatenate([one.boundary, other.boundary])
+    kept = [_not_buried(one, other), _not_buried(other, one)]
+    boundary = np.concatenate([one.boundary[kept[0]], other.boundary[kept[1]]])
+    triangles = np.concatenate([one.triangles[kept[0]], other.triangles[kept[1]]])
     once = _rows_that_occur_once(boundary)
     return Piece(
         np.concatenate([one.extremes, other.extremes]),
         boundary[once],
-        np.concatenate([one.triangles, other.triangles])[once],
-        one.volume + other.volume,
+        triangles[once],
+        np.union1d(one.chords, other.chords),
         one.solid,
         one.fit,
         np.concatenate([one.all_witnesses, other.all_witnesses]),
         max(one, other, key=lambda piece: round(piece.hull.volume, 6)).part,
     )
+
+
+def _not_buried(piece: Piece, other: Piece) -> BoolArray:
+    """Return which samples of a piece (N,) are not buried in another one."""
+    kept = piece.triangles != BURIED
+    rows = np.flatnonzero(~kept)
+    kept[rows] = other.hull.heights(piece.boundary[rows]) >= 0
+    return kept
 
 
 def _rows_that_occur_once(points: FloatArray) -> IntArray:

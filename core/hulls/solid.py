@@ -14,7 +14,7 @@ from ..geometry.primitives import CollisionShape, Hull
 from ..geometry.sampling import sample_surface
 from ..geometry.welding import distinct_points
 from ..solids.mass import mass_of_surface
-from ..solids.shells import find_shells
+from ..solids.shells import Shells, find_shells
 from ..steps.arrays import FloatArray, IntArray
 from ..steps.progress import Progress, Steps, within
 from ..steps.rows import used_rows
@@ -56,8 +56,8 @@ class Solid:
         Volume around each chord.
     spacing : float
         Distance between neighboring samples.
-    closed : bool
-        Whether all shells are closed, so that any line tells what is inside.
+    shells : Shells
+        Those of the mesh.
     overlap : float
         Its volume along the chords, as a share of the sum of those of its shells.
     """
@@ -70,7 +70,7 @@ class Solid:
     chords: FloatArray
     volumes: FloatArray
     spacing: float
-    closed: bool
+    shells: Shells
     overlap: float
 
     @property
@@ -88,6 +88,11 @@ class Solid:
         if self.closed:
             mass = mass_of_surface(self.mesh.vertices, self.mesh.triangles, 1.0)
         return mass.mass * self.overlap if mass else self.volume
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether all shells are closed, so that any line tells what is inside."""
+        return bool(self.shells.closed.all())
 
     @cached_property
     def corners(self) -> FloatArray:
@@ -183,8 +188,8 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     measured = _chords_in(corners, vertices)
     chords, volumes, overlap = yield from within(measured, 0.0, 1.0)
     shells = yield from within(find_shells(mesh), 1.0, 1.0)
-    surface, rows, closed = mesh, np.arange(len(corners)), bool(shells.closed.all())
-    if closed and overlap < _NO_OVERLAP:
+    surface, rows = mesh, np.arange(len(corners))
+    if shells.closed.all() and overlap < _NO_OVERLAP:
         surface, rows = yield from within(unburied(mesh, shells), 1.0, 1.0)
     samples = sample_surface(surface, _SAMPLES, np.random.default_rng(seed))
     return Solid(
@@ -196,7 +201,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         chords,
         volumes,
         float(settled(np.sqrt(surface.areas.sum() / _SAMPLES))),
-        closed,
+        shells,
         overlap,
     )
 

@@ -10,7 +10,9 @@ import numpy as np
 from ...geometry.cutting.segments import segments_below
 from ...geometry.frames import coordinates_along, heights_above, principal_axes
 from ...steps.arrays import BoolArray, FloatArray
+from ..convex_solid import exact_error
 from ..fitting import Fit
+from ..measure.error_bound import ErrorBound, ExactError
 from ..piece import Piece
 from ..solid import Solid
 from .cross_section import cross_section, lines_of, meeting_points
@@ -25,17 +27,31 @@ class Cell(Piece):
 
     Attributes
     ----------
-    chords : (C, 3) float
-        A point of each chord in the piece.
-    volumes : (C,) float
-        Volume around each chord.
+    faces : (F, 3, 3) float
+        Corners of the triangles that cuts through it meet.
     planes : (P, 4) float
         Unit normal n and offset d of each plane: n · x + d ≤ 0 in the piece.
+    convex : bool, optional
+        Whether it is surely convex, and all of it inside the solid.
     """
 
-    chords: FloatArray
-    volumes: FloatArray
+    faces: FloatArray
     planes: FloatArray
+    convex: bool = False
+
+    @cached_property
+    def bound(self) -> ErrorBound | ExactError:
+        """An upper bound of the error; of convex pieces mostly the error itself."""
+        exact = exact_error(self.shape, self.hull, self.fit) if self.convex else None
+        if exact is None:
+            return super().bound
+        return ExactError(exact, self.fit.max_error)
+
+    @property
+    def may_be_close(self) -> bool:
+        """Whether the error may be allowed: where it is known, whether it is."""
+        exact = self.convex and isinstance(self.bound, ExactError)
+        return self.bound.is_allowed if exact else super().may_be_close
 
     @property
     def cut_share(self) -> float:
@@ -64,13 +80,19 @@ class Cell(Piece):
 
         Others that meet its plane have their edges in it.
         """
-        corners = self.solid.corners
+        corners = self.faces
         if not self.is_sheet:
             return corners
         axis, middle = principal_axes(self.points)[:1], self.points.mean(axis=0)
         heights = coordinates_along(axis, corners - middle)[..., 0]
         own: FloatArray = corners[(np.abs(heights) < _AT_FACE).all(axis=1)]
         return own
+
+    @cached_property
+    def places(self) -> FloatArray:
+        """A point of each chord in it, (C, 3)."""
+        places: FloatArray = self.solid.chords[self.chords]
+        return places
 
     @cached_property
     def lines(self) -> tuple[FloatArray, FloatArray]:
@@ -90,13 +112,12 @@ def whole(solid: Solid, fit: Fit) -> Cell:
         solid.vertices,
         solid.samples,
         solid.triangles,
-        solid.volume,
+        np.arange(len(solid.chords)),
         solid,
         fit,
         np.zeros((0, 3)),
         -1,
-        solid.chords,
-        solid.volumes,
+        solid.corners,
         np.zeros((0, 4)),
     )
 
@@ -124,7 +145,7 @@ def cut(cell: Cell, plane: FloatArray) -> tuple[Cell, Cell]:
         rim = np.concatenate([rim, tips[section.holds(tips)]])
     heights = [
         heights_above(plane[None], places)[:, 0]
-        for places in (cell.points, cell.boundary, cell.chords)
+        for places in (cell.points, cell.boundary, cell.places)
     ]
     below = [each <= 0 for each in heights]
     # Points in the plane are on both sides, but volumes count once.
@@ -148,12 +169,11 @@ def _side(
         np.concatenate([cell.points[points], rim]),
         np.concatenate([cell.boundary[boundary], face]),
         np.concatenate([cell.triangles[boundary], np.full(len(face), -1)]),
-        float(cell.volumes[chords].sum()),
+        cell.chords[chords],
         cell.solid,
         cell.fit,
         cell.all_witnesses,
         cell.part,
-        cell.chords[chords],
-        cell.volumes[chords],
+        cell.faces,
         np.concatenate([cell.planes, plane[None]]),
     )

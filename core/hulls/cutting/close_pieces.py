@@ -38,7 +38,9 @@ _MOST_ROUNDS = 16
 _LOWER = 0.9
 
 
-def close_pieces(cells: Sequence[Cell], most: int) -> Steps[list[Piece]]:
+def close_pieces(
+    cells: Sequence[Cell], most: int, only_close: bool = False
+) -> Steps[list[Piece]]:
     """Cut pieces until all are close, and join neighbors.
 
     If joining leaves room for more pieces, those that are not close yet are cut again,
@@ -49,10 +51,13 @@ def close_pieces(cells: Sequence[Cell], most: int) -> Steps[list[Piece]]:
     cells : sequence of Cell
     most : int
         Largest number of pieces to return.
+    only_close : bool, optional
+        Whether pieces that are not close are of no use. It saves time to give up.
 
     Returns
     -------
     Steps of list of Piece
+        None if it was given up.
     """
     fit, pieces, joints = cells[0].fit, list[Piece](), JoinedPairs()
     most_cells = int(_SURPLUS.get(fit.parameters.shape, _OTHER_SURPLUS) * most)
@@ -63,9 +68,14 @@ def close_pieces(cells: Sequence[Cell], most: int) -> Steps[list[Piece]]:
         room, rest = most_cells - len(pieces), 1 - share
         cutting, joining = share + 0.7 * rest, share + 0.8 * rest
         pieces += yield from within(_cut_until_close(far, room), share, cutting)
-        joined = join_pieces(pieces, most, joints, close=True)
+        if only_close and len(pieces) >= most_cells:
+            return []
+        many = len(pieces) if only_close else most
+        joined = join_pieces(pieces, many, joints, close=True)
         pieces = without_films((yield from within(joined, cutting, joining)))
         share = joining
+        if len(pieces) > most:
+            return []
         cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
         again = len(pieces) < most and n_rounds < _MOST_ROUNDS
         far = [one for one in cells if not one.is_close] if again else []

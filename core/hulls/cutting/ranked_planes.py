@@ -132,7 +132,7 @@ class _Sketch:
             rounded=self.rounded[order],
             reaches=np.take(self.reaches, order, axis=1),
         )
-        return ordered, heights[order], self.cell.chords @ direction
+        return ordered, heights[order], self.cell.places @ direction
 
     def added_volumes(
         self, heights: FloatArray, chords: FloatArray, offsets: FloatArray
@@ -154,7 +154,8 @@ class _Sketch:
         ends = np.searchsorted(heights, offsets, side="right")
         below, above = volumes_beside(self.rounded, self.reaches, ends)
         layer = np.searchsorted(offsets, chords)
-        volumes = np.bincount(layer, self.cell.volumes, len(offsets) + 1)
+        each = self.cell.solid.volumes[self.cell.chords]
+        volumes = np.bincount(layer, each, len(offsets) + 1)
         added = np.maximum(self.scale * below - np.cumsum(volumes)[:-1], 0)
         added += np.maximum(self.scale * above - np.cumsum(volumes[::-1])[-2::-1], 0)
         added[np.minimum(ends, len(heights) - ends) < _FEWEST_POINTS] = np.inf

@@ -5,7 +5,9 @@ What is known of the distances on a patch: they change at most as fast as the pl
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -28,6 +30,36 @@ _TOLD_APART = 0.5
 _TOLERANCE, _ROUGH_TOLERANCE = 0.03, 0.1
 # Longest edge of the first patches where the longest side of the shape is 2, or less.
 _COARSE = 0.1
+
+
+@dataclass(frozen=True)
+class ExactError:
+    """The error of a collision shape where it is known, as `ErrorBound` gives it.
+
+    Attributes
+    ----------
+    value : float
+    largest : float
+        Largest error allowed.
+    """
+
+    value: float
+    largest: float
+    place: ClassVar[FloatArray] = np.zeros((0, 3))
+
+    @property
+    def is_allowed(self) -> bool:
+        """Whether the error is allowed."""
+        return self.value <= self.largest
+
+    @property
+    def known(self) -> float:
+        """The error; 0 if it is allowed."""
+        return 0.0 if self.is_allowed else self.value
+
+    def up_to(self, _: float) -> float:
+        """Return the error."""
+        return self.value
 
 
 class ErrorBound:
