@@ -239,10 +239,11 @@ class Partitioner(PartPsi):
     ) -> IntArray:
         """Merge parts (P,) where psi loses least, until `n_parts` are left.
 
-        Borders may have a price, and be those of another graph; see `merge_to`. Parts
-        between which a seam saves more than it costs stay apart.
+        Borders may have a price, and be those of another graph; see `merge_to`. They
+        merge `further` only across seams that cost more than they save.
         """
         borders = (graph or self.graph).borders(parts, count_parts(parts)).toarray()
-        borders = np.maximum(borders, 0.0)
+        if further:
+            borders = np.maximum(borders, 0.0)
         tally, alpha = self.tally(parts), self.parameters.alpha
         return merge_to(n_parts, tally, borders, alpha, price, further=further)[parts]

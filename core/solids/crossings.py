@@ -13,11 +13,16 @@ from ..steps.progress import Progress, Steps
 from ..steps.rows import blocks
 from .shells import GAP
 
-# So many triangles are compared each with each, and no box is halved more often.
+# So many triangles are compared each with each; no box is halved more often.
 _FEW = 96
 _MOST_HALVINGS = 24
-# Pairs that are compared at once.
-_MOST_PAIRS = 2**18
+# A box is not halved if its halves have so many times its triangles together.
+_NO_FEWER = 1.6
+# Pairs that are compared at once, and in all.
+_AT_ONCE = 2**15
+_MOST_PAIRS = 2**28
+# Products of matrices are as exact as this on all processors.
+_SLACK = 1e-9
 
 
 class Crossings(NamedTuple):
@@ -49,43 +54,104 @@ def find_crossings(mesh: TriangleMesh, shells: IntArray) -> Steps[Crossings]:
     Returns
     -------
     Steps of Crossings
+        None where so many triangles are near one another that it would take long, as
+        where large surfaces lie on each other.
     """
-    corners = mesh.vertices[mesh.triangles]
-    # Faces that touch cross if they are moved outwards a little.
-    lows, highs = corners.min(axis=1) - GAP, corners.max(axis=1) + GAP
-    found = [np.zeros((0, 2), dtype=np.int64)]
-    boxes = [(np.flatnonzero(shells >= 0), lows.min(axis=0), highs.max(axis=0), 0)]
-    while boxes:
+    search = _Search(mesh, shells)
+    pairs = yield from search.pairs()
+    found = [_crossed(pairs[:0], search.corners, mesh.normals)]
+    for rows in blocks(len(pairs)):
         yield Progress("Seams", 0.0)
-        rows, low, high, depth = boxes.pop()
-        if len(rows) == 0 or (shells[rows] == shells[rows[0]]).all():
-            continue
-        if len(rows) <= _FEW or depth == _MOST_HALVINGS:
-            found += _near(lows[rows], highs[rows], shells[rows], rows)
-            continue
-        axis = int((high - low).argmax())
-        middle = (low[axis] + high[axis]) / 2
-        below, above = high.copy(), low.copy()
-        below[axis] = above[axis] = middle
-        boxes.append((rows[lows[rows, axis] <= middle], low, below, depth + 1))
-        boxes.append((rows[highs[rows, axis] >= middle], above, high, depth + 1))
-    pairs = np.unique(np.concatenate(found), axis=0)
-    return _crossed(pairs, corners, mesh.normals)
+        found.append(_crossed(pairs[rows], search.corners, mesh.normals))
+    return Crossings(*(np.concatenate(values) for values in zip(*found, strict=True)))
 
 
-def _near(
-    lows: FloatArray, highs: FloatArray, shells: IntArray, rows: IntArray
-) -> list[IntArray]:
-    """Return pairs (N, 2) of `rows` of two shells whose boxes overlap."""
-    found = []
-    for some in blocks(len(rows), _MOST_PAIRS // len(rows)):
-        near = shells[some, None] < shells
+class _Box(NamedTuple):
+    """A box of space and the triangles, (N,), whose own boxes reach into it."""
+
+    rows: IntArray
+    low: FloatArray
+    high: FloatArray
+    depth: int
+
+
+class _Search:
+    """Finds pairs of triangles that may cross, in boxes that are halved."""
+
+    def __init__(self, mesh: TriangleMesh, shells: IntArray) -> None:
+        self._mesh, self._shells = mesh, shells
+        self.corners = np.empty((len(shells), 3, 3))
+        self._lows, self._highs = np.empty((2, len(shells), 3))
+
+    def pairs(self) -> Steps[IntArray]:
+        """Return pairs (N, 2) of triangles of two shells that may cross."""
+        for some in blocks(len(self._shells)):
+            yield Progress("Seams", 0.0)
+            corners = self._mesh.vertices[self._mesh.triangles[some]]
+            self.corners[some] = corners
+            # Faces that touch cross if they are moved outwards a little.
+            self._lows[some] = corners.min(axis=1) - GAP
+            self._highs[some] = corners.max(axis=1) + GAP
+        rows = np.flatnonzero(self._shells >= 0)
+        found, compared = [np.zeros((0, 2), dtype=np.int64)], 0
+        low, high = self._lows.min(axis=0) - 1, self._highs.max(axis=0) + 1
+        boxes = [_Box(rows, low, high, 0)]
+        while boxes:
+            yield Progress("Seams", 0.0)
+            box = boxes.pop()
+            if (self._shells[box.rows] == self._shells[box.rows[:1]]).all():
+                continue
+            if len(box.rows) > _FEW and box.depth < _MOST_HALVINGS:
+                halves = self._halves(box)
+                if sum(len(half.rows) for half in halves) < _NO_FEWER * len(box.rows):
+                    boxes += halves
+                    continue
+            compared += len(box.rows) ** 2
+            if compared > _MOST_PAIRS:
+                return found[0]
+            for some in blocks(len(box.rows), _AT_ONCE // len(box.rows)):
+                yield Progress("Seams", 0.0)
+                found.append(self._near(box, box.rows[some]))
+        return np.concatenate(found)
+
+    def _halves(self, box: _Box) -> list[_Box]:
+        """Return the two halves of a box, across its longest side."""
+        axis = int((box.high - box.low).argmax())
+        below, above = box.high.copy(), box.low.copy()
+        below[axis] = above[axis] = middle = (box.low[axis] + box.high[axis]) / 2
+        first = box.rows[self._lows[box.rows, axis] <= middle]
+        second = box.rows[self._highs[box.rows, axis] > middle]
+        return [
+            _Box(first, box.low, below, box.depth + 1),
+            _Box(second, above, box.high, box.depth + 1),
+        ]
+
+    def _near(self, box: _Box, some: IntArray) -> IntArray:
+        """Return pairs (N, 2) of `some` rows and all of a box.
+
+        A pair is of the box in which the lowest corner of what both boxes share is.
+        """
+        rows = box.rows
+        near = self._shells[some, None] < self._shells[rows]
         for axis in range(3):
-            near &= lows[some, None, axis] <= highs[:, axis]
-            near &= highs[some, None, axis] >= lows[:, axis]
+            near &= self._lows[some, None, axis] <= self._highs[rows, axis]
+            near &= self._highs[some, None, axis] >= self._lows[rows, axis]
+        near &= self._reaches(some, rows)
+        near &= self._reaches(rows, some).T
         one, other = np.nonzero(near)
-        found.append(np.stack([rows[some][one], rows[other]], axis=1))
-    return found
+        pairs = np.stack([some[one], rows[other]], axis=1)
+        lowest = self._lows[pairs].max(axis=1)
+        mine = ((lowest > box.low) & (lowest <= box.high)).all(axis=1)
+        return pairs[mine]
+
+    def _reaches(self, one: IntArray, other: IntArray) -> BoolArray:
+        """Return whether triangles have corners on both sides of others, (N, M)."""
+        normals = self._mesh.normals[other]
+        levels = (normals * self.corners[other, 0]).sum(axis=1) + GAP
+        heights = [self.corners[one, i] @ normals.T - levels for i in range(3)]
+        highest = np.maximum(np.maximum(heights[0], heights[1]), heights[2])
+        lowest = np.minimum(np.minimum(heights[0], heights[1]), heights[2])
+        return (highest > -_SLACK) & (lowest < _SLACK)
 
 
 def _crossed(pairs: IntArray, corners: FloatArray, normals: FloatArray) -> Crossings:

@@ -46,9 +46,10 @@ def with_crossings(partitioner: Partitioner) -> Steps[FaceGraph]:
         samples are known.
     """
     graph, shape = partitioner.graph, partitioner.visibility.shape
-    shells, targets = shape.shells, shape.targets
+    shells = shape.shells
     if not partitioner.visibility.shows_all_of_solid or shells is None:
         return graph
+    targets = shape.targets
     counted = np.where(shape.marcher.closed, shells, -1)
     found = yield from find_crossings(targets, counted)
     clear = found.bends > _CLEAR

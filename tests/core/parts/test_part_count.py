@@ -34,7 +34,9 @@ class KnownParts:
         self.found = FoundMemo()
         self.found.searches.recall((2, 6), lambda: tried)
         self.visibility = SimpleNamespace(
-            is_guessed=guessed, shows_all_of_solid=guessed
+            is_guessed=guessed,
+            shows_all_of_solid=guessed,
+            shape=SimpleNamespace(shells=None),
         )
         self.parameters = Parameters(alpha=alpha, max_parts=len(PSI), smoothness=0.0)
 

@@ -123,6 +123,12 @@ def test_shells_apart_do_not_cross():
     assert len(crossings_of(one, other).pairs) == 0
 
 
+def test_lines_are_not_searched_where_shells_lie_on_each_other_everywhere():
+    ball = shapes.sphere(3)
+    onion = [replace(ball, vertices=scale * ball.vertices) for scale in (1, 0.9999)]
+    assert len(crossings_of(*onion).pairs) == 0
+
+
 @pytest.mark.parametrize(
     ("apart", "width", "end"), [(0.35, 0.3, 2.5), (0.3, 0.25, 2.7)]
 )
@@ -138,6 +144,16 @@ def test_both_legs_that_end_within_a_body_are_parts_or_none_is(apart, width, end
 
 def test_as_many_parts_as_shells_are_the_shells():
     assert_same_parts(found_in(shelf)(parts=7).labels, shells_of(shelf()))
+
+
+@pytest.mark.parametrize("make", [ladder, temple])
+@pytest.mark.parametrize("parts", [2, 3, 4, 5])
+def test_fewer_parts_than_shells_are_one_piece_each(make, parts):
+    found, shells = found_in(make)(parts=parts), shells_of(make())
+    assert found.n_parts == parts
+    for part in range(parts):
+        held = set(shells[found.labels == part])
+        assert len(held) == 1 or held & {0, 1}  # all others only touch these
 
 
 @pytest.mark.parametrize("parts", [3, 9])
