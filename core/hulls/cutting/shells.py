@@ -14,6 +14,7 @@ from ...solids.volume import volumes_of
 from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps
 from ...steps.rows import blocks
+from ..convex_hull import hull_volume
 from ..measure.inside import InsideTest
 from ..piece import BURIED
 from ..solid import Solid
@@ -21,6 +22,8 @@ from .cell import Cell
 
 # How far in front of a surface places are that others hold where it is buried.
 _BEFORE = 1e-4
+# A shell that sticks out of another by so little is held.
+_BESIDE = 1e-9
 # Samples that are looked at in one step.
 _AT_ONCE = 1_000
 
@@ -39,7 +42,7 @@ def shells_of(cell: Cell, most: int) -> Steps[list[Cell]]:
     -------
     Steps of list of Cell
     """
-    solid, pieces = cell.solid, list[Cell]()
+    solid, pieces, volumes = cell.solid, list[Cell](), list[float]()
     if not 1 < len(solid.shells.closed) <= most:
         return []
     owners = yield from _owners(solid)
@@ -48,8 +51,11 @@ def shells_of(cell: Cell, most: int) -> Steps[list[Cell]]:
         chosen = owners == row
         convex = solid.closed and (yield from _is_convex(solid.mesh, chosen))
         pieces.append(_piece(cell, chosen, hidden[chosen[triangles]], convex))
+        yield Progress("Solid", 1.0)
+        volumes.append(round(pieces[-1].hull.volume, 6))
     kept = list[Cell]()
-    for piece in sorted(pieces, key=lambda one: -round(one.hull.volume, 6)):
+    for row in np.argsort(-np.array(volumes), kind="stable"):
+        piece = pieces[row]
         yield Progress("Solid", 1.0)
         if not any(one.convex and _holds(one, piece) for one in kept):
             kept.append(piece)
@@ -94,7 +100,12 @@ def _is_convex(mesh: TriangleMesh, chosen: BoolArray) -> Steps[bool]:
 
 def _holds(one: Cell, other: Cell) -> bool:
     """Return whether the hull of one piece holds another."""
-    return bool(one.hull.heights(other.points).max() <= 0)
+    (low, high), (lowest, highest) = one.hull.bounds, other.hull.bounds
+    if (lowest < low - _BESIDE).any() or (highest > high + _BESIDE).any():
+        return False
+    # Heights above all faces take long where there are thousands.
+    both = hull_volume(np.concatenate([one.extremes, other.extremes]))
+    return both <= one.hull.volume * (1 + _BESIDE)
 
 
 def _piece(cell: Cell, chosen: BoolArray, hidden: FloatArray, convex: bool) -> Cell:

@@ -7,6 +7,7 @@ around, however much psi that costs.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import replace
 from functools import cached_property
 
@@ -126,9 +127,9 @@ class CreaseParts:
         rivals = [each for each in found if low <= count_parts(each) <= high]
         best = max([parts, *rivals], key=self._worth) if rivals else parts
         best = self._without_idle_seams(best, low) if low < high else best
-        return parts if best is parts else self._evened(best)
+        return parts if best is parts else self._evened(best, range(low, high + 1))
 
-    def _evened(self, parts: IntArray) -> IntArray:
+    def _evened(self, parts: IntArray, wanted: Container[int]) -> IntArray:
         """Return symmetric parts, (P,), or the same ones if these are clearly worse.
 
         Psi is counted from likely pairs, as wherever parts are made symmetric.
@@ -136,7 +137,7 @@ class CreaseParts:
         partitioner = self._partitioner
         if not partitioner.by_psi:
             return parts
-        even = run(partitioner.symmetric(parts, [count_parts(parts)]))
+        even = run(partitioner.symmetric(parts, wanted))
         rated = [(each.psi - self._price_of(each.parts), each.parts) for each in even]
         rating, best = max(rated, key=lambda each: each[0], default=(-np.inf, parts))
         least = partitioner.psi(parts) - self._price_of(parts)
