@@ -171,13 +171,16 @@ def _around_pieces(solid: Solid, parts: IntArray, fit: Fit) -> Steps[_Found]:
     pieces = yield from within(_pieces_of(solid, parts, fit), 0.0, 0.95)
     errors, rows, shapes = [], [], []
     for turn, piece in enumerate(pieces):
-        yield Progress("Measuring", 0.95 + 0.05 * turn / len(pieces))
+        progress = Progress("Measuring", 0.95 + 0.05 * turn / len(pieces))
+        yield progress
         has_own = fit.parameters.pieces == "PARTS" or piece.fit == fit
         final = piece if has_own else replace(piece, fit=fit)
+        shapes.append(final.shape)
+        yield progress
         errors.append(final.bound.value)
+        yield progress
         is_part = piece.part >= 0
         rows.append(piece.part if is_part else solid.main_part(parts, piece.hull))
-        shapes.append(final.shape)
     order = sorted(range(len(pieces)), key=lambda k: -round(shapes[k].volume, 6))
     return _Found(
         [shapes[k] for k in order],

@@ -202,9 +202,10 @@ def _farthest_out(
 ) -> tuple[IntArray, FloatArray]:
     """Return the row of the point highest above each plane, (P,), and its height."""
     rows, heights = np.empty(len(planes), dtype=np.int64), np.empty(len(planes))
+    points = np.asfortranarray(points)  # by coordinate: a row of heights a plane
     for some in blocks(len(planes), HEIGHTS_AT_ONCE // len(points)):
-        above = heights_above(planes[some], points)
-        rows[some], heights[some] = above.argmax(axis=0), above.max(axis=0)
+        above = coordinates_along(points, planes[some, :3]) + planes[some, 3:]
+        rows[some], heights[some] = above.argmax(axis=1), above.max(axis=1)
     return rows, heights
 
 

@@ -171,9 +171,11 @@ def _next_joint(
             yield Progress("Joining", 0.0)
             pair = alive[one], alive[other]
             joint = known[pair] = known.get(pair) or join(*pair)
+            _ = joint.hull
+            yield Progress("Joining", 0.0)
             may_be_close = close and joint.may_be_close
             error = joint.error if may_be_close else joint.least_error
-        elif close and joint.is_close:
+        elif close and (yield from joint.whether_close("Joining")):
             return one, other, joint
         elif len(alive) <= max_pieces:
             continue

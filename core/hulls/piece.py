@@ -9,6 +9,7 @@ import numpy as np
 
 from ..geometry.primitives import CollisionShape, Hull
 from ..steps.arrays import BoolArray, FloatArray, IntArray
+from ..steps.progress import Progress, Steps
 from .convex_hull import THIN, convex_hull
 from .fitting import Fit
 from .measure.error_bound import ErrorBound, ExactError
@@ -152,6 +153,17 @@ class Piece:
     def is_close(self) -> bool:
         """Whether the error of the shape is surely within the largest one allowed."""
         return self.may_be_close and self.bound.is_allowed
+
+    def whether_close(self, stage: str) -> Steps[bool]:
+        """Return `is_close`; what it takes is found in steps of their own."""
+        progress = Progress(stage, 0.0)
+        yield progress
+        _ = self.hull
+        yield progress
+        if self.may_be_close:
+            _ = self.shape
+            yield progress
+        return self.is_close
 
     @property
     def known_error(self) -> float:

@@ -20,8 +20,8 @@ from ..steps.progress import Progress, Steps, within
 from ..steps.rows import used_rows
 from .chords import chords_along
 from .measure.buried import unburied
-from .measure.inside import InsideTest
-from .measure.line_crossings import LineCrossings
+from .measure.inside import InsideTest, inside_test
+from .measure.line_crossings import line_crossings
 
 # Number of samples on the surface.
 _SAMPLES = 6000
@@ -60,6 +60,8 @@ class Solid:
         Those of the mesh.
     overlap : float
         Its volume along the chords, as a share of the sum of those of its shells.
+    inside : InsideTest
+        Tells what is inside.
     """
 
     mesh: TriangleMesh
@@ -72,6 +74,7 @@ class Solid:
     spacing: float
     shells: Shells
     overlap: float
+    inside: InsideTest
 
     @property
     def volume(self) -> float:
@@ -104,11 +107,6 @@ class Solid:
         """Lowest and highest coordinates of each triangle of the surface, (N, 3)."""
         corners = self.surface.vertices[self.surface.triangles]
         return corners.min(axis=1), corners.max(axis=1)
-
-    @cached_property
-    def inside(self) -> InsideTest:
-        """Tells what is inside."""
-        return InsideTest(self.corners, 1 if self.closed else 3)
 
     @cached_property
     def _some_chords(self) -> tuple[FloatArray, FloatArray]:
@@ -191,6 +189,9 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     surface, rows = mesh, np.arange(len(corners))
     if shells.closed.all() and overlap < _NO_OVERLAP:
         surface, rows = yield from within(unburied(mesh, shells), 1.0, 1.0)
+    n_axes = 1 if shells.closed.all() else 3
+    inside = yield from within(inside_test(corners, n_axes), 1.0, 1.0)
+    yield Progress("Solid", 1.0)
     samples = sample_surface(surface, _SAMPLES, np.random.default_rng(seed))
     return Solid(
         mesh,
@@ -203,6 +204,7 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
         float(settled(np.sqrt(surface.areas.sum() / _SAMPLES))),
         shells,
         overlap,
+        inside,
     )
 
 
@@ -210,7 +212,7 @@ def _chords_in(
     corners: FloatArray, vertices: FloatArray
 ) -> Steps[tuple[FloatArray, FloatArray, float]]:
     """Return chords, volumes and the overlap, as in `Solid`."""
-    crossings, along = LineCrossings(corners), []
+    crossings, along = (yield from line_crossings(corners)), []
     for axis in range(3):
         yield Progress("Solid", axis / 3)
         along.append(chords_along(crossings, vertices, axis))

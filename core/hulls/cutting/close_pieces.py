@@ -78,10 +78,18 @@ def close_pieces(
             return []
         cells = [one for one in pieces if isinstance(one, Cell) and one not in tried]
         again = len(pieces) < most and n_rounds < _MOST_ROUNDS
-        far = [one for one in cells if not one.is_close] if again else []
+        far = (yield from within(_far(cells), joining, joining)) if again else []
         tried.update(far)
         pieces = [one for one in pieces if one not in far]
     return without_films(part_again(pieces, most, joints))
+
+
+def _far(cells: Sequence[Cell]) -> Steps[list[Cell]]:
+    """Return the pieces that are not close."""
+    far: list[Cell] = []
+    for one in cells:
+        far += [] if (yield from one.whether_close("Cutting")) else [one]
+    return far
 
 
 def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
@@ -104,11 +112,11 @@ def _cut_until_close(cells: Sequence[Cell], most: int) -> Steps[list[Cell]]:
     sides_of: dict[Cell, tuple[Cell, Cell]] = {}
     while left and (count := len(left) + len(done)) < most:
         share = count / most
-        far: list[Cell] = []
+        unsure: list[Cell] = []
         for one in left:  # by estimates, where they tell: bounds take far longer
             yield Progress("Cutting", share)
-            is_far = one.known_error > largest and not one.is_close
-            far += [one] if is_far else []
+            unsure += [one] if one.known_error > largest else []
+        far = yield from within(_far(unsure), share, share)
         if not far:
             return done + left
         worst = max(far, key=lambda one: round(one.error, 6))
@@ -183,8 +191,10 @@ def _cheapest(
     firm = [sides for sides in made if all(side.on_surface.any() for side in sides)]
     cuts: list[tuple[float, int, tuple[Cell, Cell]]] = []
     for turn, sides in enumerate(firm or made):
-        yield Progress("Cutting", 1.0)
-        least_errors = [side.least_error for side in sides]
+        least_errors = []
+        for side in sides:
+            yield Progress("Cutting", 1.0)
+            least_errors.append(side.least_error)
         cuts.append((_cost(sides, least_errors, is_block), turn, sides))
     best, least = None, (np.inf, 0)
     for bound, turn, sides in sorted(cuts):

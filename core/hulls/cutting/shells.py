@@ -13,9 +13,8 @@ from ...solids.shells import find_shells
 from ...solids.volume import volumes_of
 from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps
-from ...steps.rows import blocks
 from ..convex_hull import hull_volume
-from ..measure.inside import InsideTest
+from ..measure.inside import inside_test
 from ..piece import BURIED
 from ..solid import Solid
 from .cell import Cell
@@ -24,8 +23,6 @@ from .cell import Cell
 _BEFORE = 1e-4
 # A shell that sticks out of another by so little is held.
 _BESIDE = 1e-9
-# Samples that are looked at in one step.
-_AT_ONCE = 1_000
 
 
 def shells_of(cell: Cell, most: int) -> Steps[list[Cell]]:
@@ -42,7 +39,7 @@ def shells_of(cell: Cell, most: int) -> Steps[list[Cell]]:
     -------
     Steps of list of Cell
     """
-    solid, pieces, volumes = cell.solid, list[Cell](), list[float]()
+    solid, volumes = cell.solid, dict[Cell, float]()
     if not 1 < len(solid.shells.closed) <= most:
         return []
     owners = yield from _owners(solid)
@@ -50,15 +47,17 @@ def shells_of(cell: Cell, most: int) -> Steps[list[Cell]]:
     for row in np.unique(owners).tolist():
         chosen = owners == row
         convex = solid.closed and (yield from _is_convex(solid.mesh, chosen))
-        pieces.append(_piece(cell, chosen, hidden[chosen[triangles]], convex))
+        buried = hidden[chosen[triangles]]
+        piece = yield from _piece(cell, chosen, buried, convex)
         yield Progress("Solid", 1.0)
-        volumes.append(round(pieces[-1].hull.volume, 6))
+        volumes[piece] = round(piece.hull.volume, 6)
     kept = list[Cell]()
-    for row in np.argsort(-np.array(volumes), kind="stable"):
-        piece = pieces[row]
-        yield Progress("Solid", 1.0)
-        if not any(one.convex and _holds(one, piece) for one in kept):
-            kept.append(piece)
+    for piece in sorted(volumes, key=lambda one: -volumes[one]):
+        held = False
+        for one in kept:
+            yield Progress("Solid", 1.0)
+            held = held or (one.convex and _holds(one, piece))
+        kept += [] if held else [piece]
     return kept
 
 
@@ -82,11 +81,8 @@ def _buried(solid: Solid) -> Steps[tuple[FloatArray, IntArray]]:
         return np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
     count = int(solid.mesh.areas.sum() / solid.spacing**2)
     samples = sample_surface(solid.mesh, count, np.random.default_rng(0))
-    held = np.zeros(count, dtype=bool)
-    for some in blocks(count, _AT_ONCE):
-        yield Progress("Solid", 1.0)
-        before = samples.positions[some] + _BEFORE * samples.normals[some]
-        held[some] = solid.inside.holds(before)
+    before = samples.positions + _BEFORE * samples.normals
+    held = yield from solid.inside.which_held(before)
     return samples.positions[held], samples.triangles[held]
 
 
@@ -108,13 +104,16 @@ def _holds(one: Cell, other: Cell) -> bool:
     return both <= one.hull.volume * (1 + _BESIDE)
 
 
-def _piece(cell: Cell, chosen: BoolArray, hidden: FloatArray, convex: bool) -> Cell:
+def _piece(
+    cell: Cell, chosen: BoolArray, hidden: FloatArray, convex: bool
+) -> Steps[Cell]:
     """Return a shell as a piece; `hidden` (M, 3) are points where others bury it."""
     solid, samples = cell.solid, chosen[cell.triangles]
     points = solid.mesh.vertices[np.unique(solid.mesh.triangles[chosen])]
     low, high, faces = points.min(axis=0), points.max(axis=0), solid.corners[chosen]
     chords = np.flatnonzero(((low <= cell.places) & (cell.places <= high)).all(axis=1))
-    inside = InsideTest(faces, 1 if solid.closed else 3).holds(cell.places[chords])
+    test = yield from inside_test(faces, 1 if solid.closed else 3)
+    inside = yield from test.which_held(cell.places[chords])
     buried = np.full(len(hidden), BURIED)
     return replace(
         cell,

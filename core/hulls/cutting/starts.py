@@ -33,7 +33,7 @@ def pieces_of(cell: Cell, most: int) -> Steps[list[Piece]]:
     Steps of list of Piece
         What keeps to the largest error, or strays less. Then the fewer ones.
     """
-    if cell.is_close:
+    if (yield from within(cell.whether_close("Cutting"), 0.0, 0.0)):
         return [cell]
     starts, late = yield from within(_starts_of(cell, _SURPLUS * most), 0.0, 0.0)
     found, done = list[Piece](), False
@@ -67,8 +67,7 @@ def _count_close(pieces: Sequence[Piece]) -> Steps[int]:
     """Return how many pieces are close."""
     count = 0
     for piece in pieces:
-        yield Progress("Cutting", 1.0)
-        count += piece.is_close
+        count += yield from piece.whether_close("Cutting")
     return count
 
 

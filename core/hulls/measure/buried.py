@@ -14,7 +14,7 @@ from ...steps.arrays import BoolArray, FloatArray, IntArray
 from ...steps.progress import Progress, Steps
 from ...steps.rows import blocks
 from .fragments import reach_of
-from .inside import InsideTest
+from .inside import InsideTest, inside_test
 from .targets import Targets
 
 # Longest edge of fragments that stay although they may be buried: they cross another
@@ -72,7 +72,7 @@ class _Surface:
             centers, radii = reach_of(small)
             clear = yield from solid.is_clear_of(centers, radii)
             buried = clear.copy()
-            buried[clear] = yield from solid.holds(centers[clear])
+            buried[clear] = yield from solid.inside.which_held(centers[clear])
             self.lost[rows[buried]] = True
             lengths = edge_lengths(small)
             cut = ~clear & (lengths.max(axis=1) > _GRAIN) & (n_looked < most)
@@ -88,8 +88,8 @@ class _Surface:
 class _Container:
     """A solid, with the cavities near it, that others may be buried in."""
 
-    def __init__(self, corners: FloatArray) -> None:
-        self._inside, self._targets = InsideTest(corners, 1), Targets(corners)
+    def __init__(self, inside: InsideTest, targets: Targets) -> None:
+        self.inside, self._targets = inside, targets
 
     def is_clear_of(self, centers: FloatArray, radii: FloatArray) -> Steps[BoolArray]:
         """Return which balls (M,) its surface does not meet."""
@@ -98,14 +98,6 @@ class _Container:
             yield Progress("Solid", 0.0)
             clear[some] = ~self._targets.are_within(centers[some], radii[some])
         return clear
-
-    def holds(self, points: FloatArray) -> Steps[BoolArray]:
-        """Return which points (M,) are inside."""
-        inside = np.zeros(len(points), dtype=bool)
-        for some in blocks(len(points), _AT_ONCE):
-            yield Progress("Solid", 0.0)
-            inside[some] = self._inside.holds(points[some])
-        return inside
 
     def has_on_it(self, pieces: FloatArray) -> Steps[BoolArray]:
         """Return which pieces (M,) have their corners and centers on its surface."""
@@ -147,8 +139,10 @@ def unburied(
         others = shells.of_triangle[left.rows] != shell
         others &= _meeting(left.pieces, *boxes[shell])
         share = n_looks // (len(around) - turn)
-        steps = left.bury(_Container(corners[own]), np.flatnonzero(others), share)
-        n_looks -= yield from steps
+        inside = yield from inside_test(corners[own], 1)
+        yield Progress("Solid", turn / len(around))
+        container = _Container(inside, Targets(corners[own]))
+        n_looks -= yield from left.bury(container, np.flatnonzero(others), share)
     return left.joined(mesh) if left.lost.any() else (mesh, all_rows)
 
 

@@ -10,14 +10,18 @@ import numpy as np
 from ...geometry.frames import settled
 from ...geometry.primitives import CollisionShape
 from ...steps.arrays import BoolArray, FloatArray, IntArray
+from ...steps.progress import Progress, Steps
+from ...steps.rows import blocks
 from .holes import HoleEdges
-from .line_crossings import TURNS, LineCrossings, as_seen, in_order
+from .line_crossings import TURNS, LineCrossings, as_seen, in_order, line_crossings
 from .shape_chords import chord_in
 
 # Axes of the lines, turned so that they run along no edge and no face of most models.
 # They are part of what is meant by the inside of an open mesh.
 AXES = np.linalg.qr(np.array([[4.0, 1.3, 0.7], [-1.1, 3.9, 1.7], [0.6, -1.9, 4.3]]))[0]
 AXES = settled(AXES * np.sign(np.linalg.det(AXES)))
+# Points that are looked at in one step.
+_AT_ONCE = 1_000
 # Lines through a collision shape along the longer side of its bounding box.
 _LINES = 40
 # Factor by which volumes are raised, for what lies between the lines: it raises the
@@ -37,16 +41,20 @@ class InsideTest:
 
     Parameters
     ----------
-    corners : (T, 3, 3) float
-        Corners of the triangles, counter-clockwise seen from outside.
+    local : (T, 3, 3) float
+        Corners of the triangles, in the coordinates of the lines.
+    crossings : LineCrossings
+        Of the same.
     n_axes : int
-        Number of axes to ask about points: 1 if the mesh is closed, else 3.
+        Number of axes to ask about points.
     """
 
-    def __init__(self, corners: FloatArray, n_axes: int) -> None:
+    def __init__(
+        self, local: FloatArray, crossings: LineCrossings, n_axes: int
+    ) -> None:
         self._n_axes = n_axes
-        self._corners = corners @ AXES.T
-        self._crossings = LineCrossings(self._corners)
+        self._corners = local
+        self._crossings = crossings
 
     @cached_property
     def _hole_edges(self) -> HoleEdges:
@@ -66,6 +74,23 @@ class InsideTest:
         """
         votes = (self._leaving(points @ AXES.T) > 0).sum(axis=(0, 1))
         return votes > self._n_axes
+
+    def which_held(self, points: FloatArray) -> Steps[BoolArray]:
+        """Return which of many points are inside, some at a time; see `holds`.
+
+        Parameters
+        ----------
+        points : (M, 3) float
+
+        Returns
+        -------
+        Steps of (M,) bool
+        """
+        inside = np.zeros(len(points), dtype=bool)
+        for some in blocks(len(points), _AT_ONCE):
+            yield Progress("Solid", some.start / len(points))
+            inside[some] = self.holds(points[some])
+        return inside
 
     def holds_patches(
         self, centers: FloatArray, radii: FloatArray, asked: BoolArray
@@ -159,6 +184,20 @@ class InsideTest:
         start = np.maximum(heights[inside], enter[rows])
         end = np.minimum(heights[inside + 1], leave[rows])
         return float(np.maximum(end - start, 0.0).sum())
+
+
+def inside_test(corners: FloatArray, n_axes: int) -> Steps[InsideTest]:
+    """Return what tells by lines what is inside a solid.
+
+    Parameters
+    ----------
+    corners : (T, 3, 3) float
+        Corners of the triangles, counter-clockwise seen from outside.
+    n_axes : int
+        Number of axes to ask about points: 1 if the mesh is closed, else 3.
+    """
+    local = corners @ AXES.T
+    return InsideTest(local, (yield from line_crossings(local)), n_axes)
 
 
 def _turned(shape: CollisionShape) -> CollisionShape:

@@ -15,9 +15,10 @@ from weak_convex_decomposition.core.hulls.cutting.cell import whole
 from weak_convex_decomposition.core.hulls.fitting import fit_for
 from weak_convex_decomposition.core.hulls.measure.error_bound import ErrorBound
 from weak_convex_decomposition.core.hulls.measure.fragments import distances_to
-from weak_convex_decomposition.core.hulls.measure.inside import InsideTest
+from weak_convex_decomposition.core.hulls.measure.inside import inside_test
 from weak_convex_decomposition.core.hulls.outline import fine_outline
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
+from weak_convex_decomposition.core.steps.progress import run
 
 
 def one_shape(mesh, **values):
@@ -188,7 +189,7 @@ def test_no_measurement_is_above_the_stated_error(make, kind):
 def test_holes_do_not_hide_what_is_outside():
     mesh = changes.moved(shapes.open_box(), rotation=changes.any_rotation(0))
     found = build_hulls(mesh, HullParameters(max_hulls=4))
-    is_inside = InsideTest(mesh.vertices[mesh.triangles], 3).holds
+    is_inside = run(inside_test(mesh.vertices[mesh.triangles], 3)).holds
     half = np.ptp(mesh.bounds, axis=0).max() / 2
     for shape, stated in zip(found.shapes, found.errors, strict=True):
         assert not strays(shape, mesh, 1.05 * stated * half, is_inside)
@@ -202,7 +203,7 @@ def test_inside_an_open_mesh_is_where_it_winds_around_a_point(seed):
     corners = corners[rng.random(len(corners)) > 0.25]
     points = rng.uniform(-1.1, 1.1, (2000, 3))
     winding = windings(corners, points)
-    inside = InsideTest(corners, 3).holds(points)
+    inside = run(inside_test(corners, 3)).holds(points)
     assert (inside == (winding > 0.5)).mean() > 0.9
 
 
@@ -215,7 +216,7 @@ def test_regions_inside_an_open_mesh_have_no_sliver_outside(seed):
     corners = np.concatenate([corners, 0.9 * corners])
     corners = corners[rng.random(len(corners)) > 0.1]
     centers, radii = rng.uniform(-0.5, 0.5, (20_000, 3)), rng.uniform(0, 0.03, 20_000)
-    test = InsideTest(corners, 3)
+    test = run(inside_test(corners, 3))
     inside, whole = test.holds_patches(centers, radii, radii < 0.03)
     # The surface is farther away than all radii: there is no other way out.
     sure = inside & whole
