@@ -126,25 +126,27 @@ def _join(
     queue: list[_Joint] = []
     solid_volume = sum(piece.volume for piece in pieces)
 
-    def add(piece: Piece, number: int) -> None:
+    def add(piece: Piece, number: int) -> Steps[None]:
         """Add a piece under a new number, and queue its joints with the others."""
         for other, neighbor in alive.items():
             if may(neighbor, piece):
+                yield Progress("Joining", 0.0)
                 cost = least_cost(neighbor, piece, solid_volume)
                 heapq.heappush(queue, (cost, other, number, None, False))
         alive[number] = piece
 
     for number, piece in enumerate(pieces):
-        add(piece, number)
         yield Progress("Joining", 0.0)
+        yield from add(piece, number)
     for number in count(len(pieces)):
         steps = _next_joint(alive, queue, max_pieces, known, close, solid_volume)
-        found = yield from within(steps, 1 - len(alive) / (len(pieces) + 1), 1.0)
+        share = 1 - len(alive) / (len(pieces) + 1)
+        found = yield from within(steps, share, 1.0)
         if found is None:
             break
         one, other, joint = found
         del alive[one], alive[other]
-        add(joint, number)
+        yield from within(add(joint, number), share, share)
     return list(alive.values())
 
 

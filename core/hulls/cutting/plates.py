@@ -45,6 +45,8 @@ def plates_of(cell: Cell, most: int) -> list[Cell]:
     has_plane = planes[:, :3].any(axis=1)  # triangles without area have none
     rows = np.full(len(planes), -1)
     rounded = np.round(planes[has_plane], _DIGITS)
+    if len(np.unique(rounded[:, 3])) > most:  # to sort planes takes far longer
+        return []
     rows[has_plane] = np.unique(rounded, axis=0, return_inverse=True)[1].ravel()
     count = int(rows.max()) + 1
     every = range(count if count <= most else 0)

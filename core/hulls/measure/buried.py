@@ -28,7 +28,7 @@ _MOST_COMPARED = 100_000_000
 # cut far enough then stays.
 _MOST_LOOKS = 200_000
 # Fragments that are looked at in one step.
-_AT_ONCE = 1_000
+_AT_ONCE = 500
 
 
 @dataclass

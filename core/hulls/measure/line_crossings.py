@@ -104,7 +104,7 @@ def line_crossings(corners: FloatArray) -> Steps[LineCrossings]:
     n_triangles, n_entries = corners.shape[2], 0
     for axis in range(3):
         yield Progress("Solid", axis / 3)
-        turned = corners[:, TURNS[axis]]
+        turned = corners.take(TURNS[axis], axis=1)
         slopes.append(_slopes_of(turned))
         flat = (turned[:, :2] - low[axis, :, None]) / step
         found, first = _table(flat, slopes[-1][-1] != 0)
