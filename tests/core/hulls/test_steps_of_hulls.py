@@ -9,18 +9,16 @@ from computed import BruteCaster, ShapeCache
 from weak_convex_decomposition.core.geometry.primitives import Hull
 from weak_convex_decomposition.core.hulls import convex_hull
 from weak_convex_decomposition.core.hulls.build import build_hulls_in_steps
-from weak_convex_decomposition.core.hulls.cutting.shells import _holds
 from weak_convex_decomposition.core.hulls.measure import line_crossings
 from weak_convex_decomposition.core.hulls.measure.inside import InsideTest
 from weak_convex_decomposition.core.parameters.hulls import HullParameters
-from weak_convex_decomposition.core.steps.progress import run
 
 
 def crossing_balls():
-    """Return two balls that run through each other."""
+    """Return two balls that run through each other, and one within the first."""
     ball = shapes.sphere(4)
     moved = replace(ball, vertices=ball.vertices + np.array([0.5, 0, 0]))
-    return shapes.joined(ball, moved)
+    return shapes.joined(ball, moved, replace(ball, vertices=0.9 * ball.vertices))
 
 
 def dense_hulls(points):
@@ -64,14 +62,3 @@ def test_no_step_does_more_than_so_much(monkeypatch, owner, name, work, most):
     for _ in build_hulls_in_steps(crossing_balls(), HullParameters(), cache):
         largest, done[0] = max(largest, done[0]), 0
     assert 0 < max(largest, done[0]) <= most
-
-
-def test_points_in_a_dense_hull_are_looked_at_in_steps():
-    ball = shapes.sphere(5)
-    hull = convex_hull.convex_hull(ball.vertices, 1e-3)
-    inner, outer = 0.9 * ball.vertices, ball.vertices + np.array([0.1, 0, 0])
-    assert len(list(_holds(hull, inner))) > 10
-    assert run(_holds(hull, inner))
-    assert not run(_holds(hull, outer))
-    assert len(list(_holds(hull, outer))) == 1
-    assert not run(_holds(hull, np.append(inner, [[1.1, 0.0, 0.0]], axis=0)))
