@@ -142,6 +142,21 @@ def test_both_legs_that_end_within_a_body_are_parts_or_none_is(apart, width, end
     assert (found.n_parts, len(found.pairs)) == (3, 1)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_both_arms_of_a_sofa_are_parts_or_none_is(seed):
+    """One was a part, as both are one part more."""
+    seat = (-1.2, 1.2), (-0.5, 0.5), (0.1, 0.5)
+    back = (-1.2, 1.2), (0.35, 0.55), (0.35, 1.15)
+    arms = [(x, (-0.5, 0.5), (0.15, 0.85)) for x in ((-1.27, -1.02), (1.02, 1.27))]
+    cushions = [
+        (x, (-0.48, 0.38), (0.45, 0.65)) for x in ((-1.03, -0.03), (0.03, 1.03))
+    ]
+    mesh = bars(seat, back, *arms, *cushions, divisions=1)
+    found, shells = decompose(mesh, Parameters(seed=seed)), shells_of(mesh)
+    with_seat = set(shells[np.isin(found.labels, found.labels[shells == 0])])
+    assert len(with_seat & {2, 3}) in (0, 2)
+
+
 def test_as_many_parts_as_shells_are_the_shells():
     assert_same_parts(found_in(shelf)(parts=7).labels, shells_of(shelf()))
 
