@@ -186,11 +186,10 @@ def solid_of(mesh: TriangleMesh, seed: int, scale: float = 1.0) -> Steps[Solid]:
     measured = _chords_in(corners, vertices)
     chords, volumes, overlap = yield from within(measured, 0.0, 1.0)
     shells = yield from within(find_shells(mesh), 1.0, 1.0)
-    surface, rows = mesh, np.arange(len(corners))
-    if shells.closed.all() and overlap < _NO_OVERLAP:
+    surface, rows, closed = mesh, np.arange(len(corners)), shells.closed.all()
+    if closed and overlap < _NO_OVERLAP:
         surface, rows = yield from within(unburied(mesh, shells), 1.0, 1.0)
-    n_axes = 1 if shells.closed.all() else 3
-    inside = yield from within(inside_test(corners, n_axes), 1.0, 1.0)
+    inside = yield from within(inside_test(corners, 1 if closed else 3), 1.0, 1.0)
     yield Progress("Solid", 1.0)
     samples = sample_surface(surface, _SAMPLES, np.random.default_rng(seed))
     return Solid(

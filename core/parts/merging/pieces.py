@@ -133,7 +133,7 @@ def merge_to(
         Counts of visible and known pairs of samples in K parts.
     borders : (K, K) float or bool
         Symmetric: the length of the border of each two parts, or whether they have one.
-        Below 0 it keeps them apart. Without one they merge only if no two parts touch.
+        One below 0 saves more than it costs. Without one they merge only if none touch.
     alpha : float
         Weight of hidden pairs in psi (eq. 5).
     price : float, optional
